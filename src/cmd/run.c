@@ -31,9 +31,10 @@ static void print_plan(const wt_table *plan)
 static void print_answer(cmd_session *s)
 {
     const wt_table *const limits = wt_result_find(s->result, "limits");
-    const bool whole = s->common.verbose || isatty(STDOUT_FILENO) == 0;
+    const bool verbose = s->common.verbose, whole = verbose || isatty(STDOUT_FILENO) == 0;
     s->common.verbose = whole;
     cmd_print_short_table(s, true);
+    s->common.verbose = verbose; /* of the warnings on standard error */
     if (limits == NULL || !whole)
         return;
     puts("Limits");

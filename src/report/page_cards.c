@@ -84,7 +84,7 @@ static void write_card(page_writer *page, const finding *f)
     }
     /* a run states why a number is missing */
     const table_view *const answer = &page->tables->answer;
-    const bool stated = f->verdict == FINDING_NOT_COMPUTED && (size_t)f->question < answer->n_rows;
+    const bool stated = f->verdict == FINDING_NOT_COMPUTED && findings_are_stated(answer);
     text_html(&page->out, "<p>%s%s</p>\n",
               stated ? answer_text(answer, f->question, ANSWER_ANSWER) : f->sentence,
               f->as_if_layer && !isnan(value->number.value)
@@ -106,7 +106,7 @@ void page_cards(page_writer *page)
     finding findings[FINDING_QUESTIONS];
     if (result_values_bind(page->result, &tables, NULL) != WT_OK)
         return; /* figure_tables_bind has reported this error */
-    if (!findings_compute(&tables, findings) && page->tables->answer.n_rows == 0)
+    if (!findings_compute(&tables, findings) && !findings_are_stated(&page->tables->answer))
         return;
     text_add(&page->out, "<div class=\"findings\">\n");
     for (size_t i = 0; i < FINDING_QUESTIONS; i++)

@@ -237,7 +237,7 @@ void page_summary(page_writer *page)
     finding findings[FINDING_QUESTIONS];
     text_add(&page->out, "<div class=\"summary\">\n");
     if (result_values_bind(page->result, &tables, NULL) == WT_OK &&
-        (findings_compute(&tables, findings) || page->tables->answer.n_rows > 0))
+        (findings_compute(&tables, findings) || findings_are_stated(&page->tables->answer)))
         write_remedies(page, findings);
     else
         write_main_numbers(page);

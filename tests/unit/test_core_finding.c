@@ -38,6 +38,28 @@ static void test_no_findings(void **state)
         assert_int_equal(findings[i].verdict, FINDING_NOT_COMPUTED);
 }
 
+/* The table of version 0.9.0 has sentences in as many rows, which are no findings. */
+static void test_former_answer(void **state)
+{
+    (void)state;
+    for (int former = 0; former < 2; former++) {
+        const table_variant columns = {
+            .suffix = "",
+            .left_out = former ? ~(SCHEMA_BIT(ANSWER_QUESTION) | SCHEMA_BIT(ANSWER_ANSWER)) : 0};
+        wt_table *table = NULL;
+        table_view view;
+        table_writer w = table_begin_variant(&answer_schema, columns, NULL);
+        for (int i = 0; i < FINDING_QUESTIONS; i++) {
+            table_row(&w);
+            answer_put_text(&w, ANSWER_ANSWER, "a sentence");
+        }
+        assert_int_equal(table_end(&w, &table), WT_OK);
+        assert_int_equal(table_bind(table, &answer_schema, "", &view, NULL), WT_OK);
+        assert_int_equal(findings_are_stated(&view), !former);
+        wt_table_free(table);
+    }
+}
+
 /* Each verdict has a text of its own; the number of verdicts is that of the closed list. */
 static void test_verdicts(void **state)
 {
@@ -55,6 +77,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_digits_of_every_interval),
         cmocka_unit_test(test_no_findings),
+        cmocka_unit_test(test_former_answer),
         cmocka_unit_test(test_verdicts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -43,12 +43,12 @@ static reason_text explain_outcome(const flow_plan *plan, flow_stage_id stage, f
     reason_text reason = {""};
     const flow_stage_id root =
         outcome == FLOW_BLOCKED ? find_failed_stage(plan, stage, plan->level[stage]) : stage;
+    const char *const message = plan->failure[root][0] != '\0' ? plan->failure[root] : "no message";
     if (outcome == FLOW_FAILED)
-        clocale_print(reason.text, sizeof reason.text, "The stage failed: %s.",
-                      plan->failure[stage]);
+        clocale_print(reason.text, sizeof reason.text, "The stage failed: %s.", message);
     else if (outcome == FLOW_BLOCKED)
         clocale_print(reason.text, sizeof reason.text, "A stage that %s needs failed (%s): %s.",
-                      flow_stages[stage].id, flow_stages[root].id, plan->failure[root]);
+                      flow_stages[stage].id, flow_stages[root].id, message);
     else if (outcome == FLOW_UNMEASURED)
         clocale_print(reason.text, sizeof reason.text, "Not measured: %s.",
                       plan->unmeasured_reason);

@@ -140,3 +140,8 @@ const char *finding_side_text(const finding *f)
         [FINDING_FRICTION_CHANGE] = {", lower", ", higher"}};
     return f->sign == SIGN_UNDECIDED ? "" : text[f->question][f->sign == SIGN_ABOVE];
 }
+
+bool findings_are_stated(const table_view *answer)
+{
+    return answer->n_rows == FINDING_QUESTIONS && answer_has(answer, ANSWER_VERDICT);
+}

@@ -30,6 +30,8 @@ bool findings_compute(const result_value_tables *tables, finding findings[FINDIN
 const char *finding_question_text(finding_question question); /* "Is the track different?" */
 const char *finding_subject_text(finding_question question);  /* "Layer thickness" */
 
+/* True if the table "answer" has the findings: that of version 0.9.0 has other rows. */
+bool findings_are_stated(const table_view *answer);
 /* Side of the reference behind the verdict: ", softer"; "" where no side is shown. */
 const char *finding_side_text(const finding *f);
 

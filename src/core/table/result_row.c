@@ -46,8 +46,7 @@ bool result_rows_of_findings(const wt_result *result, result_rows *rows)
     }
     table_view answer;
     /* a run states why a number is missing */
-    const bool stated =
-        rows_bind(&s, &answer_schema, &answer) && answer.n_rows == FINDING_QUESTIONS;
+    const bool stated = rows_bind(&s, &answer_schema, &answer) && findings_are_stated(&answer);
     if (!findings_compute(&s.values, findings) && !stated)
         return false;
     const result_value friction = result_value_friction(&s.values, FRICTION_KEY_HYSTERESIS);

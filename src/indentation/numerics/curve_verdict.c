@@ -213,11 +213,11 @@ static bool exceeds_contact_law(const curve_fitting *f, char reason[160])
     return reach > THIN_SAMPLE_MAX_RATIO;
 }
 
-/* Formats "E +- 7 %, 6 % by the range of the fit" with the standard errors. */
+/* Formats "E +- 7 % (6 % from the fit range)" with the standard errors. */
 static si_text misfit_text(const wt_indent_fit *fit)
 {
     si_text text;
-    clocale_print(text.buffer, sizeof text.buffer, "E +- %.2g %%, %.2g %% by range",
+    clocale_print(text.buffer, sizeof text.buffer, "E +- %.2g %% (%.2g %% from the fit range)",
                   100.0 * fit->modulus.standard_error / fit->modulus.value,
                   100.0 * fmax(fit->misfit_error, 0.0) / fit->modulus.value);
     return text;
@@ -296,7 +296,8 @@ static wt_curve_verdict law_verdict(curve_fitting *f, const wt_indent_fit *fit, 
     if (error > f->options->doubtful_error) {
         const bool by_misfit = fit->misfit_error > 0.5 * fit->modulus.standard_error;
         curve_set_reason(reason, "doubtful: the 95 %% interval is wide: %s; %s",
-                         misfit_text(fit).buffer, by_misfit ? misfit_cause(f) : "noise");
+                         misfit_text(fit).buffer,
+                         by_misfit ? misfit_cause(f) : "noise, baseline or loss");
         f->misfit_is_named = true;
         return WT_CURVE_DOUBTFUL;
     }
