@@ -43,17 +43,23 @@ static void test_former_answer(void **state)
 {
     (void)state;
     for (int former = 0; former < 2; former++) {
-        const table_variant columns = {
-            .suffix = "",
-            .left_out = former ? ~(SCHEMA_BIT(ANSWER_QUESTION) | SCHEMA_BIT(ANSWER_ANSWER)) : 0};
+        const table_variant columns = {.suffix = "",
+                                       .left_out = ~(SCHEMA_BIT(ANSWER_QUESTION) |
+                                                     SCHEMA_BIT(ANSWER_ANSWER) |
+                                                     (former ? 0 : SCHEMA_BIT(ANSWER_VERDICT)))};
         wt_table *table = NULL;
         table_view view;
-        table_writer w = table_begin_variant(&answer_schema, columns, NULL);
+        wt_error err = WT_ERROR_INIT;
+        table_writer w = table_begin_variant(&answer_schema, columns, &err);
         for (int i = 0; i < FINDING_QUESTIONS; i++) {
             table_row(&w);
+            answer_put_text(&w, ANSWER_QUESTION, finding_question_text((finding_question)i));
             answer_put_text(&w, ANSWER_ANSWER, "a sentence");
+            if (!former)
+                answer_put_text(&w, ANSWER_VERDICT, finding_verdict_text(FINDING_NOT_COMPUTED));
         }
-        assert_int_equal(table_end(&w, &table), WT_OK);
+        if (table_end(&w, &table) != WT_OK)
+            fail_msg("%s: %s", err.place, err.message);
         assert_int_equal(table_bind(table, &answer_schema, "", &view, NULL), WT_OK);
         assert_int_equal(findings_are_stated(&view), !former);
         wt_table_free(table);
