@@ -170,7 +170,7 @@ static void pairs_at_equal_rates(void **state)
     }
     print_message("held %zu, not decided %zu, by the rate %zu of %d\n", held, undecided, of_rate,
                   DRAWS * PAIRS);
-    assert_true(held >= 0.92 * DRAWS * PAIRS && held <= 0.99 * DRAWS * PAIRS);
+    assert_true((double)held >= 0.92 * DRAWS * PAIRS && (double)held <= 0.99 * DRAWS * PAIRS);
     assert_true(undecided <= 0.02 * DRAWS * PAIRS);
     assert_true(of_rate <= 0.05 * DRAWS * PAIRS);
 }

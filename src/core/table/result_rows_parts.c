@@ -10,6 +10,8 @@
 #include <string.h>
 
 static result_row *add_row(rows_source *s, int level, const char *name, va_list list)
+    WT_PRINTF(3, 0);
+static result_row *add_row(rows_source *s, int level, const char *name, va_list list)
 {
     enum { FIRST = 16 };
     result_rows *r = s->rows;
