@@ -171,8 +171,8 @@ static void pairs_at_equal_rates(void **state)
     print_message("held %zu, not decided %zu, by the rate %zu of %d\n", held, undecided, of_rate,
                   DRAWS * PAIRS);
     assert_true((double)held >= 0.92 * DRAWS * PAIRS && (double)held <= 0.99 * DRAWS * PAIRS);
-    assert_true(undecided <= 0.02 * DRAWS * PAIRS);
-    assert_true(of_rate <= 0.05 * DRAWS * PAIRS);
+    assert_true((double)undecided <= 0.02 * DRAWS * PAIRS);
+    assert_true((double)of_rate <= 0.05 * DRAWS * PAIRS);
 }
 
 /* A difference that itself depends on the rate is seen, and its range is in the interval. */

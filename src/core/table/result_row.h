@@ -27,7 +27,7 @@ typedef struct result_row {
 typedef struct result_rows {
     char heading[160]; /* "0.3 m/s, 400 kPa, 30.0 degC", or "" */
     result_row *rows;
-    size_t n, size;
+    size_t n;
 } result_rows;
 
 /* Computes the rows of a result, which must exist as long as the rows. A table that lacks a

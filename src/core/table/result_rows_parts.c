@@ -1,8 +1,8 @@
 /* Adds rows to those of a result. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/result_rows_parts.h"
 
+#include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/base/memory.h"
 #include "core/math/students_t.h"
 
 #include <math.h>
@@ -13,12 +13,8 @@ static result_row *add_row(rows_source *s, int level, const char *name, va_list 
     WT_PRINTF(3, 0);
 static result_row *add_row(rows_source *s, int level, const char *name, va_list list)
 {
-    enum { FIRST = 16 };
     result_rows *r = s->rows;
-    if (r->n == r->size) {
-        r->size = r->size > 0 ? 2 * r->size : FIRST;
-        r->rows = wt_realloc(r->rows, r->size, sizeof *r->rows);
-    }
+    r->rows = array_grow(r->rows, r->n, sizeof *r->rows);
     result_row *row = &r->rows[r->n++];
     const double none = (double)NAN;
     *row = (result_row){.level = level, .number = {none, none, none, none, none, "1"}};
