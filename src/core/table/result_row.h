@@ -20,7 +20,7 @@ typedef struct result_row {
     result_row_kind kind;
     row_number number; /* of RESULT_ROW_NUMBER */
     char text[64];     /* of RESULT_ROW_TEXT: a verdict or a count */
-    char note[96];
+    char note[320];
     result_row_reason reasons[RESULT_ROW_REASONS]; /* unused ones have no text */
 } result_row;
 

@@ -76,11 +76,12 @@ static void add_group(rows_source *s, size_t i)
     if (table_bind_result(s->result, &indentation_schema, group, &curves, NULL) != WT_OK ||
         curves.table == NULL)
         return;
-    rows_reason(row, "assumed errors in the interval, until they are stated",
-                indentation_key_text(&curves, INDENTATION_KEY_ASSUMED));
     rows_reason(row, "errors that no curve shows",
                 indentation_key_text(&curves, INDENTATION_KEY_NOT_SHOWN));
     add_counts(s, &curves);
+    const char *const assumed = indentation_key_text(&curves, INDENTATION_KEY_ASSUMED);
+    if (assumed != NULL)
+        rows_note(rows_add_text(s, 1, "", "errors assumed"), "%s", assumed);
 }
 
 static void add_ratio(rows_source *s, const table_view *v)
