@@ -77,6 +77,7 @@ static const struct {
     {"layer-thickness", "2um", NULL, NULL},
     {"expected-thickness", "2um", NULL, NULL},
     {"modulus-ratio", "0.7", NULL, NULL},
+    {"modulus-ratio-df", "3", NULL, NULL},
     {"critical-energy", "3e10J/m^3", NULL, NULL},
     {"observed-thickness", "3um", NULL, "critical-energy"},
     {"specific-wear-rate", "2e-12m^2/N", NULL, NULL},
