@@ -4,6 +4,7 @@
 #include "dma/numerics/isotherm.h"
 
 #include "core/base/array.h"
+#include "core/base/clocale.h"
 
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
@@ -146,7 +147,26 @@ static void merge_curve_points(const struct point *point, size_t n, shift_curve 
     curve->n_merged = is_unmerged ? 0 : n;
 }
 
-/* Fills one curve from an isotherm; scratch: [isotherm->n]. */
+/* Up to this number of isotherms one without usable points is an error. */
+enum { LEAST_USABLE = 3 };
+
+static wt_status fail_too_few_points(const wt_isotherm *isotherm, size_t n, size_t first_bad,
+                                     wt_error *err)
+{
+    wt_fail(err, WT_E_RANGE,
+            "the isotherm of %.2f °C has too few points with positive frequency and moduli",
+            isotherm->temperature - WT_ZERO_CELSIUS);
+    wt_error_place(err, "%s", isotherm->source);
+    wt_error_expected(err, "at least %d", SHIFT_MIN_POINTS);
+    wt_error_found(err, "%zu of %zu; point %zu: %g rad/s, storage %g Pa, loss %g Pa", n,
+                   isotherm->n, first_bad + 1, isotherm->angular_frequency[first_bad],
+                   isotherm->storage_modulus[first_bad], isotherm->loss_modulus[first_bad]);
+    wt_error_advice(err, "leave this temperature out of the sweep");
+    return WT_E_RANGE;
+}
+
+/* Fills one curve from an isotherm; scratch: [isotherm->n]. An isotherm without usable points is
+ * left out, unless two or fewer would remain. */
 static wt_status fill_shift_curve(const wt_isotherm *isotherm, const shift_set *set,
                                   struct point *scratch, shift_curve *curve, wt_log *log,
                                   wt_error *err)
@@ -171,17 +191,11 @@ static wt_status fill_shift_curve(const wt_isotherm *isotherm, const shift_set *
         }
     }
     if (curve->n_skipped > 0 && n < SHIFT_MIN_POINTS) {
-        wt_status status =
-            wt_fail(err, WT_E_RANGE,
-                    "the isotherm of %.2f °C has too few points with positive frequency and moduli",
-                    isotherm->temperature - WT_ZERO_CELSIUS);
-        wt_error_place(err, "%s", isotherm->source);
-        wt_error_expected(err, "at least %d", SHIFT_MIN_POINTS);
-        wt_error_found(err, "%zu of %zu; point %zu: %g rad/s, storage %g Pa, loss %g Pa", n,
-                       isotherm->n, first_bad + 1, isotherm->angular_frequency[first_bad],
-                       isotherm->storage_modulus[first_bad], isotherm->loss_modulus[first_bad]);
-        wt_error_advice(err, "leave this temperature out of the sweep");
-        return status;
+        clocale_print(curve->exclusion, sizeof curve->exclusion,
+                      "left out: %zu of %zu points have no positive modulus", curve->n_skipped,
+                      isotherm->n);
+        curve->n_skipped = 0;
+        return set->n <= LEAST_USABLE ? fail_too_few_points(isotherm, n, first_bad, err) : WT_OK;
     }
     if (curve->n_skipped > 0)
         wt_log_add(log, WT_WARNING, isotherm->source, NULL,
@@ -236,6 +250,36 @@ static wt_status choose_fitted_quantities(const wt_sweep *sweep, wt_shift_quanti
     return WT_E_MISSING;
 }
 
+/* A gap of the temperatures above which isotherms may be in kelvin, and how far outside the others
+ * they may be when converted [K]. */
+static const double kelvin_gap = 100.0, kelvin_margin = 20.0;
+
+/* Leaves out isotherms whose temperatures are only plausible as kelvin that were read as degrees
+ * Celsius: they lie far above the others, and converted they lie among them. At most a third of the
+ * isotherms. */
+static void exclude_kelvin(shift_set *set)
+{
+    const shift_curve *c = set->curves;
+    size_t first = set->n > 0 ? set->n - 1 : 0;
+    while (first > 0 && 3 * (set->n - first) <= set->n &&
+           !(c[first].temperature - c[first - 1].temperature > kelvin_gap))
+        first--;
+    if (first == 0 || 3 * (set->n - first) > set->n)
+        return;
+    for (size_t i = first; i < set->n; i++) {
+        const double t = c[i].temperature - WT_ZERO_CELSIUS;
+        if (t < c[0].temperature - kelvin_margin || t > c[first - 1].temperature + kelvin_margin)
+            return;
+    }
+    for (size_t i = first; i < set->n; i++) {
+        clocale_print(set->curves[i].exclusion, sizeof set->curves[i].exclusion,
+                      "left out: its temperature looks like kelvin read as °C (%.2f K is %.2f °C)",
+                      c[i].temperature - WT_ZERO_CELSIUS, c[i].temperature - 2.0 * WT_ZERO_CELSIUS);
+        set->n_points -= c[i].n;
+        set->curves[i].n = 0;
+    }
+}
+
 wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log, arena *memory,
                         shift_set *set, wt_error *err)
 {
@@ -285,6 +329,8 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log
         status = fill_shift_curve(isotherm, set, scratch, curve, log, err);
         set->n_points += curve->n;
     }
+    if (status == WT_OK)
+        exclude_kelvin(set);
     return status;
 }
 

@@ -25,6 +25,8 @@ typedef struct shift_curve {
     double fixed_log_a; /* stated log10 a; only differences to other stated shifts count [decade] */
     bool is_vertical_fixed; /* the vertical shift is stated, too */
     double fixed_log_b;     /* stated log10 b [decade] */
+    bool is_loss_excluded;  /* E'' is off and not fitted */
+    char exclusion[128]; /* what is left out and why: the isotherm, with n = 0, or its E''; or "" */
 } shift_curve;
 
 /* All isotherms by rising temperature. */

@@ -35,9 +35,6 @@ static const double max_start_shift = 0.5;
  * isotherms by more than their errors. */
 static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0,
                     sharp_curvature = 3.0;
-/* A shift with a larger error is not determined [decade]. Its 95 % interval is most of a decade,
- * as wide as a step of 5 to 10 K between isotherms. */
-const double master_max_shift_error = 0.2;
 /* Misfit of a modulus beyond its noise from which the shifts are meaningless [ln]. On a plateau
  * with d ln E'/d ln w = 0.1 it is 0.17 decade, about master_max_shift_error. If
  * superposition holds or nearly holds the misfit is 0.3 to 3 %; glassy polymers have 5 to 20 %
@@ -107,38 +104,62 @@ wt_status master_check_vertical(master_work *work, wt_error *err)
     return WT_E_ARG;
 }
 
-/* Chooses the start isotherm: nearest to the reference temperature, or the middle one. */
-wt_status master_choose_anchor(master_work *work, wt_error *err)
+/* Returns the distance of an isotherm from the place where the fit starts. */
+static double distance_to_start(const master_work *work, size_t i, bool stated, double base)
+{
+    const double asked = work->options.reference_temperature;
+    if (stated && !isnan(asked))
+        return fabs(work->set.curves[i].temperature - asked);
+    return isnan(base) ? fabs((double)i - (double)(work->set.n / 2))
+                       : fabs(work->set.curves[i].temperature - base);
+}
+
+/* Sets the reference temperature and finds its isotherm. */
+static void set_reference(master_work *work)
 {
     const shift_set *set = &work->set;
     const double asked = work->options.reference_temperature;
+    double nearest = same_temperature;
+    work->reference = isnan(asked) ? set->curves[work->anchor].temperature : asked;
+    work->at = isnan(asked) ? work->anchor : set->n;
+    work->root = work->anchor;
+    for (size_t i = 0; !isnan(asked) && i < set->n; i++) {
+        const double away = fabs(set->curves[i].temperature - asked);
+        if (set->curves[i].n >= SHIFT_MIN_POINTS && away <= nearest &&
+            (work->at == set->n || away < nearest)) {
+            nearest = away;
+            work->at = i;
+        }
+    }
+    work->vertical.reference_temperature = work->reference;
+    work->vertical.expansion = work->options.expansion;
+    for (size_t i = 0; i < set->n; i++)
+        work->physical[i] = vertical_physical(&work->vertical, set->curves[i].temperature) / M_LN10;
+}
+
+wt_status master_choose_anchor(master_work *work, double base, wt_error *err)
+{
+    const shift_set *set = &work->set;
     double nearest = HUGE_VAL;
-    bool given = false; /* the anchor is then a stated isotherm */
+    bool stated = false; /* the anchor is then a stated isotherm */
     work->anchor = set->n;
     for (size_t i = 0; i < set->n; i++)
-        given = given || (set->curves[i].is_shift_fixed && set->curves[i].n >= SHIFT_MIN_POINTS);
+        stated = stated || (set->curves[i].is_shift_fixed && set->curves[i].n >= SHIFT_MIN_POINTS);
     for (size_t i = 0; i < set->n; i++) {
-        const double away = isnan(asked) ? fabs((double)i - (double)(set->n / 2))
-                                         : fabs(set->curves[i].temperature - asked);
-        if (set->curves[i].n >= SHIFT_MIN_POINTS && (!given || set->curves[i].is_shift_fixed) &&
+        const double away = distance_to_start(work, i, stated, base);
+        if (set->curves[i].n >= SHIFT_MIN_POINTS && (!stated || set->curves[i].is_shift_fixed) &&
             away < nearest) {
             nearest = away;
             work->anchor = i;
         }
     }
-    if (work->anchor == set->n) {
-        wt_fail(err, WT_E_MISSING, "no isotherm has enough points");
-        wt_error_expected(err, "at least %d points each", SHIFT_MIN_POINTS);
-        return WT_E_MISSING;
+    if (work->anchor < set->n) {
+        set_reference(work);
+        return WT_OK;
     }
-    const double at = set->curves[work->anchor].temperature;
-    work->reference = isnan(asked) ? at : asked;
-    work->measured_reference = fabs(at - work->reference) <= same_temperature;
-    work->vertical.reference_temperature = work->reference;
-    work->vertical.expansion = work->options.expansion;
-    for (size_t i = 0; i < set->n; i++)
-        work->physical[i] = vertical_physical(&work->vertical, set->curves[i].temperature) / M_LN10;
-    return WT_OK;
+    wt_fail(err, WT_E_MISSING, "no isotherm has enough points");
+    wt_error_expected(err, "at least %d points each", SHIFT_MIN_POINTS);
+    return WT_E_MISSING;
 }
 
 void master_work_alloc(master_work *work)
@@ -215,6 +236,8 @@ wt_status master_new_spectrum(master_work *work, wt_error *err)
             p->temperature[curve] = work->set.curves[i].temperature;
             work->curve[i] = curve++;
         }
+    if (master_reference_is_fitted(work)) /* free vertical shifts are those against it */
+        work->s->level_curve = work->curve[work->at];
     return master_set_widths(work, work->options.vertical, start_geometry, start_departure, err);
 }
 

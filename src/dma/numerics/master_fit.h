@@ -11,9 +11,12 @@ typedef struct master_work {
     arena memory;
     wt_master_options options;
     shift_set set;
-    double reference; /* [K] */
-    size_t anchor;
-    bool measured_reference; /* the anchor is at the reference temperature */
+    double reference;        /* [K] */
+    size_t anchor;           /* isotherm to which the fit refers; it depends on the data only */
+    size_t at;               /* isotherm at the reference temperature, or set.n: the law gives the
+                                reference */
+    size_t root;             /* isotherm to which the additional errors of the shifts refer */
+    double *base_error;      /* [curves] those errors against the anchor, or NULL */
     bool flows;              /* creep of a liquid, fitted with an equilibrium modulus */
     double terms_per_decade; /* stated or chosen number of terms per decade */
     bool lines;              /* the spectrum has sharp lines and needs more terms */
@@ -47,8 +50,9 @@ typedef struct master_work {
 /* Adapts the vertical shift to the data, or fails if free vertical shifts cannot be determined. */
 wt_status master_check_vertical(master_work *work, wt_error *err) WT_NODISCARD;
 void master_work_alloc(master_work *work);
-/* Chooses the isotherm to start from. */
-wt_status master_choose_anchor(master_work *work, wt_error *err) WT_NODISCARD;
+/* Chooses the isotherm to start from: the one nearest to `base` [K], or the middle one for NaN.
+ * Stated shifts start from the stated isotherm nearest to the reference. */
+wt_status master_choose_anchor(master_work *work, double base, wt_error *err) WT_NODISCARD;
 /* Places the isotherms: start, outliers and connected isotherms. Sets the flag of a gross
  * misfit. */
 wt_status master_find_initial_shifts(master_work *work, wt_error *err) WT_NODISCARD;
@@ -72,13 +76,16 @@ void master_overlap_edges(const master_work *work, bool physical, overlap_edge *
 void master_find_overlaps(master_work *work);
 /* Replaces the shifts by those of the overlaps and fits the spectrum to them. */
 wt_status master_use_overlap_shifts(master_work *work, wt_error *err) WT_NODISCARD;
-/* Computes the shift and error of an isotherm outside the described part. */
+/* Computes the shift, against the anchor, and error of an isotherm outside the described part. */
 bool master_shift_outside_part(const master_work *work, size_t i, double *a, double *error);
 /* Returns true if the overlaps determine shifts. They need storage moduli and no stated shift. The
  * function also fills the edges of the work. */
 bool master_can_use_overlaps(master_work *work);
 /* Stores the shifts of the spectrum in original_a. */
 void master_store_original_shifts(master_work *work);
+/* Refers overlaps and additional errors of the shifts to the isotherm of the reference temperature.
+ */
+void master_refer_errors(master_work *work);
 /* Adds the disagreement with the overlaps to the errors of the shifts if superposition fails. */
 void master_uncertainty(master_work *work);
 /* Returns true if no shift of the spectrum remains determined. */
@@ -97,9 +104,23 @@ bool master_loss_is_inconsistent(const lack_of_fit *lack);
 /* Returns true if that factor is the only misfit. It does not affect the shifts. */
 bool master_misfit_is_loss_factor(const lack_of_fit *lack);
 
+/* Returns true if one spectrum does not describe the placed isotherms. */
+bool master_misfits(const master_work *work);
+/* Finds the one isotherm whose E'' objects to both neighbours while all others agree, and writes
+ * the reason. Returns false if there is none. */
+bool master_find_objecting(master_work *work, size_t *found);
+/* Finds an isotherm whose frequencies are off by 2 pi, and writes the reason. Returns false if
+ * there is none. */
+bool master_find_unit_slip(master_work *work, size_t *found);
+
 /* Fills `master` and transfers the posterior to it. */
 wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, wt_master *master,
                         wt_error *err) WT_NODISCARD;
+/* Returns true if the spectrum contains the isotherm at the reference temperature. */
+bool master_reference_is_fitted(const master_work *work);
+/* Returns log10 a of the isotherm at the reference temperature against the anchor, 0 without one.
+ */
+double master_reference_shift(const master_work *work);
 /* Fills the shifts and their notes. */
 void master_fill_shifts(const master_work *work, wt_master *m);
 /* Returns WT_E_RANGE if no shift exists for the reference temperature. */

@@ -21,8 +21,10 @@ static bool shifts_match_edges(const master_work *work, const overlap_edge *edge
         if (column < 0)
             continue;
         const double variance = spectrum_variance(s, work->curve[i]);
+        const double error = sqrt(variance) / M_LN10;
         const double off = spectrum_a(s, work->curve[i]) / M_LN10 - edge[i].a;
-        if (!(fabs(off) <= agreement_limit * hypot(edge[i].error, sqrt(variance) / M_LN10)))
+        if (!(error <= master_max_shift_error &&
+              fabs(off) <= agreement_limit * hypot(edge[i].error, error)))
             return false;
     }
     return true;
@@ -60,18 +62,36 @@ static size_t distance_to_anchor(const master_work *work, size_t i)
     return i > work->anchor ? i - work->anchor : work->anchor - i;
 }
 
-/* Returns the sum of squared errors of the steps that two isotherms share. */
-static double shared_step_variance(const master_work *work, size_t left, size_t right)
+/* Returns the sum of squared errors of the steps between two isotherms. */
+static double path_variance(const master_work *work, size_t left, size_t right)
 {
     double sum = 0.0;
     while (left != right) {
         size_t *const next =
             distance_to_anchor(work, left) > distance_to_anchor(work, right) ? &left : &right;
+        sum += work->edge[*next].step * work->edge[*next].step;
         *next = work->edge[*next].onto;
     }
-    for (; left != work->anchor; left = work->edge[left].onto)
-        sum += work->edge[left].step * work->edge[left].step;
     return sum;
+}
+
+/* Returns the sum of squared errors of the steps that the ways of two isotherms to the root
+ * share. */
+static double shared_step_variance(const master_work *work, size_t left, size_t right)
+{
+    const size_t root = work->root;
+    if (left == right)
+        return path_variance(work, left, root);
+    return 0.5 * (path_variance(work, left, root) + path_variance(work, right, root) -
+                  path_variance(work, left, right));
+}
+
+/* Returns an error of a shift against the root from the errors of both against the anchor, which
+ * grow from neighbour to neighbour. */
+static double error_to_root(const master_work *work, size_t i, double own, double of_root)
+{
+    const bool same_side = (i < work->anchor) == (work->root < work->anchor);
+    return same_side ? fabs(own - of_root) : own + of_root;
 }
 
 /* Converts a misfit of E' to a shift [decade], from the slope of the isotherms. It may
@@ -81,6 +101,8 @@ static double misfit_to_shift(const master_work *work, double missed, size_t fro
     double sum = 0.0;
     for (; i != from; i = i < from ? i + 1 : i - 1) {
         const shift_curve *c = &work->set.curves[i];
+        if (c->n < SHIFT_MIN_POINTS)
+            continue;
         sum += missed / M_LN10 * (c->x[c->n - 1] - c->x[0]) / curve_modulus_change(&work->set, i);
     }
     return sum;
@@ -97,8 +119,8 @@ static double spectrum_misfit_shift(const master_work *work, size_t i)
         return 0.0; /* stated shifts may cause the misfit; a factor on all E'' does not affect
                        shifts */
     const double missed = sqrt(work->lack.beyond) * work->missed[STORAGE];
-    return hypot(work->lack.parted * work->original_a[i],
-                 misfit_to_shift(work, missed, work->anchor, i));
+    return hypot(work->lack.parted * (work->original_a[i] - work->original_a[work->root]),
+                 misfit_to_shift(work, missed, work->root, i));
 }
 
 /* Returns the squared change of a shift by alternatives as good as E' alone, between two
@@ -117,11 +139,16 @@ static double overlap_variance(const master_work *work, size_t i)
     const overlap_edge *edge = &work->edge[i];
     if (!edge->placed)
         return 0.0;
-    const double square = shared_step_variance(work, i, i) + edge->error * edge->error;
-    const double alike = edge->spread * edge->spread;
+    const overlap_edge *root = &work->edge[work->root];
+    const double error = error_to_root(work, i, edge->error, root->error),
+                 spread = error_to_root(work, i, edge->spread, root->spread);
+    const double square = shared_step_variance(work, i, i) + error * error;
+    const double alike = spread * spread;
     if (work->route == WT_SHIFTS_FROM_OVERLAP)
-        return square + alike + alternative_variance(&work->edge[work->anchor], edge);
-    const double off = isnan(work->original_a[i]) ? 0.0 : fabs(edge->a - work->original_a[i]);
+        return square + alike + alternative_variance(root, edge);
+    const double difference =
+        edge->a - root->a - (work->original_a[i] - work->original_a[work->root]);
+    const double off = isnan(difference) ? 0.0 : fabs(difference);
     return alike + pow(fmax(off - agreement_limit * sqrt(square), 0.0), 2);
 }
 
@@ -158,7 +185,7 @@ static void set_extra_shift_errors(master_work *work)
         steps += work->edge[i].placed ? shared_step_variance(work, i, i) : 0.0;
         for (size_t k = 0; k < n; k++)
             if (work->placed[k] && !is_user_stated(work, k) && work->edge[i].placed &&
-                work->edge[k].placed && (i < work->anchor) == (k < work->anchor))
+                work->edge[k].placed && (i < work->root) == (k < work->root))
                 gsl_matrix_set(p->extra_covariance, work->curve[i], work->curve[k],
                                shared_step_variance(work, i, k));
     }
@@ -169,6 +196,22 @@ static void set_extra_shift_errors(master_work *work)
         if (work->placed[i] && !is_user_stated(work, i) && !work->edge[i].placed)
             gsl_matrix_set(p->extra_covariance, work->curve[i], work->curve[i],
                            fails ? pow(p->extra_error[work->curve[i]], 2) : 0.0);
+}
+
+void master_refer_errors(master_work *work)
+{
+    wt_posterior *p = work->posterior;
+    if (work->route != WT_SHIFTS_FROM_OVERLAP && master_reference_is_fitted(work))
+        (void)spectrum_select_connected(&work->set, work->at, work->a, work->placed, work->overlap);
+    if (p->extra_error == NULL)
+        return;
+    work->base_error = p->extra_error;
+    const bool can_refer =
+        master_reference_is_fitted(work) && work->edge[work->at].placed && work->at != work->anchor;
+    if (can_refer) {
+        work->root = work->at;
+        set_extra_shift_errors(work);
+    }
 }
 
 void master_store_original_shifts(master_work *work)
@@ -211,6 +254,8 @@ wt_status master_use_overlap_shifts(master_work *work, wt_error *err)
         work->b[i] = physical ? work->physical[i] : 0.0;
     }
     (void)spectrum_select_connected(set, work->anchor, work->a, work->placed, work->overlap);
+    if (master_reference_is_fitted(work))
+        (void)spectrum_select_connected(set, work->at, work->a, work->placed, work->overlap);
     for (size_t i = 0; i < set->n; i++) {
         set->curves[i].is_shift_fixed = work->placed[i];
         set->curves[i].fixed_log_a = work->a[i];
@@ -237,9 +282,7 @@ bool master_shift_outside_part(const master_work *work, size_t i, double *a, dou
     const wt_interval at = posterior_a(work->posterior, work->curve[end]);
     const double alike = hypot(edge[i].spread - edge[end].spread, edge[i].error - edge[end].error);
     *a = at.value + edge[i].a - edge[end].a;
-    *error =
-        sqrt(at.standard_error * at.standard_error + alike * alike +
-             alternative_variance(&edge[end], &edge[i]) +
-             fmax(shared_step_variance(work, i, i) - shared_step_variance(work, end, end), 0.0));
+    *error = sqrt(at.standard_error * at.standard_error + alike * alike +
+                  alternative_variance(&edge[end], &edge[i]) + path_variance(work, i, end));
     return true;
 }

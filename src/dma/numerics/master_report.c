@@ -369,6 +369,24 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     return status;
 }
 
+/* Sets the offset of the law against the shifts. Without an isotherm at the reference temperature
+ * the law gives the shifts, so there is none. */
+static void set_offset(const master_work *work, wt_master *m)
+{
+    const wt_interval of_law = m->offset;
+    m->offset = (wt_interval){0};
+    if (m->law.kind == WT_LAW_NONE || work->at == work->set.n)
+        return;
+    if (work->at == work->anchor) {
+        m->offset = of_law;
+    } else if (master_reference_is_fitted(work)) {
+        const wt_interval a = posterior_a_to_reference(work->posterior, work->curve[work->at]);
+        m->offset = (wt_interval){-a.value, a.standard_error, -a.high, -a.low};
+    } else {
+        m->offset = offset_interval(of_law, m->shifts[work->anchor].log_a.value);
+    }
+}
+
 /* ---- report ---------------------------------------------------------------------------------- */
 
 wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, wt_master *master,
@@ -398,8 +416,7 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
         status = master_check_shifts(work, &m, err);
     if (status == WT_OK) {
         work->posterior->anchor_a = m.shifts[work->anchor].log_a.value;
-        if (!work->measured_reference) /* the shifts already refer to the reference */
-            m.offset = (wt_interval){0};
+        set_offset(work, &m);
         set_law_rms(&m);
         fill_master_curve(work, &m);
         status = fill_series(work, &m, err);

@@ -123,12 +123,13 @@ static wt_status test_part(const master_work *whole, size_t first, size_t last, 
                            wt_error *err)
 {
     master_work work = {.options = whole->options, .part = true, .set = whole->set};
+    const double base = whole->set.curves[whole->anchor].temperature;
     work.options.reference_temperature = whole->reference;
     work.set.curves += first;
     work.set.n = work.last = last - first + 1;
     *holds = false;
     master_work_alloc(&work);
-    wt_status status = master_choose_anchor(&work, err);
+    wt_status status = master_choose_anchor(&work, base, err);
     if (status == WT_OK)
         status = master_find_initial_shifts(&work, err);
     if (status == WT_OK)
@@ -240,12 +241,55 @@ static bool misfit_is_relevant(const master_work *work)
                              fabs(lack->factor) < fmax(work->missed[STORAGE], work->missed[LOSS]));
 }
 
-/* Fits one spectrum. If it fails or is far off, the function fits a part around the reference,
- * or else a spectrum at the overlap shifts. */
+/* Fits again from the start. */
+static wt_status refit(master_work *work, wt_error *err)
+{
+    const double base = work->set.curves[work->anchor].temperature;
+    work->options.reference_temperature = work->reference;
+    work->plain = work->is_gross = work->exceeds_noise = work->tested = false;
+    work->lack = (lack_of_fit){0};
+    wt_status status = master_choose_anchor(work, base, err);
+    if (status == WT_OK) {
+        closed_form_shifts(&work->set, work->anchor, work->posterior->closed_form);
+        status = fit_free_shifts(work, err);
+    }
+    return status;
+}
+
+/* Fits one spectrum, without what does not belong to the others if one isotherm has that. */
+static wt_status fit_one_spectrum(master_work *work, wt_error *err)
+{
+    size_t i;
+    wt_status status = fit_free_shifts(work, err);
+    for (size_t k = 0; k < work->set.n; k++)
+        if (work->set.curves[k].is_shift_fixed)
+            return status; /* stated shifts may cause the misfit */
+    if (status != WT_OK || work->set.loading != WT_OSCILLATION)
+        return status;
+    if (master_find_unit_slip(work, &i)) {
+        work->set.n_points -= work->set.curves[i].n;
+        work->set.curves[i].n = 0;
+        status = refit(work, err);
+    }
+    if (status != WT_OK || !work->tested || !master_misfits(work) ||
+        !master_find_objecting(work, &i))
+        return status;
+    shift_curve *const curve = &work->set.curves[i];
+    curve->is_loss_excluded = true;
+    status = refit(work, err);
+    if (status != WT_OK || !master_misfits(work))
+        return status;
+    curve->is_loss_excluded = false; /* the others do not superpose either */
+    curve->exclusion[0] = '\0';
+    return refit(work, err);
+}
+
+/* Fits one spectrum. If it fails or is far off, the function fits a part around the anchor, or else
+ * a spectrum at the overlap shifts. */
 static wt_status fit_by_best_route(master_work *work, wt_error *err)
 {
     wt_error failure = WT_ERROR_INIT;
-    wt_status status = fit_free_shifts(work, &failure);
+    wt_status status = fit_one_spectrum(work, &failure);
     if (status == WT_E_CONVERGENCE)
         snprintf(work->no_spectrum, sizeof work->no_spectrum, "%s", failure.message);
     bool overlap = false;
@@ -279,10 +323,10 @@ static wt_status fit_by_best_route(master_work *work, wt_error *err)
     return status == WT_OK ? master_estimate_noise(work, err) : status;
 }
 
-/* Fits for the reference of the options. *better: after a lack of overlap, the temperature of a
- * steeper isotherm; otherwise NaN. */
+/* Fits from the isotherm nearest to `*base`, or from the middle one. *base: after a lack of
+ * overlap, the temperature of a steeper isotherm; otherwise NaN. */
 static wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options,
-                                 wt_log *log, wt_master *master, double *better, wt_error *err)
+                                 wt_log *log, wt_master *master, double *base, wt_error *err)
 {
     master_work work = {.options = *options};
     wt_status status = param_check(wt_master_options_params(), &work.options, err);
@@ -292,7 +336,7 @@ static wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options 
         status = master_check_vertical(&work, err);
     if (status == WT_OK) {
         master_work_alloc(&work);
-        status = master_choose_anchor(&work, err);
+        status = master_choose_anchor(&work, *base, err);
     }
     if (status == WT_OK) {
         closed_form_shifts(&work.set, work.anchor, work.posterior->closed_form);
@@ -300,12 +344,19 @@ static wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options 
     }
     if (status == WT_OK)
         status = master_fit_widths(&work, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        master_refer_errors(&work);
+        work.posterior->reference_a = master_reference_shift(&work);
         status = posterior_finish(work.posterior, work.reference, err);
+    }
     if (status == WT_OK)
         status = master_report(&work, sweep, log, master, err);
     const size_t steeper = status == WT_E_NO_OVERLAP ? master_steeper_isotherm(&work) : work.anchor;
-    *better = steeper != work.anchor ? work.set.curves[steeper].temperature : (double)NAN;
+    const bool elsewhere = status == WT_E_NO_OVERLAP && isnan(*base) && work.at < work.set.n &&
+                           work.at != work.anchor; /* the fit may start at the reference */
+    *base = steeper != work.anchor ? work.set.curves[steeper].temperature
+            : elsewhere            ? work.reference
+                                   : (double)NAN;
     posterior_free(work.posterior);
     arena_free(&work.memory);
     return status;
@@ -391,30 +442,31 @@ static wt_status find_transition_temperature(const wt_master *m, double *tempera
     return WT_OK;
 }
 
-/* Fits, and if the middle isotherm is too flat repeats the fit with the steepest one as
- * reference, unless a reference is stated. */
-static wt_status fit_with_fallback_reference(const wt_sweep *sweep, wt_master_options options,
-                                             wt_log *log, wt_master *master, wt_error *err)
+/* Fits, and if the middle isotherm is too flat repeats the fit from the steepest one, which is the
+ * reference unless one is stated. */
+static wt_status fit_with_fallback_start(const wt_sweep *sweep, wt_master_options options,
+                                         wt_log *log, wt_master *master, wt_error *err)
 {
-    double better;
+    double base = (double)NAN;
     wt_error flat = WT_ERROR_INIT;
     wt_log *first_log = wt_log_new(); /* buffered, because a second fit repeats the messages */
-    const wt_status status = master_fit_once(sweep, &options, first_log, master, &better, &flat);
-    const bool is_final = isnan(better) || !isnan(options.reference_temperature);
-    if (is_final)
+    const wt_status status = master_fit_once(sweep, &options, first_log, master, &base, &flat);
+    if (isnan(base))
         wt_log_append(log, first_log, NULL);
     wt_log_free(first_log);
-    if (is_final) {
+    if (isnan(base)) {
         if (status != WT_OK && err != NULL)
             *err = flat;
         return status;
     }
-    wt_log_add(log, WT_WARNING, NULL, NULL,
-               "the isotherm in the middle is too flat to shift others onto it: the reference "
-               "is %.2f °C, where the modulus changes most with frequency",
-               better - WT_ZERO_CELSIUS);
-    options.reference_temperature = better;
-    return master_fit_once(sweep, &options, log, master, &better, err);
+    if (isnan(options.reference_temperature)) {
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "the isotherm in the middle is too flat to shift others onto it: the reference "
+                   "is %.2f °C, where the modulus changes most with frequency",
+                   base - WT_ZERO_CELSIUS);
+        options.reference_temperature = base;
+    }
+    return master_fit_once(sweep, &options, log, master, &base, err);
 }
 
 wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options, wt_log *log,
@@ -422,7 +474,7 @@ wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options,
 {
     wt_master_options adjusted = options != NULL ? *options : wt_master_options_defaults();
     if (adjusted.reference_at != WT_REFERENCE_TAN_DELTA_PEAK)
-        return fit_with_fallback_reference(sweep, adjusted, log, master, err);
+        return fit_with_fallback_start(sweep, adjusted, log, master, err);
     if (!isnan(adjusted.reference_temperature)) {
         wt_fail(err, WT_E_ARG, "two references: a temperature and the peak of tan delta");
         wt_error_place(err, "reference-at");
@@ -430,10 +482,9 @@ wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options,
         return WT_E_ARG;
     }
     wt_master first = {0};
-    wt_status status = fit_with_fallback_reference(sweep, adjusted, NULL, &first, err);
+    wt_status status = fit_with_fallback_start(sweep, adjusted, NULL, &first, err);
     if (status == WT_OK)
         status = find_transition_temperature(&first, &adjusted.reference_temperature, err);
     wt_master_clear(&first);
-    return status == WT_OK ? fit_with_fallback_reference(sweep, adjusted, log, master, err)
-                           : status;
+    return status == WT_OK ? fit_with_fallback_start(sweep, adjusted, log, master, err) : status;
 }

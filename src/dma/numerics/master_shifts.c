@@ -16,34 +16,36 @@ static size_t count_outliers(const spectrum *s, size_t curve)
     size_t n = 0;
     for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++)
         for (int q = 0; q < MODULI; q++)
-            n += s->used[q] && s->weight[q][k] == 0.0 ? 1 : 0;
+            n += spectrum_is_fitted(s, curve, q) && s->weight[q][k] == 0.0;
     return n;
 }
 
 /* Notes why a shift is not determined. Returns false if it is determined. */
-static bool note_undetermined(const master_work *work, size_t i, const wt_interval *a,
-                              wt_master_shift *shift)
+static bool note_undetermined(const master_work *work, size_t i, wt_master_shift *shift)
 {
     /* a shift that is only possibly uncertain is reported, with the larger error */
     const bool fails = work->posterior->extra_error != NULL &&
                        master_misfit_is_significant(&work->lack) &&
                        !master_loss_is_inconsistent(&work->lack);
-    const double own = fails || !work->placed[i]
-                           ? a->standard_error
-                           : posterior_fit_error(work->posterior, work->curve[i]);
-    if (work->set.curves[i].n < SHIFT_MIN_POINTS)
-        master_add_note(shift, "not determined: only %zu points", work->set.curves[i].n);
+    /* against the anchor: whether a shift is determined does not depend on the reference */
+    const double extra = fails && work->placed[i] ? work->base_error[work->curve[i]] : 0.0;
+    const double own = work->placed[i]
+                           ? hypot(posterior_fit_error(work->posterior, work->curve[i]), extra)
+                           : (double)NAN;
+    const shift_curve *c = &work->set.curves[i];
+    if (c->n < SHIFT_MIN_POINTS && c->exclusion[0] != '\0')
+        master_add_note(shift, "%s", c->exclusion);
+    else if (c->n < SHIFT_MIN_POINTS)
+        master_add_note(shift, "not determined: only %zu points", c->n);
     else if (!work->placed[i])
         master_add_note(shift, work->route == WT_SHIFTS_FROM_OVERLAP
                                    ? "not determined: shares too little of E' with its neighbours"
                                    : "not determined: no overlap with the others");
     else if (work->route == WT_SHIFTS_FROM_OVERLAP)
         return false; /* each step is determined */
-    else if (fails && !(a->standard_error <= master_max_shift_error) &&
-             work->posterior->extra_error[work->curve[i]] > master_max_shift_error)
-        master_add_note(shift,
-                        "not determined: superposition fails, overlaps leave open %.2g decade",
-                        a->standard_error);
+    else if (extra > master_max_shift_error)
+        master_add_note(
+            shift, "not determined: superposition fails, overlaps leave open %.2g decade", own);
     else if (!(own <= master_max_shift_error))
         master_add_note(shift, "not determined: no slope decides, error of log aT %.2g decade",
                         own);
@@ -57,6 +59,39 @@ static bool note_undetermined(const master_work *work, size_t i, const wt_interv
     return shift->note[0] != '\0';
 }
 
+bool master_reference_is_fitted(const master_work *work)
+{
+    return work->at < work->set.n && work->placed[work->at];
+}
+
+double master_reference_shift(const master_work *work)
+{
+    const size_t at = work->at, end = at < work->first ? work->first : work->last;
+    if (at == work->set.n)
+        return 0.0;
+    if (master_reference_is_fitted(work))
+        return spectrum_a(work->s, work->curve[at]) / M_LN10;
+    if (!work->part || !work->placed[end] || !work->edge[at].placed || !work->edge[end].placed)
+        return 0.0;
+    return spectrum_a(work->s, work->curve[end]) / M_LN10 + work->edge[at].a - work->edge[end].a;
+}
+
+/* Returns a fitted shift against the reference temperature. */
+static wt_interval shift_to_reference(const master_work *work, size_t curve)
+{
+    const wt_posterior *p = work->posterior;
+    double a, error;
+    if (master_reference_is_fitted(work))
+        return work->at == work->anchor ? posterior_a(p, curve)
+                                        : posterior_a_against(p, curve, work->curve[work->at]);
+    if (work->at == work->set.n || !master_shift_outside_part(work, work->at, &a, &error))
+        return posterior_a_to_reference(p, curve);
+    wt_interval shift = posterior_a(p, curve);
+    error = hypot(error, shift.standard_error);
+    a = shift.value - a;
+    return (wt_interval){a, error, a - NORMAL_95 * error, a + NORMAL_95 * error};
+}
+
 /* Fills the shift of an isotherm outside the part that one spectrum describes. It is not in the
  * curve. */
 static bool fill_shift_outside_part(const master_work *work, size_t i, wt_master_shift *shift)
@@ -64,8 +99,9 @@ static bool fill_shift_outside_part(const master_work *work, size_t i, wt_master
     double a, error;
     if (!master_shift_outside_part(work, i, &a, &error))
         return false;
-    if (!work->measured_reference)
-        a += posterior_a_to_reference(work->posterior, work->curve[work->anchor]).value;
+    const wt_interval anchor = shift_to_reference(work, work->curve[work->anchor]);
+    a += anchor.value;
+    error = i == work->at ? 0.0 : hypot(error, anchor.standard_error);
     shift->log_a = (wt_interval){a, error, a - NORMAL_95 * error, a + NORMAL_95 * error};
     master_add_note(shift, "by the overlap of E' with its neighbour, not in the curve");
     return true;
@@ -84,16 +120,14 @@ static void fill_shift(const master_work *work, size_t i, const double *log_b_ma
                                .law = unknown,
                                .overlap = work->overlap[i],
                                .noise_factor = (double)NAN};
-    wt_interval a = unknown;
     if (work->placed[i]) {
         shift->noise_factor = work->s->kappa[curve];
         shift->n_outliers = count_outliers(work->s, curve);
-        a = posterior_a(work->posterior, curve);
     }
-    if (fill_shift_outside_part(work, i, shift) || note_undetermined(work, i, &a, shift))
+    if (fill_shift_outside_part(work, i, shift) || note_undetermined(work, i, shift))
         return;
     shift->determined = true;
-    shift->log_a = work->measured_reference ? a : posterior_a_to_reference(work->posterior, curve);
+    shift->log_a = shift_to_reference(work, curve);
     if (work->set.quantity == WT_SHIFT_LOSS_FACTOR)
         return;
     shift->log_b = posterior_b(work->posterior, curve);
@@ -146,8 +180,9 @@ static wt_status fail_flat_isotherms(const master_work *work, wt_error *err)
     const size_t steepest = master_steeper_isotherm(work);
     const bool elsewhere = steepest != work->anchor;
     wt_fail(err, WT_E_NO_OVERLAP,
-            elsewhere ? "no shift is determined: the isotherm of the reference is flat"
-                      : "no shift is determined: the isotherms are flat");
+            elsewhere
+                ? "no shift is determined: the isotherm that the others are shifted onto is flat"
+                : "no shift is determined: the isotherms are flat");
     wt_error_expected(err,
                       "moduli that change along an isotherm by more than noise and clamping do");
     wt_error_found(err, "a change of %.2g %% along that of the reference, %.2f °C",
@@ -202,7 +237,7 @@ wt_status master_check_reference(const master_work *work, const wt_master *m, wt
     const double coldest = m->shifts[0].temperature,
                  warmest = m->shifts[m->n_shifts - 1].temperature;
     const bool inside = m->reference_temperature > coldest && m->reference_temperature < warmest;
-    if (work->measured_reference || (inside && m->law.kind != WT_LAW_NONE) ||
+    if (work->at < work->set.n || (inside && m->law.kind != WT_LAW_NONE) ||
         (m->law.kind != WT_LAW_NONE && m->offset.standard_error <= master_max_shift_error))
         return WT_OK;
     wt_fail(err, WT_E_RANGE, "no shift can be given for the reference temperature %.2f °C",

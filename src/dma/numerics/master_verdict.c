@@ -9,6 +9,10 @@
 #include <stdarg.h>
 #include <string.h>
 
+/* A shift with a larger error is not determined [decade]. Its 95 % interval is most of a decade,
+ * as wide as a step of 5 to 10 K between isotherms. */
+const double master_max_shift_error = 0.2;
+
 /* ---- remarks --------------------------------------------------------------------------------- */
 
 /* Thresholds of notes; they change no number. An isotherm with three times the noise of the
@@ -56,6 +60,8 @@ static void note_shift(const master_work *work, size_t i, wt_master_shift *shift
         master_add_note(shift, "%.1f times the noise of the others", shift->noise_factor);
     if (!shift->determined)
         return;
+    if (work->set.curves[i].is_loss_excluded)
+        master_add_note(shift, "%s", work->set.curves[i].exclusion);
     if (work->set.curves[i].is_shift_fixed && work->route == WT_SHIFTS_FROM_SPECTRUM)
         master_add_note(shift, "as given");
     if (work->options.vertical != WT_VERTICAL_NONE && isfinite(shift->log_b.value) &&
@@ -183,9 +189,12 @@ void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master 
     note_strain(sweep, log);
     for (size_t i = 0; i < m->n_shifts; i++)
         if (m->shifts[i].note[0] != '\0')
-            wt_log_add(log, m->shifts[i].determined ? WT_NOTE : WT_WARNING, NULL, NULL,
-                       "isotherm of %.2f °C: %s", m->shifts[i].temperature - WT_ZERO_CELSIUS,
-                       m->shifts[i].note);
+            wt_log_add(log,
+                       work->set.curves[i].exclusion[0] != '\0' ? WT_LOSS
+                       : m->shifts[i].determined                ? WT_NOTE
+                                                                : WT_WARNING,
+                       NULL, NULL, "isotherm of %.2f °C: %s",
+                       m->shifts[i].temperature - WT_ZERO_CELSIUS, m->shifts[i].note);
     if (work->lines)
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "the spectrum is one of few sharp processes: between their lines nothing "

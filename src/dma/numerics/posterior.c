@@ -227,6 +227,7 @@ static void components_without_law(wt_posterior *p)
         *component = (posterior_component){.cell = &p->cells[i], .weight = p->cells[i].weight};
         if (!(component->weight > 0.0))
             continue;
+        component->law.unknown[0] = p->reference_a; /* without an error */
         component_alloc(p, component);
         p->n_components++;
     }

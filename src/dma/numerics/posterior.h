@@ -50,6 +50,7 @@ struct wt_posterior {
     gsl_matrix *extra_covariance; /* [n_curves^2] its covariance for the law */
     gsl_matrix *extra_covariance_root; /* Cholesky factor of that covariance */
     double anchor_a;                   /* log10 a of the anchor against the reference temperature */
+    double reference_a; /* log10 a of the reference against the anchor, if no law gives it */
     law_shape shape;
     law_data data;
     size_t n_cells, n_components;
@@ -73,6 +74,8 @@ wt_status posterior_finish(wt_posterior *p, double reference, wt_error *err) WT_
 bool posterior_column(const wt_posterior *p, size_t curve, size_t *column);
 
 wt_interval posterior_a(const wt_posterior *p, size_t curve); /* decades, relative to the anchor */
+/* Shift of a curve against another one, in decades. */
+wt_interval posterior_a_against(const wt_posterior *p, size_t curve, size_t other);
 double posterior_fit_error(const wt_posterior *p,
                            size_t curve); /* standard error without the additional error */
 wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve);

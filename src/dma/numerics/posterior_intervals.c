@@ -46,6 +46,41 @@ wt_interval posterior_a(const wt_posterior *p, size_t curve)
                            extra_variance(p, curve));
 }
 
+/* Returns the value of a shift in a cell and its covariance with that of another curve, in ln. */
+static double cell_shift(const wt_posterior *p, const posterior_cell *cell, size_t curve,
+                         size_t other, double *covariance)
+{
+    size_t at, with;
+    const bool fitted = posterior_column(p, curve, &at);
+    *covariance = fitted && posterior_column(p, other, &with)
+                      ? gsl_matrix_get(cell->covariance, at, with)
+                      : 0.0;
+    return fitted ? cell->value[at] : p->frame.given_a[curve];
+}
+
+wt_interval posterior_a_against(const wt_posterior *p, size_t curve, size_t other)
+{
+    mixture_component component[MAX_COMPONENTS];
+    size_t n = 0;
+    if (curve == other)
+        return (wt_interval){0};
+    for (size_t i = 0; i < p->n_cells; i++) {
+        double own, others, both;
+        if (!(p->cells[i].weight > 0.0))
+            continue;
+        (void)cell_shift(p, &p->cells[i], curve, other, &both);
+        const double a = cell_shift(p, &p->cells[i], curve, curve, &own) -
+                         cell_shift(p, &p->cells[i], other, other, &others);
+        const double variance = fmax(own + others - 2.0 * both, 0.0) / (M_LN10 * M_LN10);
+        component[n++] = (mixture_component){p->cells[i].weight, a / M_LN10,
+                                             sqrt(variance + extra_variance(p, curve))};
+    }
+    if (component[0].deviation > 0.0)
+        return mixture_interval(component, n);
+    const double a = component[0].mean; /* both shifts are stated */
+    return (wt_interval){a, 0.0, a, a};
+}
+
 double posterior_fit_error(const wt_posterior *p, size_t curve)
 {
     return column_interval(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10, 0.0)
@@ -440,7 +475,7 @@ void posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, double *
     gsl_blas_dtrsv(CblasLower, CblasTrans, CblasNonUnit, component->cell->root, e);
     for (size_t u = 0; u < n; u++)
         value[u] = component->cell->value[u] + gsl_vector_get(e, u);
-    memset(unknown, 0, LAW_MAX_UNKNOWNS * sizeof *unknown);
+    memcpy(unknown, component->law.unknown, LAW_MAX_UNKNOWNS * sizeof *unknown);
     if (component->law.n_unknowns > 0) {
         draw_law(component, &s, unknown);
         for (size_t k = 0; k < n_curves; k++) {

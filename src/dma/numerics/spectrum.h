@@ -58,7 +58,9 @@ typedef struct spectrum {
     double *y[MODULI];      /* [n] */
     double *weight[MODULI]; /* [n] 0: excluded; 1, or less during the search for outliers */
     size_t anchor;          /* index of the anchor; its horizontal shift is 0 */
+    size_t level_curve;     /* curve to which free vertical shifts refer; at first the anchor */
     bool used[MODULI];      /* fitted moduli; the other one has weight 0 */
+    bool *lossless;         /* [n_curves] E'' of the curve is not fitted */
     bool ratio;             /* LOSS has tan delta: no level, no vertical shift */
     bool *given;            /* [n_curves] true if the horizontal shift is fixed */
     double *given_a;        /* [n_curves] its fixed value */
@@ -128,6 +130,8 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
 void spectrum_free(spectrum *s);
 /* Sets the prior of b and the unknowns; the present shifts are unchanged. */
 void spectrum_set_prior(spectrum *s, const spectrum_prior *prior);
+/* Returns true if a modulus of a curve is fitted. */
+bool spectrum_is_fitted(const spectrum *s, size_t curve, int q);
 double spectrum_a(const spectrum *s, size_t curve);
 double spectrum_b(const spectrum *s, size_t curve);
 double spectrum_trial_b(const spectrum *s, const double *value, size_t curve);
@@ -193,7 +197,7 @@ double vertical_physical(const vertical *v, double temperature);
 /* Allocates the arrays for n curves. */
 void vertical_alloc(arena *memory, size_t n, vertical *v);
 /* Fills the prior of the curves of a spectrum, which borrows `mean` and the arrays. Free shifts
- * fix only the anchor, with the clamping error; without a geometry error the anchor is exact. */
+ * fix only the level curve, with the clamping error; without a geometry error it is exact. */
 wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temperature,
                          const spectrum *s, spectrum_prior *prior, wt_error *err) WT_NODISCARD;
 /* Computes the weights of the smooth part: ln b of the material at isotherm i is

@@ -79,6 +79,7 @@ static void allocate_spectrum(spectrum *s)
     s->column_a = arena_alloc(m, s->n_curves, sizeof *s->column_a);
     s->column_b = arena_alloc(m, s->n_curves, sizeof *s->column_b);
     s->given = arena_alloc(m, s->n_curves, sizeof *s->given);
+    s->lossless = arena_alloc(m, s->n_curves, sizeof *s->lossless);
     s->given_a = arena_numbers(m, s->n_curves);
     s->given_b = arena_numbers(m, s->n_curves);
     s->x = arena_numbers(m, s->n);
@@ -188,7 +189,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         if (!use[i])
             continue;
         if (i == anchor)
-            s->anchor = s->n_curves;
+            s->anchor = s->level_curve = s->n_curves;
         s->n_curves++;
         s->n += c->n;
         low = fmin(low, c->x[0] + a[i]);
@@ -214,11 +215,12 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         if (!use[i])
             continue;
         s->first[curve] = k;
+        s->lossless[curve] = c->is_loss_excluded;
         for (size_t p = 0; p < c->n; p++, k++) {
             s->x[k] = c->x[p] * M_LN10;
             for (int q = 0; q < MODULI; q++) {
                 s->y[q][k] = c->y[q][p] * M_LN10;
-                s->weight[q][k] = s->used[q] ? 1.0 : 0.0;
+                s->weight[q][k] = spectrum_is_fitted(s, curve, q) ? 1.0 : 0.0;
                 s->spread[q][k] = 1.0;
             }
         }
@@ -248,6 +250,11 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         s->value[s->n_unknowns++] = start[s->n_curves + i];
     }
     return WT_OK;
+}
+
+bool spectrum_is_fitted(const spectrum *s, size_t curve, int q)
+{
+    return s->used[q] && !(q == LOSS && s->lossless[curve]);
 }
 
 double spectrum_a(const spectrum *s, size_t curve)
@@ -290,7 +297,8 @@ void spectrum_set_prior(spectrum *s, const spectrum_prior *prior)
         }
     }
     for (size_t i = 0; i < s->n_curves; i++)
-        if (!prior->held && isnan(s->given_b[i]) && (prior->precision != NULL || i != s->anchor)) {
+        if (!prior->held && isnan(s->given_b[i]) &&
+            (prior->precision != NULL || i != s->level_curve)) {
             s->column_b[i] = (long)s->n_unknowns;
             s->value[s->n_unknowns++] = shift[2 * i + 1];
         }

@@ -392,7 +392,7 @@ void spectrum_student_weights(spectrum *s)
 {
     for (size_t i = 0; i < s->n_curves; i++)
         for (int q = 0; q < MODULI; q++)
-            for (size_t k = s->first[i]; s->used[q] && k < s->first[i + 1]; k++) {
+            for (size_t k = s->first[i]; spectrum_is_fitted(s, i, q) && k < s->first[i + 1]; k++) {
                 const double r = s->residual[q][k] / s->noise[q];
                 const double square = r * r / s->weight[q][k];
                 s->weight[q][k] = (student_freedom + 1.0) / (student_freedom + square);
@@ -415,10 +415,11 @@ size_t spectrum_outliers(spectrum *s)
     double *copy = s->copy;
     s->rho = 0.0;
     for (int q = 0; q < MODULI; q++)
-        for (size_t k = 0; k < s->n; k++) {
-            s->previous_weight[q][k] = s->weight[q][k];
-            s->weight[q][k] = s->used[q] ? 1.0 : 0.0;
-        }
+        for (size_t i = 0; i < s->n_curves; i++)
+            for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
+                s->previous_weight[q][k] = s->weight[q][k];
+                s->weight[q][k] = spectrum_is_fitted(s, i, q) ? 1.0 : 0.0;
+            }
     spectrum_evaluate(s, s->value, false);
     s->rho = rho;
     for (int q = 0; q < MODULI; q++) {
@@ -428,7 +429,8 @@ size_t spectrum_outliers(spectrum *s)
             copy[k] = s->residual[q][k];
         const double all = robust_deviation(copy, s->n);
         for (size_t i = 0; i < s->n_curves; i++) {
-            const size_t from = s->first[i], n = s->first[i + 1] - from;
+            const size_t from = s->first[i],
+                         n = spectrum_is_fitted(s, i, q) ? s->first[i + 1] - from : 0;
             for (size_t k = 0; k < n; k++)
                 copy[k] = s->residual[q][from + k];
             const double spread = fmax(fmax(robust_deviation(copy, n), all), least_noise);

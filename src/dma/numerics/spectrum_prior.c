@@ -113,7 +113,7 @@ wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temp
     prior->mean = v->mean;
     for (size_t i = 0; i < n; i++) {
         v->mean[i] = kind == WT_VERTICAL_NONE ? 0.0 : vertical_physical(v, temperature[i]);
-        prior->precision[i] = kind == WT_VERTICAL_TIED || i == s->anchor ? clamped : 0.0;
+        prior->precision[i] = kind == WT_VERTICAL_TIED || i == s->level_curve ? clamped : 0.0;
     }
     if (kind == WT_VERTICAL_FREE && geometry > 0.0)
         prior->log_det = 2.0 * log(geometry);
