@@ -601,6 +601,7 @@ typedef struct wt_isotherm {
     double *loss_factor;           /* [n] if measured without a modulus, else NULL */
     char *sample;                  /* name of the sample in the file; NULL if none */
     double stated_log_b;           /* log10 of the stated vertical shift */
+    double *point_temperature;     /* [n] K, if the temperature drifts; else NULL */
 } wt_isotherm;
 
 /* Moduli against temperature at one frequency, in one heating or cooling. */
@@ -644,7 +645,7 @@ typedef struct wt_sweep {
 } wt_sweep;
 WT_API void wt_sweep_clear(wt_sweep *sweep);
 /* Optional arrays of a sweep. */
-enum { WT_SWEEP_HAS_STRAIN = 1, WT_SWEEP_HAS_LOSS_FACTOR = 2 };
+enum { WT_SWEEP_HAS_STRAIN = 1, WT_SWEEP_HAS_LOSS_FACTOR = 2, WT_SWEEP_HAS_TEMPERATURE = 4 };
 /* Appends an isotherm with arrays of n points; never NULL. `with` is a
  * combination of the flags above. After the last one, wt_sweep_sort orders the isotherms by
  * temperature (then by source) and the points of each by frequency. */

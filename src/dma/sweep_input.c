@@ -16,7 +16,8 @@ const char *flow_deformation_name(wt_deformation deformation)
 static unsigned optional_arrays(sweep_points p)
 {
     return (p.array[SWEEP_STRAIN] != NULL ? (unsigned)WT_SWEEP_HAS_STRAIN : 0) |
-           (p.array[SWEEP_LOSS_FACTOR] != NULL ? (unsigned)WT_SWEEP_HAS_LOSS_FACTOR : 0);
+           (p.array[SWEEP_LOSS_FACTOR] != NULL ? (unsigned)WT_SWEEP_HAS_LOSS_FACTOR : 0) |
+           (p.array[SWEEP_TEMPERATURE] != NULL ? (unsigned)WT_SWEEP_HAS_TEMPERATURE : 0);
 }
 
 /* Copies the arrays and the sample name. */

@@ -10,7 +10,8 @@
 sweep_points isotherm_points(const wt_isotherm *t)
 {
     return (sweep_points){
-        {t->angular_frequency, t->storage_modulus, t->loss_modulus, t->strain, t->loss_factor},
+        {t->angular_frequency, t->storage_modulus, t->loss_modulus, t->strain, t->loss_factor,
+         t->point_temperature},
         t->n,
         t->sample};
 }
@@ -42,7 +43,8 @@ static void allocate_points(sweep_points *p, size_t n, unsigned with)
                                     [SWEEP_STORAGE] = true,
                                     [SWEEP_LOSS] = true,
                                     [SWEEP_STRAIN] = (with & WT_SWEEP_HAS_STRAIN) != 0,
-                                    [SWEEP_LOSS_FACTOR] = (with & WT_SWEEP_HAS_LOSS_FACTOR) != 0};
+                                    [SWEEP_LOSS_FACTOR] = (with & WT_SWEEP_HAS_LOSS_FACTOR) != 0,
+                                    [SWEEP_TEMPERATURE] = (with & WT_SWEEP_HAS_TEMPERATURE) != 0};
     *p = (sweep_points){.n = n};
     for (size_t j = 0; j < SWEEP_ARRAYS; j++)
         p->array[j] = has[j] ? wt_alloc(n, sizeof(double)) : NULL;
@@ -77,7 +79,8 @@ wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, unsigned with)
                                             .storage_modulus = p.array[SWEEP_STORAGE],
                                             .loss_modulus = p.array[SWEEP_LOSS],
                                             .strain = p.array[SWEEP_STRAIN],
-                                            .loss_factor = p.array[SWEEP_LOSS_FACTOR]};
+                                            .loss_factor = p.array[SWEEP_LOSS_FACTOR],
+                                            .point_temperature = p.array[SWEEP_TEMPERATURE]};
     return &all[sweep->n_isotherms++];
 }
 
@@ -223,12 +226,12 @@ static bool are_equal_numbers(const double *a, const double *b, size_t n)
     return memcmp(a, b, n * sizeof *a) == 0;
 }
 
-/* The strain is ignored, because it is no result of an isotherm or a temperature sweep. */
+/* Strain and temperature are ignored, because they are no results. */
 static bool is_duplicate(sweep_points a, sweep_points b)
 {
     bool same = a.n == b.n && is_same_sample(a.sample, b.sample);
     for (size_t j = 0; same && j < SWEEP_ARRAYS; j++)
-        same = j == SWEEP_STRAIN || are_equal_numbers(a.array[j], b.array[j], a.n);
+        same = j == SWEEP_STRAIN || j == SWEEP_TEMPERATURE || are_equal_numbers(a.array[j], b.array[j], a.n);
     return same;
 }
 

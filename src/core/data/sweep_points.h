@@ -12,6 +12,7 @@ enum {
     SWEEP_LOSS,
     SWEEP_STRAIN, /* also NULL in a strain sweep */
     SWEEP_LOSS_FACTOR,
+    SWEEP_TEMPERATURE, /* of an isotherm that drifts */
     SWEEP_ARRAYS
 };
 typedef struct sweep_points {

@@ -35,6 +35,20 @@ static void name_isotherm(const sweep_builder *b, wt_isotherm *isotherm)
     strcat(isotherm->source, amplitude);
 }
 
+/* True if the temperature of the collected rows changes from the first to the last third by more
+ * than a sensor scatters, and the header states no set temperature. */
+static bool temperature_drifts(const sweep_builder *b)
+{
+    static const double drift_least = 0.3; /* [K] */
+    const size_t n = b->n / 3;
+    double change = 0;
+    for (size_t i = 0; i < n; i++)
+        change += sweep_temperature(b, b->rows[b->n - 1 - i]) - sweep_temperature(b, b->rows[i]);
+    return n > 0 && fabs(change) > drift_least * (double)n &&
+           (isnan(b->table->header.value[HEADER_TEMPERATURE]) ||
+            b->table->header.priority[HEADER_TEMPERATURE] != HEADER_OVERRIDES);
+}
+
 /* Creates an isotherm from the collected rows, if the frequency varies. */
 static wt_status finish_isotherm(sweep_builder *b)
 {
@@ -54,9 +68,10 @@ static wt_status finish_isotherm(sweep_builder *b)
         return WT_OK;
     }
     warn_shifted(b, low, high);
-    wt_isotherm *isotherm = wt_sweep_add(b->sweep, b->n, sweep_optional_arrays(&b->c));
-    if (isotherm == NULL)
-        return wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm");
+    wt_isotherm *isotherm =
+        wt_sweep_add(b->sweep, b->n,
+                     sweep_optional_arrays(&b->c) |
+                         (temperature_drifts(b) ? (unsigned)WT_SWEEP_HAS_TEMPERATURE : 0));
     for (size_t i = 0; i < b->n; i++) {
         isotherm->angular_frequency[i] = sweep_angular_frequency(b, b->rows[i]);
         isotherm->storage_modulus[i] = sweep_storage_modulus(b, b->rows[i]);
@@ -65,6 +80,8 @@ static wt_status finish_isotherm(sweep_builder *b)
             isotherm->strain[i] = text_table_value(b->table, b->rows[i], b->c.strain);
         if (isotherm->loss_factor != NULL)
             isotherm->loss_factor[i] = sweep_loss_factor(b, b->rows[i]);
+        if (isotherm->point_temperature != NULL)
+            isotherm->point_temperature[i] = sweep_temperature(b, b->rows[i]);
     }
     name_isotherm(b, isotherm);
     wt_status status =
