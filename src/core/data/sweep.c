@@ -9,11 +9,10 @@
 
 sweep_points isotherm_points(const wt_isotherm *t)
 {
-    return (sweep_points){
-        {t->angular_frequency, t->storage_modulus, t->loss_modulus, t->strain, t->loss_factor,
-         t->point_temperature},
-        t->n,
-        t->sample};
+    return (sweep_points){{t->angular_frequency, t->storage_modulus, t->loss_modulus, t->strain,
+                           t->loss_factor, t->point_temperature},
+                          t->n,
+                          t->sample};
 }
 
 sweep_points ramp_points(const wt_ramp *t)
@@ -231,7 +230,8 @@ static bool is_duplicate(sweep_points a, sweep_points b)
 {
     bool same = a.n == b.n && is_same_sample(a.sample, b.sample);
     for (size_t j = 0; same && j < SWEEP_ARRAYS; j++)
-        same = j == SWEEP_STRAIN || j == SWEEP_TEMPERATURE || are_equal_numbers(a.array[j], b.array[j], a.n);
+        same = j == SWEEP_STRAIN || j == SWEEP_TEMPERATURE ||
+               are_equal_numbers(a.array[j], b.array[j], a.n);
     return same;
 }
 

@@ -512,9 +512,8 @@ static double shift_slope(const wt_master *m, size_t i)
     while (after + 1 < m->n_shifts && (after == i || !m->shifts[after].determined))
         after++;
     const wt_master_shift *const a = &m->shifts[m->shifts[before].determined ? before : i],
-                          *const b = &m->shifts[m->shifts[after].determined ? after : i];
-    const double slope =
-        (b->log_a.value - a->log_a.value) / (b->temperature - a->temperature);
+                                 *const b = &m->shifts[m->shifts[after].determined ? after : i];
+    const double slope = (b->log_a.value - a->log_a.value) / (b->temperature - a->temperature);
     return isfinite(by_law) ? by_law : isfinite(slope) ? slope : 0;
 }
 
