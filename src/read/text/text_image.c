@@ -28,6 +28,23 @@ static void name_image(const image_builder *m, wt_image *head, const char *other
 
 /* ---- matrix ---------------------------------------------------------------------------------- */
 
+/* Warns of pixels that are higher than wide: rows may be missing, from which a wrong size of a
+ * pixel follows. The width and height of the header are those of the complete image. */
+static void check_pixel_shape(const image_builder *m)
+{
+    static const double ratio_least = 1.2;
+    const text_table *const t = m->table;
+    const double ratio = t->header.value[HEADER_HEIGHT] / (double)t->n_rows /
+                         (t->header.value[HEADER_WIDTH] / (double)t->n_columns);
+    if (ratio > ratio_least && t->n_rows > 1)
+        wt_log_action(m->log, WT_WARNING, WT_CONTRADICTED, 0, "pixel-size", m->file->name,
+                      format_line_position(t->names_line).text,
+                      "the pixels are not square: %.3g times as high as wide, by %zu rows and the "
+                      "height in the header; if rows were cut off, all slopes are wrong: give the "
+                      "true size with --pixel-size",
+                      ratio, t->n_rows);
+}
+
 /* Adds a matrix; its first line is the upper edge. */
 static wt_status add_matrix_image(const image_builder *m)
 {
@@ -41,6 +58,7 @@ static wt_status add_matrix_image(const image_builder *m)
     if (status != WT_OK)
         return status;
     name_image(m, &head, "matrix");
+    check_pixel_shape(m);
     if (isnan(pixel))
         images_set_size(&head, stated[HEADER_WIDTH], stated[HEADER_HEIGHT]);
     else
