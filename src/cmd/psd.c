@@ -12,7 +12,7 @@ int cmd_psd(int argc, char **argv)
             "friction and layer take it: with errors, the reliable range, "
             "a self-affine law and the roughness numbers of every scan. Scans of several sizes "
             "are stitched, several places averaged. Folders and patterns are allowed.",
-        .common = "output formats files-from provenance cost",
+        .common = "output formats columns files-from provenance cost",
         .notes = "The tables power_spectrum, place_errors (of scans of several sizes), "
                  "angular_spectrum (of height maps), surfaces, "
                  "scan_spectra (with --scans), height_map (of height maps) and height_profile "

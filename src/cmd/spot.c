@@ -12,7 +12,7 @@ int cmd_spot(int argc, char **argv)
             "contact against the depth, and whether the spot is too rough for it. With an "
             "image after it (--after): the imprint that stayed, its depth and volume with "
             "their errors; drift between the images is found.",
-        .common = "output formats provenance cost",
+        .common = "output formats columns provenance cost",
         .n_files = 1};
     wt_indent_job indent = wt_indent_job_defaults();
     wt_spot_job job = wt_spot_job_defaults();

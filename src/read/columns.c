@@ -44,20 +44,20 @@ static wt_status parse_column_option(const char *text, column_option *column, wt
     return WT_OK;
 }
 
-/* A kind of data and the id of its plain table. */
+/* A kind of data, the id of its plain table, and the score of that. */
 typedef struct base_table {
     unsigned kind;
-    const char *id;
+    const char *id, *score;
 } base_table;
 
 /* Selects the plain table that contains the quantities of the columns. */
 static const base_table *select_base_table(const column_option *columns, size_t n)
 {
-    static const base_table bases[] = {{WT_KIND_FORCE, "table-force"},
-                                       {WT_KIND_SPECTRUM, "table-spectrum"},
-                                       {WT_KIND_NOISE, "table-noise"},
-                                       {WT_KIND_RECORD, "table-record"},
-                                       {WT_KIND_SWEEP, "table-units"}};
+    static const char usual[] = "score=\"30\"";
+    static const base_table bases[] = {
+        {WT_KIND_FORCE, "table-force", usual},   {WT_KIND_SPECTRUM, "table-spectrum", usual},
+        {WT_KIND_NOISE, "table-noise", usual},   {WT_KIND_IMAGE, "table-surface", "score=\"20\""},
+        {WT_KIND_RECORD, "table-record", usual}, {WT_KIND_SWEEP, "table-units", usual}};
     const size_t last = sizeof bases / sizeof *bases - 1;
     const wt_quantity_set sweep_quantities =
         kind_quantities(bases[last].kind); /* a frequency belongs to sweeps and to noise */
@@ -102,7 +102,7 @@ static wt_status write_description(const base_table *base, const char *xml,
                                    const column_option *columns, size_t n, char **text,
                                    size_t *length, wt_error *err)
 {
-    static const char score[] = "score=\"30\"";
+    const char *const score = base->score;
     const char *const detect = strstr(xml, "<detect>");
     const char *const scored = detect != NULL ? strstr(detect, score) : NULL;
     const char *const first = scored != NULL ? strstr(scored, "<column ") : NULL;
