@@ -43,17 +43,6 @@ typedef struct wt_layer_state {
                              that of the bulk */
 } wt_layer_state;
 
-/* Shear stress of the real contact on a layer: that of the bulk times (E_layer / E_bulk)^exponent,
- * constant or approached with the thickness. Reconstructed from the list in Mokhtari 2015. */
-typedef struct wt_layer_shear {
-    double exponent;             /* default 1 */
-    double transition_thickness; /* thickness for 1 - 1/e of the change [m]; 0 (default): full
-                     change at any thickness */
-} wt_layer_shear;
-WT_API wt_layer_shear wt_layer_shear_defaults(void);
-/* Returns the shear stress [Pa]. bulk: that of the bulk [Pa]. */
-WT_API double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_state layer);
-
 /* ---- contact and friction ------------------------------------------------------------------- */
 
 /* Flash temperature: Persson, J. Phys.: Condens. Matter 18 (2006) 7789. The heat of each length

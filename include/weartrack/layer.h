@@ -55,9 +55,6 @@ typedef struct wt_layer_parameters {
     bool skip_numerical_errors; /* skips numerical errors that cost more than the number itself
                                    (NaN) */
     bool balance_only;          /* skips the incubation time of a steady state (NaN) */
-    double severity_power; /* severity: k (1 + (power / severity_power)^severity_exponent) [W/m^2];
-                              0 = constant k */
-    double severity_exponent; /* > 0; default 1 */
 } wt_layer_parameters;
 WT_API wt_layer_parameters wt_layer_defaults(void);
 WT_API const wt_params *wt_layer_params(void);
@@ -75,7 +72,7 @@ typedef struct wt_layer_steady_state {
     double formation_rate_zero;         /* Qf(0) [m/s] */
     double wear_rate;                   /* Qw [m/s] */
     double ratio;                       /* R = Qf(0)/Qw, infinite without wear */
-    double critical_specific_wear_rate; /* critical k*, before the severity factor [m^2/N] */
+    double critical_specific_wear_rate; /* critical k* [m^2/N] */
     double ratio_error;    /* relative numerical error of ratio and k*, and of a calibrated critical
                               energy */
     wt_estimate thickness; /* steady-state thickness delta_total [m]; infinite without wear */
@@ -101,10 +98,9 @@ typedef struct wt_layer_point {
     double wear_rate;      /* [m/s] */
 } wt_layer_point;
 /* Computes the thickness at n times (any order, >= 0) at constant load; points: [n].
- * With the rate balance, call it once for each load, starting from the last thickness; with damage
- * transport use wt_layer_sections. With `incubation` the thickness is that of the deepest modified
- * point, as a profile that peaks below the surface begins as a buried band. A start thickness is
- * then old layer that wears off from the top. */
+ * With `incubation` the thickness is that of the deepest modified point, as a profile that peaks
+ * below the surface begins as a buried band. A start thickness is then old layer that wears off from
+ * the top. */
 WT_API wt_status wt_layer_history(const wt_energy_source *source,
                                   const wt_layer_parameters *parameters, const double *time,
                                   size_t n, wt_layer_point *points, wt_error *err) WT_NODISCARD;
@@ -124,108 +120,6 @@ WT_API double wt_layer_exponential_thickness(double start_thickness, double kapp
  * no effect. */
 WT_API double wt_layer_calibrate(const wt_energy_source *source,
                                  const wt_layer_parameters *parameters, double thickness);
-
-/* ---- loads that follow one another ---------------------------------------------------------- */
-
-/* One load of a load history. */
-typedef struct wt_layer_load {
-    const wt_energy_source *source; /* borrowed */
-    wt_layer_parameters
-        parameters;  /* `incubation` is ignored; start_thickness is that of the first load */
-    double duration; /* [s], >= 0 */
-} wt_layer_load;
-
-/* Modified rubber between two depths below the surface. */
-typedef struct wt_layer_band {
-    wt_estimate upper, lower; /* [m] */
-} wt_layer_band;
-
-/* Maximum number of modified bands in a wt_layer_section. */
-enum { WT_LAYER_MAX_BANDS = 8 };
-typedef struct wt_layer_section {
-    double time, worn; /* time [s]; depth worn off so far [m] */
-    size_t n; /* number of bands; if more than WT_LAYER_MAX_BANDS, only the deepest are stored */
-    wt_layer_band band[WT_LAYER_MAX_BANDS]; /* deepest first */
-} wt_layer_section;
-/* Computes exact damage transport under successive loads. The state is the damage at every depth,
- * so that splitting a load changes nothing. Times [s] count from the start of the first load, in
- * any order; the last load continues for ever. sections: [n]. */
-WT_API wt_status wt_layer_sections(const wt_layer_load *stages, size_t n_stages, const double *time,
-                                   size_t n, wt_layer_section *sections,
-                                   wt_error *err) WT_NODISCARD;
-/* Computes the damage relative to the modification threshold at a depth below the surface at a
- * time. */
-WT_API wt_status wt_layer_damage(const wt_layer_load *stages, size_t n_stages, double time,
-                                 double depth, double *damage, wt_error *err) WT_NODISCARD;
-
-/* Events in the life of modified bands. */
-typedef enum wt_layer_event_kind {
-    WT_LAYER_BAND_ONSET,      /* a band forms below the surface */
-    WT_LAYER_SURFACE_ONSET,   /* a band forms at the surface */
-    WT_LAYER_SURFACE_REACHED, /* a buried band reaches the surface */
-    WT_LAYER_BANDS_MERGE,
-    WT_LAYER_WORN_OFF /* a band is worn off down to its lower edge */
-} wt_layer_event_kind;
-typedef struct wt_layer_event {
-    wt_layer_event_kind kind;
-    double time, depth; /* [s], [m] */
-} wt_layer_event;
-/* Computes the events at constant load in order. events: [most] receives the first ones; *n is
- * their total number. Two events within 1 % of the time that cancel each other are not detected. */
-WT_API wt_status wt_layer_events(const wt_energy_source *source,
-                                 const wt_layer_parameters *parameters, wt_layer_event *events,
-                                 size_t most, size_t *n, wt_error *err) WT_NODISCARD;
-/* Variant for successive loads on initially unmodified rubber; the last load continues for ever.
- * Events within 4 % of the time since a load began may cancel undetected. wt_layer_first_event
- * returns only the first; its time is NaN if nothing is ever modified. */
-WT_API wt_status wt_layer_load_events(const wt_layer_load *stages, size_t n_stages,
-                                      wt_layer_event *events, size_t most, size_t *n,
-                                      wt_error *err) WT_NODISCARD;
-WT_API wt_status wt_layer_first_event(const wt_layer_load *stages, size_t n_stages,
-                                      wt_layer_event *event, wt_error *err) WT_NODISCARD;
-
-/* ---- a layer that acts back on its energy --------------------------------------------------- */
-
-/* Callback for a layer with feedback on its energy: computes the energy source and the parameters
- * under a layer of a thickness [m]. The caller clears the source. */
-typedef wt_status (*wt_layer_energy_fn)(double thickness, void *user, wt_energy_source *source,
-                                        wt_layer_parameters *parameters, wt_error *err);
-
-/* A thickness at which formation under the layer equals wear. 0: bare surface where formation does
- * not exceed wear. An unstable root is the threshold thickness for growth. */
-typedef struct wt_layer_root {
-    double thickness;  /* [m] */
-    bool stable;       /* the thickness returns to it after a small perturbation */
-    double map_slope;  /* slope of the steady-state thickness (for the energy under a layer) against
-                          the thickness of that layer; stable below 1; NaN for the bare surface */
-    double eigenvalue; /* [1/s]; NaN for the bare surface */
-} wt_layer_root;
-
-/* Fold: two roots merge as the wear rate changes. */
-typedef struct wt_layer_fold {
-    double thickness, specific_wear_rate; /* [m], [m^2/N] */
-    bool maximum; /* the pair vanishes above that wear rate, else below it */
-} wt_layer_fold;
-
-enum { WT_LAYER_MAX_ROOTS = 8 };
-typedef struct wt_layer_feedback {
-    size_t n_roots, n_folds;
-    wt_layer_root root[WT_LAYER_MAX_ROOTS]; /* thinnest first */
-    wt_layer_fold fold[WT_LAYER_MAX_ROOTS];
-    double low, high; /* search interval [m] */
-    double ratio;     /* R of the bare surface */
-} wt_layer_feedback;
-/* Finds the roots between two thicknesses [m] on a grid of `grid` values of constant ratio. Two
- * roots closer than one step are not detected. */
-WT_API wt_status wt_layer_feedback_solve(wt_layer_energy_fn energy, void *user, double low,
-                                         double high, size_t grid, wt_layer_feedback *loop,
-                                         wt_error *err) WT_NODISCARD;
-/* Computes the thickness by the rate balance from the bare surface to the lowest stable root, as
- * wt_layer_history. */
-WT_API wt_status wt_layer_feedback_history(wt_layer_energy_fn energy, void *user,
-                                           const wt_layer_feedback *loop, const double *time,
-                                           size_t n, wt_layer_point *points,
-                                           wt_error *err) WT_NODISCARD;
 
 /* ---- identification of a layer -------------------------------------------------------------- */
 

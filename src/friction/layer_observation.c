@@ -160,23 +160,6 @@ wt_status wt_layer_observation_from_rates(const wt_table *comparison, const wt_t
     return WT_OK;
 }
 
-wt_layer_shear wt_layer_shear_defaults(void)
-{
-    return (wt_layer_shear){.exponent = 1};
-}
-
-double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_state layer)
-{
-    double stress = bulk;
-    if (layer.thickness > 0) {
-        const double whole = pow(layer.modulus_ratio, shear->exponent);
-        stress *= shear->transition_thickness > 0
-                      ? 1 - (whole - 1) * expm1(-layer.thickness / shear->transition_thickness)
-                      : whole;
-    }
-    return stress;
-}
-
 wt_layer_observation wt_layer_observation_defaults(void)
 {
     const double unknown = (double)NAN;
@@ -370,8 +353,6 @@ wt_layer_state sliding_layer_state(const wt_layer_observation *observation, uint
 double sliding_layer_shear_stress(const wt_layer_observation *observation, double bulk,
                                   wt_layer_state layer)
 {
-    if (observation == NULL)
-        return bulk;
-    const wt_layer_shear shear = {.exponent = observation->bulk_shear ? 0 : 1};
-    return wt_layer_shear_stress(&shear, bulk, layer);
+    const bool scaled = observation != NULL && !observation->bulk_shear && layer.thickness > 0;
+    return scaled ? bulk * layer.modulus_ratio : bulk;
 }

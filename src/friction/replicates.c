@@ -217,25 +217,6 @@ static double *create_draw_matrix(const replicates *r)
     return z;
 }
 
-bool replicates_line_positions(const replicates *r, size_t k, double *at)
-{
-    double *const z = create_draw_matrix(r);
-    double b[MAX_COEFFICIENTS], square = 0;
-    const size_t p = r->n_draws + 1;
-    size_t n;
-    bool known = fit_line(r, z, k, b, &n);
-    for (size_t u = 1; known && u < p; u++)
-        square += b[u] * b[u];
-    known = known && square > 0;
-    for (size_t i = 0; known && i < r->n; i++) {
-        at[i] = 0;
-        for (size_t u = 1; u < p; u++)
-            at[i] += b[u] * z[i * p + u] / sqrt(square);
-    }
-    free(z);
-    return known;
-}
-
 static void compute_standard_errors(replicates *r)
 {
     double *const z = create_draw_matrix(r);

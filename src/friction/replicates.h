@@ -47,10 +47,6 @@ typedef wt_status (*replicate_fn)(const void *user, size_t replicate, double *ou
  * excluded and counted. */
 wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const void *user,
                           wt_error *err) WT_NODISCARD;
-/* Position of each replicate along the linear fit of quantity k, in standard deviations: a sample
- * of a standard normal variable. at [n] belongs to the caller. Returns false if there are too
- * few replicates for a fit, or if no draw has an effect. */
-bool replicates_line_positions(const replicates *r, size_t k, double *at);
 void replicates_clear(replicates *r);
 
 #endif

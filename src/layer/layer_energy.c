@@ -18,12 +18,10 @@ static wt_layer_state layer_state(const layer_context *context, double thickness
                          : (wt_layer_state){.modulus_ratio = 1};
 }
 
-static void set_total(const layer_context *context, wt_layer_state layer, layer_friction *f)
+static void set_total(const layer_context *context, double thickness, layer_friction *f)
 {
-    const wt_layer_shear law = {.exponent = context->shear_exponent};
-    layer.modulus_ratio = f->ratio;
-    f->total = f->hysteresis +
-               wt_layer_shear_stress(&law, f->bulk_stress, layer) * f->area_ratio / f->pressure;
+    const double ratio = thickness > 0 && !context->bulk_shear ? f->ratio : 1;
+    f->total = f->hysteresis + f->bulk_stress * ratio * f->area_ratio / f->pressure;
 }
 
 /* Smallest ratio of the thickest to the thinnest layer for interpolation: nodes must be distinct.
@@ -89,7 +87,7 @@ wt_status layer_friction_model_evaluate(const layer_friction_model *model, doubl
     f->pressure = model->pressure;
     f->ratio = layer.slope.exponent != 0 ? akima_curve_value(model->curve[NODE_MODULUS_RATIO], x)
                                          : layer.modulus_ratio;
-    set_total(model->context, layer, f);
+    set_total(model->context, thickness, f);
     return WT_OK;
 }
 
@@ -153,7 +151,7 @@ wt_status layer_compute_friction(const layer_context *context, double thickness,
             .bulk_stress = c.shear_stress,
             .pressure = c.pressure,
             .ratio = sliding_layer_at_shear_rate(&c, layer, velocity).modulus_ratio};
-        set_total(context, layer, friction);
+        set_total(context, thickness, friction);
     }
     sliding_contact_clear(&c);
     return status;

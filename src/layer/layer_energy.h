@@ -49,7 +49,7 @@ typedef struct layer_context {
     wt_material_cache *drawn; /* cache of the materials of the replicates; NULL if none */
     double modulus_ratio;     /* modulus ratio of the layer; NaN if unknown */
     wt_ratio_slope slope;     /* frequency dependence of the modulus ratio */
-    double shear_exponent;    /* of the modulus ratio in the shear stress of the layer */
+    bool bulk_shear;          /* shear stress of the bulk for the layer, not times the ratio */
 } layer_context;
 
 /* Computes energy and layer parameters on bare rubber. */

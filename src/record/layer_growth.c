@@ -55,7 +55,7 @@ static wt_status draw_context(const growth_inputs *g, size_t replicate, wt_mater
                                  observation->modulus_ratio, observation->modulus_ratio_df, seed,
                                  replicate, FLOW_DRAW_RATIO),
                              .slope = sliding_layer_ratio_slope(observation, seed, replicate),
-                             .shear_exponent = observation->bulk_shear ? 0 : 1};
+                             .bulk_shear = observation->bulk_shear};
     return status;
 }
 

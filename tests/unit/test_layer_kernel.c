@@ -272,13 +272,10 @@ static void step_in_severity(void **state)
     fclose(in);
     assert_true(found);
     rig r = rig_mild();
-    const double end = point_at(&r, 1000).thickness.value;
+    const wt_layer_point last = point_at(&r, 1000);
+    const double end = last.thickness.value;
     assert_near(end, case_number(c, true, "end_of_stage_1", 0), 1e-12);
-    const wt_layer_load stage = {&r.source, r.parameters, 1000};
-    const double time = 1000;
-    wt_layer_section section;
-    assert_int_equal(wt_layer_sections(&stage, 1, &time, 1, &section, NULL), WT_OK);
-    assert_near(section.worn, case_number(c, true, "worn_in_stage_1", 0), 1e-12);
+    assert_near(last.wear_rate * 1000, case_number(c, true, "worn_in_stage_1", 0), 1e-12);
     r.source.power[0] = 72000;
     r.parameters.pressure = 1.2e6;
     r.parameters.velocity = 0.3;
@@ -588,7 +585,6 @@ static void regimes(void **state)
 {
     (void)state;
     rig r = rig_mild();
-    r.parameters.severity_power = balance_of(&r).surface_power / 3; /* k is four times as large */
     const double critical = balance_of(&r).critical_specific_wear_rate;
     const struct {
         double k;

@@ -28,6 +28,29 @@ typedef struct left_out {
     "of a power law, whose exponent nobody gives: the program has the limit for small ones"
 #define CLOSURE "of bonds over a barrier, which the program does not have"
 #define GIVEN "given, in other words"
+#define BANDS "of buried bands and their history, which the program does not have"
+#define FEEDBACK "of a layer that changes the energy that forms it, which the program does not have"
+#define SEVERITY "of a wear rate that grows with the power, which the program does not have"
+#define RUNNING_IN "of friction in running-in, which validate predicts for a record"
+/* Damage along loads is that of bands; without wear the edge is checked by other cases. */
+#define BANDS_OF(id)                                                                               \
+    {id, "edges_m", BANDS, 0}, {id, "depth_m", BANDS, 0},                                          \
+    {                                                                                              \
+        id, "t_s", BANDS, 0                                                                        \
+    }
+#define STEPS_OF(id)                                                                               \
+    {id, "transport_edges_m", BANDS, 0}, {id, "damage_at_1um", BANDS, 0},                          \
+    {                                                                                              \
+        id, "worn_m", BANDS, 0                                                                     \
+    }
+#define RUNNING_IN_OF(id)                                                                          \
+    {id, "tau_layer_Pa", RUNNING_IN, 0}, {id, "mu_start", RUNNING_IN, 0},                          \
+        {id, "mu_end_switch", RUNNING_IN, 0}, {id, "mu_end_saturating", RUNNING_IN, 0},            \
+        {id, "mu_switch_ode", RUNNING_IN, 0}, {id, "mu_switch_transport", RUNNING_IN, 0},          \
+        {id, "mu_saturating_ode", RUNNING_IN, 0},                                                  \
+    {                                                                                              \
+        id, "mu_saturating_transport", RUNNING_IN, 0                                               \
+    }
 
 static left_out list[] = {
     {"K_layered_modulus", "interp_E_eff_over_El",
@@ -49,11 +72,24 @@ static left_out list[] = {
     {"velocity_ramp", "t_s", GIVEN ": as times at the last velocity that make the same distance",
      0},
     {"velocity_ramp", "sliding_distance_m", GIVEN ": likewise", 0},
-    {"loop_soft", "rel_difference_of_two_discretisations", ITSELF, 0},
-    {"loop_stiff_bistable", "rel_difference_of_two_discretisations", ITSELF, 0},
-    {"loop_stiff_three_roots", "rel_difference_of_two_discretisations", ITSELF, 0},
-    {"loop_own_viscoelasticity", "rel_difference_of_two_discretisations", ITSELF, 0},
-    {"running_in_full", "rel_difference_of_two_discretisations", ITSELF, 0},
+    {"loop_soft", NULL, FEEDBACK, 0},
+    {"loop_stiff_bistable", NULL, FEEDBACK, 0},
+    {"loop_stiff_three_roots", NULL, FEEDBACK, 0},
+    {"loop_own_viscoelasticity", NULL, FEEDBACK, 0},
+    {"running_in_full", NULL, FEEDBACK, 0},
+    {"severity_m1.5", NULL, SEVERITY, 0},
+    {"severity_three_waves", NULL, SEVERITY, 0},
+    {"window_in_velocity", NULL, SEVERITY, 0},
+    BANDS_OF("buried_with_wear"),
+    BANDS_OF("two_places_m0.3"),
+    BANDS_OF("two_places_m0.4"),
+    BANDS_OF("two_waves"),
+    BANDS_OF("two_waves_with_wear"),
+    BANDS_OF("two_waves_with_more_wear"),
+    STEPS_OF("steps_pressure_velocity_temperature"),
+    STEPS_OF("steps_layer_removed_and_back"),
+    RUNNING_IN_OF("running_in_rules"),
+    RUNNING_IN_OF("running_in_rules_three_waves"),
     {"ball_prony_slow", "weighted_difference_of_two_rules", ITSELF, 0},
     {"ball_prony_fast", "weighted_difference_of_two_rules", ITSELF, 0},
     {"ball_zener", "weighted_difference_of_two_rules", ITSELF, 0},
@@ -232,8 +268,8 @@ static walk walk_through(const char *path)
 static void every_number_is_expected(void **state)
 {
     (void)state;
-    static const char *const files[] = {"layer",      "layer-beyond", "layer-loop",
-                                        "layer-data", "layer-around", "group_comparison"};
+    static const char *const files[] = {"layer", "layer-beyond", "layer-data", "layer-around",
+                                        "group_comparison"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         read_expected(files[i]);
     const walk first = walk_through(REFERENCE "tribolayer.json"),

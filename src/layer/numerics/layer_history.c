@@ -1,11 +1,11 @@
 /* Thickness against time at constant load, by closed form, damage transport or the rate balance,
- * which is integrated here.
+ * which is integrated here; and the balance of formation and wear: thickness, stability and
+ * relaxation, and the removal of a layer without a balance.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "core/base/array.h"
 #include "core/math/gauss_legendre.h"
-#include "layer/numerics/energy_density_kernel.h"
 #include "layer/numerics/layer_kernel.h"
 
 #include <float.h>
@@ -27,6 +27,11 @@ static const double subinterval_goal = 1e-12;
 
 /* Formation is neglected below this share of wear. */
 static const double log_negligible = -41.5; /* 1e-18 */
+
+typedef struct layer_instant {
+    double time;
+    wt_layer_point *point;
+} layer_instant;
 
 typedef struct integration {
     const layer_rates *rates;
@@ -142,11 +147,9 @@ static wt_estimate thickness_estimate(const integration *m, double thickness, do
 {
     const double rate = fabs(net_rate(m->rates, thickness));
     const double relative = rounding_error(m->rates, thickness);
-    /* the sensitivity of the time to the wear is at most the sum of this and the time */
-    const double of_wear = m->rates->wear_error * (sensitivity + time);
-    const double error = rate * (time_error + relative * time +
-                                 (m->rates->error + relative) * sensitivity + of_wear) +
-                         4 * DBL_EPSILON * thickness;
+    const double error =
+        rate * (time_error + relative * time + (m->rates->error + relative) * sensitivity) +
+        4 * DBL_EPSILON * thickness;
     return (wt_estimate){.value = fmax(thickness, 0), .numerical_error = error, .unit = "m"};
 }
 
@@ -172,11 +175,7 @@ static wt_status begin_integration(integration *m, const layer_rates *rates, dou
                                    wt_estimate *target, double *linear, wt_error *err)
 {
     *m = (integration){.rates = rates, .thickness = start};
-    wt_status status = WT_OK;
-    if (rates->feedback != NULL)
-        *target = (wt_estimate){.value = rates->feedback->target, .unit = "m"};
-    else
-        status = layer_fixed_point(rates, 0, target, err);
+    const wt_status status = layer_fixed_point(rates, 0, target, err);
     m->low = gauss_rule_get(LOW_NODES);
     m->high = gauss_rule_get(HIGH_NODES);
     m->target = target->value;
@@ -186,8 +185,9 @@ static wt_status begin_integration(integration *m, const layer_rates *rates, dou
     return status == WT_OK ? skip_pure_wear(m, linear, err) : status;
 }
 
-wt_status layer_integrate_thickness(const layer_rates *rates, double start, const layer_instant *at,
-                                    size_t n, wt_error *err)
+/* Rate balance: sets the thickness, but no other member, of the points at n rising times. */
+static wt_status integrate_thickness(const layer_rates *rates, double start,
+                                     const layer_instant *at, size_t n, wt_error *err)
 {
     integration m;
     wt_estimate target;
@@ -262,8 +262,10 @@ static double integrate_to_thickness(integration *m, double goal, double linear)
     return m->time;
 }
 
-wt_status layer_integrate_time(const layer_rates *rates, double start, wt_estimate goal,
-                               wt_estimate *time, wt_error *err)
+/* Rate balance: time from one thickness to another on the path to the balance or to the bare
+ * surface; infinite if it is not on the path. */
+static wt_status integrate_time(const layer_rates *rates, double start, wt_estimate goal,
+                                wt_estimate *time, wt_error *err)
 {
     *time = (wt_estimate){.unit = "s"};
     if (start == goal.value)
@@ -282,7 +284,6 @@ wt_status layer_integrate_time(const layer_rates *rates, double start, wt_estima
         time->value = integrate_to_thickness(&m, goal.value, linear);
         time->numerical_error = m.time_error + relative * time->value +
                                 (rates->error + relative) * m.sensitivity +
-                                rates->wear_error * (m.sensitivity + time->value) +
                                 (goal.numerical_error + 4 * DBL_EPSILON * start) / fabs(there);
     }
     return status;
@@ -327,8 +328,7 @@ static wt_status history_damage(const layer_rates *rates, double start, const la
             grown.value = old;
             grown.numerical_error = rates->skip_numerical_errors
                                         ? (double)NAN
-                                        : fmax(grown.numerical_error, 4 * DBL_EPSILON * start) +
-                                              rates->wear_error * rates->wear * at[i].time;
+                                        : fmax(grown.numerical_error, 4 * DBL_EPSILON * start);
         }
         at[i].point->thickness = grown;
     }
@@ -348,16 +348,14 @@ static void history_exponential(const layer_rates *rates, double kappa, double s
                                 const double *time, size_t n, wt_layer_point *points)
 {
     const double relative = rates->error + 8 * DBL_EPSILON;
-    const double least_wear = rates->wear * fmax(0, 1 - rates->wear_error),
-                 most_wear = rates->wear * (1 + rates->wear_error);
     for (size_t i = 0; i < n; i++) {
         const double formation = rates->formation;
         const double value =
             wt_layer_exponential_thickness(start, kappa, formation, rates->wear, time[i]);
         const double more = wt_layer_exponential_thickness(start, kappa, formation * (1 + relative),
-                                                           least_wear, time[i]);
+                                                           rates->wear, time[i]);
         const double less = wt_layer_exponential_thickness(
-            start, kappa, formation * fmax(0, 1 - relative), most_wear, time[i]);
+            start, kappa, formation * fmax(0, 1 - relative), rates->wear, time[i]);
         points[i].thickness = (wt_estimate){
             .value = value,
             .numerical_error = fmax(more - value, value - less) +
@@ -366,20 +364,8 @@ static void history_exponential(const layer_rates *rates, double kappa, double s
     }
 }
 
-wt_status layer_history_sorted(const layer_rates *rates, double start, bool transport,
-                               const double *time, size_t n, wt_layer_point *points, wt_error *err)
-{
-    layer_instant *order = wt_alloc(n + 1, sizeof *order);
-    for (size_t i = 0; i < n; i++)
-        order[i] = (layer_instant){time[i], &points[i]};
-    qsort(order, n, sizeof *order, numbers_compare);
-    const wt_status status = transport ? history_damage(rates, start, order, n, err)
-                                       : layer_integrate_thickness(rates, start, order, n, err);
-    free(order);
-    return status;
-}
-
-wt_status layer_times_check(const double *time, size_t n, wt_error *err)
+/* Returns WT_E_RANGE with the invalid time. */
+static wt_status check_times(const double *time, size_t n, wt_error *err)
 {
     for (size_t i = 0; i < n; i++)
         if (!(time[i] >= 0) || !isfinite(time[i])) {
@@ -399,19 +385,140 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
     layer_rates rates;
     wt_status status = layer_rates_compute(source, parameters, &rates, err);
     if (status == WT_OK)
-        status = layer_times_check(time, n, err);
+        status = check_times(time, n, err);
     if (status != WT_OK || n == 0)
         return status;
-    const double kappa = single_kappa(&rates);
-    if (kappa > 0 && !parameters->incubation)
-        history_exponential(&rates, kappa, parameters->start_thickness, time, n, points);
+    const double kappa = single_kappa(&rates), start = parameters->start_thickness;
+    layer_instant *const order = wt_alloc(n, sizeof *order);
+    for (size_t i = 0; i < n; i++)
+        order[i] = (layer_instant){time[i], &points[i]};
+    qsort(order, n, sizeof *order, numbers_compare);
+    if (parameters->incubation)
+        status = history_damage(&rates, start, order, n, err);
+    else if (kappa > 0)
+        history_exponential(&rates, kappa, start, time, n, points);
     else
-        status = layer_history_sorted(&rates, parameters->start_thickness, parameters->incubation,
-                                      time, n, points, err);
+        status = integrate_thickness(&rates, start, order, n, err);
+    free(order);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         points[i].time = time[i];
         points[i].formation_rate = layer_formation_rate(&rates, points[i].thickness.value);
         points[i].wear_rate = rates.wear;
     }
     return status;
+}
+
+/* ---- balance -------------------------------------------------------------------------------- */
+
+static wt_layer_regime classify_regime(double log_ratio)
+{
+    if (!(log_ratio > 0))
+        return WT_LAYER_NONE;
+    return log_ratio < 1 ? WT_LAYER_THIN : WT_LAYER_THICK;
+}
+
+static wt_estimate time_estimate(double value, double error)
+{
+    return (wt_estimate){.value = value, .numerical_error = error, .unit = "s"};
+}
+
+/* Removal time of the initial layer. With damage transport no new layer forms for R <= 1: the old
+ * layer is worn from the top. */
+static wt_estimate compute_removal_time(const layer_rates *rates, double start)
+{
+    if (start == 0)
+        return time_estimate(0, 0);
+    const double time = rates->wear > 0 ? start / rates->wear : HUGE_VAL;
+    return time_estimate(time, 4 * DBL_EPSILON * time);
+}
+
+/* 1/(kappa Qw) at the balance; its error follows from those of the thickness and of kappa. */
+static wt_estimate compute_relaxation_time(const layer_rates *rates, wt_estimate thickness)
+{
+    const double rate =
+        rates->wear > 0 ? rates->wear * layer_decay_rate(rates, thickness.value) : 0;
+    if (!(rate > 0))
+        return time_estimate(HUGE_VAL, 0);
+    const double time = 1 / rate;
+    if (rates->skip_numerical_errors)
+        return time_estimate(time, (double)NAN);
+    const double above = layer_decay_rate(rates, thickness.value + thickness.numerical_error);
+    const double below =
+        layer_decay_rate(rates, fmax(0, thickness.value - thickness.numerical_error));
+    const double moved =
+        fmax(fabs(1 / (rates->wear * above) - time), fabs(1 / (rates->wear * below) - time));
+    return time_estimate(time, moved + time * (2 * rates->error + 64 * DBL_EPSILON));
+}
+
+wt_status wt_layer_steady_state_compute(const wt_energy_source *source,
+                                        const wt_layer_parameters *parameters,
+                                        wt_layer_steady_state *balance, wt_error *err)
+{
+    if (balance == NULL)
+        return wt_fail(err, WT_E_ARG, "a balance needs a place for the result");
+    layer_rates r;
+    wt_layer_steady_state b = {0};
+    wt_status status = layer_rates_compute(source, parameters, &r, err);
+    if (status == WT_OK)
+        status = layer_fixed_point(&r, 0, &b.thickness, err);
+    b.incubation_time = time_estimate((double)NAN, (double)NAN);
+    if (status == WT_OK && !parameters->balance_only)
+        status = layer_damage_time(&r, parameters->incubation, (wt_estimate){.unit = "m"},
+                                   &b.incubation_time, err);
+    if (status != WT_OK)
+        return status;
+
+    b.surface_power = r.power;
+    b.formation_rate_zero = r.formation;
+    b.wear_rate = r.wear;
+    b.ratio = r.formation == 0 ? 0 : exp(r.log_ratio);
+    b.ratio_error = r.error;
+    b.critical_specific_wear_rate =
+        r.formation == 0
+            ? 0
+            : exp(r.log_power - r.threshold) / (parameters->pressure * parameters->velocity);
+    b.regime = classify_regime(r.log_ratio);
+    b.relaxation_time = compute_relaxation_time(&r, b.thickness);
+    b.eigenvalue = b.regime == WT_LAYER_NONE ? 0 : -1 / b.relaxation_time.value;
+    b.removal_time = time_estimate((double)NAN, (double)NAN);
+    if (b.regime == WT_LAYER_NONE) {
+        if (parameters->incubation)
+            b.removal_time = compute_removal_time(&r, parameters->start_thickness);
+        else
+            status = integrate_time(&r, parameters->start_thickness, (wt_estimate){.unit = "m"},
+                                    &b.removal_time, err);
+    }
+    if (status == WT_OK)
+        *balance = b;
+    return status;
+}
+
+wt_status wt_layer_growth_time(const wt_energy_source *source,
+                               const wt_layer_parameters *parameters, wt_estimate thickness,
+                               wt_estimate *time, wt_error *err)
+{
+    if (time == NULL)
+        return wt_fail(err, WT_E_ARG, "the time of a thickness needs a place for it");
+    layer_rates r;
+    *time = time_estimate((double)NAN, (double)NAN);
+    wt_status status = layer_rates_compute(source, parameters, &r, err);
+    if (status != WT_OK || !(thickness.value > 0))
+        return status;
+    const double start = parameters->start_thickness;
+    if (parameters->incubation)
+        status = layer_damage_time(&r, true, thickness, time, err);
+    else if (start < thickness.value)
+        status = integrate_time(&r, start, thickness, time, err);
+    /* never reached, or the old layer is still thicker at that time */
+    if (isinf(time->value) || start - r.wear * time->value >= thickness.value)
+        *time = time_estimate((double)NAN, (double)NAN);
+    return status;
+}
+
+double wt_layer_calibrate(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                          double thickness)
+{
+    return wt_energy_tail(source, thickness) /
+           (parameters->damage * parameters->specific_wear_rate * parameters->pressure *
+            parameters->velocity);
 }

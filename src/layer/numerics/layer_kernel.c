@@ -4,64 +4,11 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "layer/numerics/layer_kernel.h"
-#include "core/base/memory.h"
 #include "core/base/shared_params.h"
 #include "core/math/root.h"
 
 #include <float.h>
-#include <gsl/gsl_chebyshev.h>
 #include <math.h>
-
-/* Order for a function that is smooth over a factor of two: the last coefficients are rounding. */
-enum { ORDER = 24 };
-
-void feedback_rate_clear(feedback_rate *feedback)
-{
-    for (size_t i = 0; i < feedback->n; i++) {
-        gsl_cheb_free(feedback->subinterval[i].value);
-        gsl_cheb_free(feedback->subinterval[i].slope);
-    }
-    feedback->n = 0;
-}
-
-wt_status feedback_rate_create(feedback_formation_fn f, void *user, double first, double target,
-                               feedback_rate *feedback, wt_error *err)
-{
-    gsl_function function = {f, user};
-    *feedback = (feedback_rate){.target = target};
-    for (double low = 0, high = fmin(first, target); low < target; high *= 2) {
-        if (feedback->n == FEEDBACK_SUBINTERVALS)
-            return wt_fail(err, WT_E_RANGE, "a layer is too thick beside the shortest wave");
-        feedback_subinterval *p = &feedback->subinterval[feedback->n];
-        *p = (feedback_subinterval){low, 2 * high > target ? target : high, gsl_cheb_alloc(ORDER),
-                                    gsl_cheb_alloc(ORDER)};
-        feedback->n++;
-        if (p->value == NULL || p->slope == NULL)
-            out_of_memory(sizeof(gsl_cheb_series));
-        gsl_cheb_init(p->value, &function, p->low, p->high);
-        gsl_cheb_calc_deriv(p->slope, p->value);
-        low = p->high;
-    }
-    return WT_OK;
-}
-
-static const feedback_subinterval *find_subinterval(const feedback_rate *feedback, double thickness)
-{
-    size_t i = 0;
-    while (i + 1 < feedback->n && thickness > feedback->subinterval[i].high)
-        i++;
-    return &feedback->subinterval[i];
-}
-
-static double feedback_rate_log(const feedback_rate *feedback, double thickness)
-{
-    return gsl_cheb_eval(find_subinterval(feedback, thickness)->value, thickness);
-}
-
-static double feedback_rate_slope(const feedback_rate *feedback, double thickness)
-{
-    return gsl_cheb_eval(find_subinterval(feedback, thickness)->slope, thickness);
-}
 
 wt_layer_parameters wt_layer_defaults(void)
 {
@@ -69,7 +16,6 @@ wt_layer_parameters wt_layer_defaults(void)
         .critical_energy = (double)NAN,
         .damage = 1,
         .duty = 1,
-        .severity_exponent = 1,
     };
 }
 
@@ -80,10 +26,6 @@ static const wt_param rows[] = {
      .help = "Lambda, at which the rubber counts as modified"},
     {PARAM("start-thickness", wt_layer_parameters, start_thickness, WT_Q_LENGTH, AT_LEAST(0)),
      .flags = PARAM_ONLY_C, .help = "of the layer at time 0"},
-    {PARAM("severity-power", wt_layer_parameters, severity_power, WT_Q_NONE, AT_LEAST(0)),
-     .flags = PARAM_ONLY_C, .help = "power at which the specific wear rate doubles, W/m^2"},
-    {PARAM("severity-exponent", wt_layer_parameters, severity_exponent, WT_Q_NONE, ABOVE(0)),
-     .flags = PARAM_ONLY_C, .help = "m of the severity power"},
     {PARAM("critical-energy", wt_layer_parameters, critical_energy, WT_Q_ENERGY_DENSITY, ABOVE(0)),
      .flags = PARAM_ONLY_C, .help = "energy per volume that modifies the rubber"},
     {PARAM("pressure", wt_layer_parameters, pressure, WT_Q_PRESSURE, AT_LEAST(0)),
@@ -92,22 +34,6 @@ static const wt_param rows[] = {
      .flags = PARAM_ONLY_C, .help = "of sliding"},
 };
 PARAM_TABLE(wt_layer_params, wt_layer_parameters, rows, wt_layer_defaults, NO_PARTS)
-
-double layer_wear_rate(const wt_layer_parameters *p, double power)
-{
-    return p->severity_power > 0
-               ? p->specific_wear_rate * (1 + pow(power / p->severity_power, p->severity_exponent))
-               : p->specific_wear_rate;
-}
-
-/* Factor from the relative error of the power to that of the wear: m x / (1 + x), x = (power /
- * E_c)^m. */
-static double wear_power_sensitivity(const wt_layer_parameters *p, double power)
-{
-    if (!(p->severity_power > 0) || !(power > 0))
-        return 0;
-    return p->severity_exponent / (1 + pow(power / p->severity_power, -p->severity_exponent));
-}
 
 wt_status layer_rates_compute(const wt_energy_source *source, const wt_layer_parameters *parameters,
                               layer_rates *rates, wt_error *err)
@@ -131,8 +57,7 @@ wt_status layer_rates_compute(const wt_energy_source *source, const wt_layer_par
     r.threshold = log(p->critical_energy) + log(p->damage);
     r.formation = p->duty * (r.power / p->critical_energy / p->damage);
     r.error = source->numerical_error;
-    r.wear = p->duty * layer_wear_rate(p, r.power) * p->pressure * p->velocity;
-    r.wear_error = wear_power_sensitivity(p, r.power) * source->numerical_error;
+    r.wear = p->duty * p->specific_wear_rate * p->pressure * p->velocity;
     /* the density of a wave is proportional to q, and its second derivative to q^3 */
     const double bends = r.power * r.q_max * r.q_max * r.q_max;
     if (!isfinite(r.formation) || !isfinite(r.wear) || !isfinite(bends)) {
@@ -150,8 +75,6 @@ wt_status layer_rates_compute(const wt_energy_source *source, const wt_layer_par
 
 double layer_formation_rate(const layer_rates *rates, double thickness)
 {
-    if (rates->feedback != NULL)
-        return exp(feedback_rate_log(rates->feedback, thickness));
     if (rates->formation == 0)
         return 0;
     const double fall = energy_log_tail(rates->source, thickness) - rates->log_power;
@@ -162,8 +85,6 @@ double layer_formation_rate(const layer_rates *rates, double thickness)
 
 double layer_decay_rate(const layer_rates *rates, double thickness)
 {
-    if (rates->feedback != NULL)
-        return fabs(feedback_rate_slope(rates->feedback, thickness));
     if (rates->formation == 0)
         return 0;
     return exp(energy_log_density(rates->source, thickness) -
@@ -196,8 +117,8 @@ wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estim
 {
     *thickness = (wt_estimate){.unit = "m"};
     double excess = rates->log_ratio - log_scale; /* ln(Qf(0) / (scale Qw)) */
-    const double error = 8 * DBL_EPSILON * (1 + fabs(excess) + fabs(rates->log_power)) +
-                         rates->error + rates->wear_error;
+    const double error =
+        8 * DBL_EPSILON * (1 + fabs(excess) + fabs(rates->log_power)) + rates->error;
     const bool none = !(excess > 0);
     if (none && !rates->skip_numerical_errors) /* largest possible thickness within the error */
         excess += error;
@@ -221,4 +142,314 @@ wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estim
     if (!rates->skip_numerical_errors)
         thickness->numerical_error = none ? root : balance_root_error(&b, root, error);
     return WT_OK;
+}
+
+/* ---- damage transport --------------------------------------------------------------------------
+ */
+
+/* Damage transport, D_t = Qw D_z + Omega. The solution is exact at constant load for any profile.
+ * The damage at depth z is the integral along the path of the material from z + Qw t: D(z, t) =
+ * [int_z^(z + Qw t) w dz] / (U_c k sigma0 v), or w(z) t / U_c without wear. The layer reaches to
+ * the deepest z with D = Lambda. A profile with its maximum below the surface first forms a buried
+ * band, and several waves can form several bands.
+ *
+ * The search uses bounds: each wave has a bounded second derivative on any depth interval. An
+ * interval is left only if D cannot reach the level in it, or if D is monotonic there. No band is
+ * missed, however thin.
+ */
+
+/* Smallest depth interval relative to the depth. A maximum inside exceeds the ends by the square of
+ * it, which is below rounding. */
+static const double min_relative_interval = 1e-9;
+
+/* Depth interval [m]. */
+typedef struct depth_interval {
+    double low, high;
+} depth_interval;
+
+/* Damage at a time. */
+typedef struct damage {
+    const layer_rates *rates;
+    bool worn;
+    double time;
+    double worn_depth; /* depth worn off until `time` [m] */
+    double level;      /* required ln(D / Lambda) */
+} damage;
+
+static damage damage_create(const layer_rates *rates, bool with_wear)
+{
+    return (damage){.rates = rates, .worn = with_wear && rates->wear > 0};
+}
+
+static void damage_set_time(damage *d, double time)
+{
+    d->time = time;
+    d->worn_depth = d->worn ? d->rates->wear * time : 0;
+}
+
+/* ln of the factor from the integral or density of the energy to D / Lambda. */
+static double damage_scale(const damage *d)
+{
+    const layer_rates *r = d->rates;
+    const double share = d->worn ? -log(r->wear / r->duty) : log(r->duty * d->time);
+    return share - r->threshold;
+}
+
+/* ln(D / Lambda) minus the level; `user` is a damage. */
+static double damage_excess(double depth, void *user)
+{
+    const damage *d = user;
+    const double energy = d->worn ? energy_log_integral(d->rates->source, depth, d->worn_depth)
+                                  : energy_log_density(d->rates->source, depth);
+    return energy + damage_scale(d) - d->level;
+}
+
+/* Relative error of D, from the energy and from the logarithms. */
+static double damage_error(const layer_rates *rates)
+{
+    return rates->error + 16 * DBL_EPSILON * (1 + fabs(rates->threshold));
+}
+
+/* Searches upwards from the lower end of `range`, where D is below the level. With `best` NULL it
+ * stops at the first interval where D is below the level at the lower end and not below at the
+ * upper; false if there is none. Otherwise it searches the whole range for the depth *best of the
+ * largest D, and sets the level to it. */
+static bool damage_find_rise(damage *d, depth_interval range, depth_interval *crossing,
+                             double *best)
+{
+    const double floor = 1e-12 / d->rates->q_max;
+    double high = range.high, length = 0.5 * high;
+    bool halved = false;
+    while (high > range.low) {
+        const double low = fmax(high - length, range.low);
+        length = high - low;
+        /* D with its slope and a bound of its second derivative over the interval */
+        const energy_expansion c =
+            energy_expand(d->rates->source, d->rates->q_min, low, d->worn_depth, length);
+        const double excess = c.log_scale + damage_scale(d) - d->level;
+        const double here = log(c.value) + excess;
+        const double most =
+            log(c.value + length * (fmax(0, c.slope) + 0.5 * length * c.curvature)) + excess;
+        const bool turns = fabs(c.slope) < length * c.curvature;
+        if (turns && !(most <= DBL_EPSILON) && length > fmax(floor, min_relative_interval * high)) {
+            length *= 0.5;
+            halved = true;
+            continue;
+        }
+        if (best != NULL && here > 0) {
+            *best = low;
+            d->level += here;
+        } else if (best == NULL && here >= 0) {
+            *crossing = (depth_interval){low, high};
+            return true;
+        }
+        high = low;
+        length *= halved ? 1 : 2; /* twice this length was just rejected */
+        halved = false;
+    }
+    return false;
+}
+
+/* Returns the depth at or below `from` with the largest D, and sets the level to it. */
+static double damage_peak(damage *d, double from)
+{
+    const double end = fmax(from, energy_monotonic_depth(d->rates->source));
+    double depth = end;
+    d->level = 0;
+    d->level = damage_excess(end, d);
+    (void)damage_find_rise(d, (depth_interval){from, end}, NULL, &depth);
+    return depth;
+}
+
+/* Finds the deepest position in a range at which D equals the level; NaN if there is none. D must
+ * be below the level at the lower end. */
+static wt_status damage_deepest_edge(damage *d, depth_interval range, double level, double *edge,
+                                     wt_error *err)
+{
+    depth_interval s;
+    *edge = (double)NAN;
+    d->level = level;
+    if (!damage_find_rise(d, range, &s, NULL))
+        return WT_OK;
+    const bool deeper = damage_excess(s.high, d) >= 0; /* rounding of the interval limit */
+    *edge = deeper ? s.high : s.low;
+    return !deeper && damage_excess(s.low, d) > 0
+               ? root_find(damage_excess, d, s.low, s.high, 0, edge, err)
+               : WT_OK;
+}
+
+/* Displacement of the edge, including to other bands, due to the error of D. `most` is its largest
+ * possible depth. */
+static wt_status edge_error(damage *d, double edge, double most, double error, double *reach,
+                            wt_error *err)
+{
+    double least = 0;
+    const wt_status status = damage_deepest_edge(d, (depth_interval){0, edge}, error, &least, err);
+    *reach = fmax(most - edge, edge - (isnan(least) ? 0 : least)) + 4 * DBL_EPSILON * edge;
+    return status;
+}
+
+/* Thickness for a profile that falls with depth: a single edge that only moves deeper. */
+static wt_status monotonic_thickness(damage *d, double error, double earlier,
+                                     wt_estimate *thickness, wt_error *err)
+{
+    const bool none = damage_excess(0, d) < 0;
+    if (d->rates->skip_numerical_errors)
+        thickness->numerical_error = (double)NAN;
+    if (none && d->rates->skip_numerical_errors)
+        return WT_OK;
+    if (none) /* a layer may exist within the error */
+        d->level = -error;
+    if (none && damage_excess(0, d) < 0)
+        return WT_OK;
+    double edge = earlier, step = earlier > 0 ? 0.1 * earlier : 1 / d->rates->q_max;
+    depth_interval s = {earlier, earlier};
+    do {
+        s.low = s.high;
+        s.high += step;
+        step *= 2;
+    } while (damage_excess(s.high, d) >= 0);
+    if (damage_excess(s.low, d) > 0) { /* otherwise the edge is there up to rounding */
+        const wt_status status = root_find(damage_excess, d, s.low, s.high, 0, &edge, err);
+        if (status != WT_OK)
+            return status;
+    }
+    if (none) {
+        thickness->numerical_error = edge;
+        return WT_OK;
+    }
+    thickness->value = edge;
+    if (d->rates->skip_numerical_errors)
+        return WT_OK;
+    const double lost = exp(energy_log_density(d->rates->source, edge)) -
+                        exp(energy_log_density(d->rates->source, edge + d->worn_depth));
+    const double reach =
+        error / lost * exp(energy_log_integral(d->rates->source, edge, d->worn_depth));
+    thickness->numerical_error = root_displacement(
+        damage_excess, d, edge, error, fmax(2 * DBL_EPSILON * edge, isfinite(reach) ? reach : 0),
+        error / d->rates->q_max);
+    return WT_OK;
+}
+
+wt_status layer_damage_depth(const layer_rates *rates, double time, double earlier,
+                             wt_estimate *thickness, wt_error *err)
+{
+    *thickness = (wt_estimate){.unit = "m"};
+    damage d = damage_create(rates, true);
+    if (rates->formation == 0 || time == 0)
+        return WT_OK;
+    const double error = damage_error(rates);
+    damage_set_time(&d, time);
+    if (energy_is_monotonic(rates->source))
+        return monotonic_thickness(&d, error, earlier, thickness, err);
+    d.level = -error;
+    double end = fmax(energy_monotonic_depth(rates->source), 1 / rates->q_min);
+    while (damage_excess(end, &d) >= 0)
+        end *= 2;
+    double most, edge;
+    wt_status status = damage_deepest_edge(&d, (depth_interval){0, end}, -error, &most, err);
+    if (status != WT_OK || isnan(most))
+        return status;
+    /* slightly deeper, because D at the edge may be on either side of its level */
+    const depth_interval range = {0, most * (1 + 4 * DBL_EPSILON) + DBL_MIN};
+    status = damage_deepest_edge(&d, range, 0, &edge, err);
+    if (status != WT_OK)
+        return status;
+    thickness->value = isnan(edge) ? 0 : edge;
+    thickness->numerical_error = rates->skip_numerical_errors ? (double)NAN : most;
+    if (isnan(edge) || rates->skip_numerical_errors) /* a layer may exist within the error */
+        return status;
+    return edge_error(&d, edge, most, error, &thickness->numerical_error, err);
+}
+
+/* ---- times ----------------------------------------------------------------------------------- */
+
+typedef struct arrival {
+    damage *d;
+    double depth;
+} arrival;
+
+static double arrival_excess(double log_time, void *user)
+{
+    const arrival *p = user;
+    damage_set_time(p->d, exp(log_time));
+    return damage_excess(p->depth, p->d);
+}
+
+/* ln of the time at which a depth reaches the level; infinite if never. */
+static wt_status damage_log_time(damage *d, double depth, double level, double *log_time,
+                                 wt_error *err)
+{
+    const layer_rates *r = d->rates;
+    d->level = level;
+    damage_set_time(d, 1);
+    if (!d->worn) {
+        const double rate = energy_log_density(r->source, depth) + damage_scale(d);
+        *log_time = level - rate;
+        return WT_OK;
+    }
+    arrival p = {d, depth};
+    /* from a worn depth of the shortest wave to one at which the longest wave has decayed */
+    const double step = log(4);
+    const double end = log(1e3 / r->q_min / r->wear);
+    double low = -log(r->q_max * r->wear);
+    *log_time = (double)INFINITY;
+    while (arrival_excess(low, &p) >= 0)
+        low -= step;
+    double high = low + step;
+    while (high < end && arrival_excess(high, &p) < 0)
+        high += step;
+    if (arrival_excess(high, &p) < 0)
+        return WT_OK;
+    return root_find(arrival_excess, &p, high - step, high, 0, log_time, err);
+}
+
+/* ln of the first time at which any depth at or below `from` reaches the level. It alternates
+ * between the time of one position and the position of the largest D at that time until both agree.
+ */
+static wt_status damage_first_log_time(damage *d, double from, double level, double *log_time,
+                                       wt_error *err)
+{
+    wt_status status = damage_log_time(d, from, level, log_time, err);
+    if (status == WT_OK && isinf(*log_time)) /* w(0) can be 0, but not in the falling range */
+        status = damage_log_time(d, fmax(from, energy_monotonic_depth(d->rates->source)), level,
+                                 log_time, err);
+    const double longest = log(DBL_MAX);
+    double last = longest;
+    while (status == WT_OK && *log_time < last && !energy_is_monotonic(d->rates->source)) {
+        last = *log_time;
+        damage_set_time(d, exp(last));
+        const double best = damage_peak(d, from);
+        if (!(d->level > level + DBL_EPSILON * (1 + fabs(last))))
+            break;
+        status = damage_log_time(d, best, level, log_time, err);
+        *log_time = fmin(*log_time, last);
+    }
+    return status;
+}
+
+wt_status layer_damage_time(const layer_rates *rates, bool with_wear, wt_estimate depth,
+                            wt_estimate *time, wt_error *err)
+{
+    *time = (wt_estimate){.value = (double)NAN, .numerical_error = (double)NAN, .unit = "s"};
+    damage d = damage_create(rates, with_wear);
+    if (!isfinite(depth.value))
+        return WT_OK;
+    const double error = damage_error(rates);
+    if (rates->formation == 0)
+        return WT_OK;
+    const double above = fmax(0, depth.value - depth.numerical_error);
+    double log_time = 0, early = 0, late = 0;
+    wt_status status = damage_first_log_time(&d, depth.value, 0, &log_time, err);
+    if (status != WT_OK || isinf(log_time))
+        return status;
+    time->value = exp(log_time);
+    if (rates->skip_numerical_errors)
+        return WT_OK;
+    status = damage_first_log_time(&d, above, -error, &early, err);
+    if (status == WT_OK)
+        status = damage_first_log_time(&d, depth.value + depth.numerical_error, error, &late, err);
+    time->numerical_error = fmax(time->value - exp(early), exp(late) - time->value) +
+                            8 * DBL_EPSILON * (1 + fabs(log_time)) * time->value;
+    return status;
 }
