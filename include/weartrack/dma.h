@@ -206,7 +206,7 @@ typedef enum wt_superposition {
 #define WT_SUPERPOSITION_LIST(X)                                                                   \
     X(WT_SUPERPOSITION_HOLDS, "holds")                                                             \
     X(WT_SUPERPOSITION_FAILS, "fails")                                                             \
-    X(WT_SUPERPOSITION_INCONCLUSIVE, "cannot say")
+    X(WT_SUPERPOSITION_INCONCLUSIVE, "inconclusive")
 
 typedef struct wt_posterior wt_posterior;
 

@@ -194,7 +194,7 @@ typedef struct wt_validation_tables {
 WT_API void wt_validation_tables_clear(wt_validation_tables *tables);
 
 /* Compares measured with predicted friction at every step of the records, with both errors: the
- * verdict "explains", "does not" or "cannot say" by the test in the key `test`; the shear stress
+ * verdict "explains", "does not" or "inconclusive" by the test in the key `test`; the shear stress
  * and largest wavenumber that the record requires; the error sources; the likelihood of each model
  * choice. */
 WT_API wt_status wt_validation_compute(const wt_validation_job *job, const wt_job *work,

@@ -181,7 +181,8 @@ int cmd_compare(int argc, char **argv)
             "[OPTION]... BULK TRACK | --master FILE DWELLS [DWELLS] | MATERIAL MATERIAL...",
         .description =
             "Compares the moduli of the wear track with those of the bulk: does it differ (yes, no "
-            "or cannot say), the ratio with its 95 % interval, Welch's and the Mann-Whitney test, "
+            "or inconclusive), the ratio with its 95 % interval, Welch's and the Mann-Whitney "
+            "test, "
             "effect size, and the same rate by rate. BULK and TRACK are outputs of weartrack "
             "indent; - is standard input. DWELLS are outputs of weartrack dwell: E' and E'' at "
             "their frequencies over those of the DMA. Or materials: the ratios of "

@@ -50,7 +50,7 @@ int cmd_validate(int argc, char **argv)
         .description =
             "Does the theory explain the friction that was measured? Records of a tribometer, "
             "or results of weartrack record, are held against what a case predicts at their "
-            "velocities, with and without the layer: explains, does not, or cannot say; the "
+            "velocities, with and without the layer: explains, does not, or inconclusive; the "
             "shear stress that the record asks for; where the error comes from; and which "
             "choices of the model the record leaves.",
         .common = "output formats columns provenance",

@@ -264,7 +264,7 @@ static void append_missing_errors(const wt_compared_material pair[2],
 {
     const bool both = values[0].n_draws == 0 && values[1].n_draws == 0;
     const char *name = pair[values[0].n_draws == 0 ? 0 : 1].name;
-    clocale_append(v->differs, sizeof v->differs, "cannot say: the error of %s%s%s is not known",
+    clocale_append(v->differs, sizeof v->differs, "inconclusive: the error of %s%s%s is not known",
                    name, both ? " and of " : "", both ? pair[1].name : "");
     clocale_append(
         v->settled_by, sizeof v->settled_by,
@@ -300,11 +300,11 @@ material_verdict material_assess(const wt_compared_material pair[2],
     } else {
         char list[48] = "";
         append_quantity_list(list, sizeof list, f, is_difference_inconclusive);
-        clocale_append(
-            v.differs, sizeof v.differs,
-            "cannot say: the intervals of the ratio of %s have room for no difference and for one "
-            "above %.3g %%",
-            list, 100 * margin);
+        clocale_append(v.differs, sizeof v.differs,
+                       "inconclusive: the intervals of the ratio of %s have room for no difference "
+                       "and for one "
+                       "above %.3g %%",
+                       list, 100 * margin);
     }
     append_remedy(f, pair, values, systematic, &v);
     return v;

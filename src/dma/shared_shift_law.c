@@ -88,7 +88,7 @@ static void set_agreement_keys(const wt_shared_shift_law_job *job, const wt_shar
     }
     if (isnan(most)) {
         shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_AGREE,
-                                  "cannot say: the isotherms do not tell a law of each sample");
+                                  "inconclusive: the isotherms do not tell a law of each sample");
         shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_SETTLED_BY,
                                   "more isotherms of each sample");
     } else if (most <= job->margin) {
@@ -109,7 +109,7 @@ static void set_agreement_keys(const wt_shared_shift_law_job *job, const wt_shar
     } else {
         shared_shift_law_set_print(
             t, SHARED_SHIFT_LAW_KEY_AGREE,
-            "cannot say: no difference is shown (p %.2g), but the law of %s may be "
+            "inconclusive: no difference is shown (p %.2g), but the law of %s may be "
             "off by %.2g decade",
             law->p, job->names[sample], most);
         shared_shift_law_set_print(

@@ -45,19 +45,20 @@ static void describe_depth_change(const wt_modulus_profile *d, char text[320])
     clocale_print(range, sizeof range, "%.3f, 95 %% interval %.3f to %.3f", d->change.value,
                   d->change.low, d->change.high);
     if (d->n_excluded_by_loss > 0 && d->n_excluded_by_loss >= d->n)
-        clocale_print(text, 320,
-                      "cannot say: %zu of %zu curves lose work on the way out, and what that does "
-                      "to their moduli is not known; the DMA of the rubber would tell",
-                      d->n_excluded_by_loss, d->n + d->n_excluded_by_loss);
+        clocale_print(
+            text, 320,
+            "inconclusive: %zu of %zu curves lose work on the way out, and what that does "
+            "to their moduli is not known; the DMA of the rubber would tell",
+            d->n_excluded_by_loss, d->n + d->n_excluded_by_loss);
     else if (isnan(d->change.value))
         clocale_print(text, 320,
-                      "cannot say: %zu curves without adhesion do not tell, 12 are "
+                      "inconclusive: %zu curves without adhesion do not tell, 12 are "
                       "needed that differ by noise alone",
                       d->n);
     else if (d->verdict == WT_DEPTH_OTHER_RESIDUAL)
         clocale_print(
             text, 320,
-            "cannot say: the curves have a residual in common that no modulus that changes "
+            "inconclusive: the curves have a residual in common that no modulus that changes "
             "with depth leaves (chance %s); %s",
             format_probability(d->misfit_p).text, depth_advice(d, true));
     else if (d->verdict == WT_DEPTH_CHANGES && d->change.low < 1 && d->change.high > 1)
@@ -74,10 +75,11 @@ static void describe_depth_change(const wt_modulus_profile *d, char text[320])
                       "no: between %s and %s the modulus changes by less than %g %% (factor %s)",
                       shallow.text, deep.text, margin, range);
     else
-        clocale_print(text, 320,
-                      "cannot say: between %s and %s the modulus may be the same or change by more "
-                      "than %g %% (factor %s); %s",
-                      shallow.text, deep.text, margin, range, depth_advice(d, false));
+        clocale_print(
+            text, 320,
+            "inconclusive: between %s and %s the modulus may be the same or change by more "
+            "than %g %% (factor %s); %s",
+            shallow.text, deep.text, margin, range, depth_advice(d, false));
 }
 
 /* Describes the layer that would cause such a change, and other possible causes. */

@@ -472,7 +472,7 @@ static verdict_text format_verdict(slope_verdict verdict)
         [SLOPE_STRAIGHT] = "",
         [SLOPE_RISES] = ": the slope rises with the deflection",
         [SLOPE_FALLS] = ": the slope falls with the deflection",
-        [SLOPE_INCONCLUSIVE] = " whether the surface is hard: the slope scatters too much"};
+        [SLOPE_INCONCLUSIVE] = ": the slope scatters too much to show if the surface is hard"};
     verdict_text words;
     snprintf(words.text, sizeof words.text, "%s%s", slope_verdict_text(verdict), reasons[verdict]);
     return words;

@@ -108,7 +108,7 @@ static double roughness_limit(const wt_spot_job *job, const spot *s)
     return s->power > 0 ? job->largest_effect / (2 * s->power) : (double)NAN;
 }
 
-/* Tests the roughness against its limit. The text "cannot say" also states how to decide. */
+/* Tests the roughness against its limit. The text "inconclusive" also states how to decide. */
 static void assess_roughness(const wt_spot_job *job, const wt_height_map *f, bool covered, spot *s)
 {
     const double limit = roughness_limit(job, s), low = s->low / job->depth,
@@ -122,25 +122,25 @@ static void assess_roughness(const wt_spot_job *job, const wt_height_map *f, boo
     if (s->x < 0 || s->y < 0 || s->x > f->dx * (double)(f->nx - 1) ||
         s->y > f->dy * (double)(f->ny - 1))
         clocale_print(s->verdict, sizeof s->verdict,
-                      "cannot say: the place lies outside of the image; its coordinates, as the "
+                      "inconclusive: the place lies outside of the image; its coordinates, as the "
                       "image counts them, would tell (--at-x, --at-y)");
     else if (isnan(s->plane.rms) && s->plane.n + s->plane.missing < SPOT_MIN_PIXELS)
         clocale_print(
             s->verdict, sizeof s->verdict,
-            "cannot say: pixels of %s are too coarse for a contact radius of %s (%zu in it, "
+            "inconclusive: pixels of %s are too coarse for a contact radius of %s (%zu in it, "
             "%d are needed); an image with pixels of %s or less would tell",
             pixel, contact, s->plane.n + s->plane.missing, SPOT_MIN_PIXELS, required_pixel);
     else if (!covered)
         clocale_print(
             s->verdict, sizeof s->verdict,
-            "cannot say: the contact radius of %s is not measured about each place that the "
+            "inconclusive: the contact radius of %s is not measured about each place that the "
             "tip may have gone in (%d heights and nine tenths of its pixels); an image that has "
             "heights up to %s from the place would tell",
             contact, SPOT_MIN_PIXELS, search_radius);
     else if (isnan(limit))
         clocale_print(
             s->verdict, sizeof s->verdict,
-            "cannot say: the contact of this tip does not grow with its depth, so no limit "
+            "inconclusive: the contact of this tip does not grow with its depth, so no limit "
             "follows from the depth; the roughness stands beside it for you to judge");
     else if (low > limit)
         clocale_print(
@@ -154,7 +154,7 @@ static void assess_roughness(const wt_spot_job *job, const wt_height_map *f, boo
                       s->plane.rms / job->depth, limit);
     else
         clocale_print(s->verdict, sizeof s->verdict,
-                      "cannot say: %s of the depth, depending on the place, and the limit is "
+                      "inconclusive: %s of the depth, depending on the place, and the limit is "
                       "%.2g; a better known position would tell (--position-error)",
                       format_range(low, high, 2).text, limit);
 }

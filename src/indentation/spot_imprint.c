@@ -91,12 +91,12 @@ static void describe_failed_shift(const imprint *to, char *verdict, size_t size)
     if (isnan(to->shift.overlap))
         clocale_print(
             verdict, size,
-            "cannot say: there is no shift at which a quarter of the images has heights of "
+            "inconclusive: there is no shift at which a quarter of the images has heights of "
             "both; images of the same place would tell");
     else
         clocale_print(
             verdict, size,
-            "cannot say: the parts of the images do not agree how one lies beside the other "
+            "inconclusive: the parts of the images do not agree how one lies beside the other "
             "(overlap at the best shift %.0f %%); images of the same place that show more "
             "around it would tell",
             100 * to->shift.overlap);
@@ -118,7 +118,7 @@ static void describe_deeper_position(const wt_image *before, const imprint *to, 
     wt_format_si(to->deepest_x + before->x_min, "m", 4, x, sizeof x);
     wt_format_si(to->deepest_y + before->y_min, "m", 4, y, sizeof y);
     clocale_print(verdict, size,
-                  "cannot say: the change is deepest (%s) at x %s, y %s, within the error of the "
+                  "inconclusive: the change is deepest (%s) at x %s, y %s, within the error of the "
                   "position; that place instead would tell (--at-x, --at-y)",
                   depth, x, y);
 }
@@ -135,18 +135,18 @@ static void assess_imprint(const wt_image *before, const spot *s, imprint *to)
     else if (isnan(to->depth.value) && to->places < MIN_REFERENCES)
         clocale_print(
             to->verdict, sizeof to->verdict,
-            "cannot say: %zu untouched places as large as the contact tell the error, %d are "
+            "inconclusive: %zu untouched places as large as the contact tell the error, %d are "
             "needed; images that show more around it or a better known position would tell",
             to->places, MIN_REFERENCES);
     else if (isnan(to->depth.value))
         clocale_print(
             to->verdict, sizeof to->verdict,
-            "cannot say: the images overlap in %.0f %%, and that does not hold %s about the "
+            "inconclusive: the images overlap in %.0f %%, and that does not hold %s about the "
             "place, four contact radii; images that do would tell",
             100 * to->shift.overlap, around);
     else if (!(to->depth.standard_error > 0))
         clocale_print(to->verdict, sizeof to->verdict,
-                      "cannot say: both images have the same heights; an image taken after the "
+                      "inconclusive: both images have the same heights; an image taken after the "
                       "indentation would tell");
     else if (to->depth.low > 0)
         clocale_print(to->verdict, sizeof to->verdict,
@@ -156,7 +156,7 @@ static void assess_imprint(const wt_image *before, const spot *s, imprint *to)
     else if (to->depth.high < 0)
         clocale_print(
             to->verdict, sizeof to->verdict,
-            "cannot say: the surface is higher after the indentation, or lower two to four "
+            "inconclusive: the surface is higher after the indentation, or lower two to four "
             "contact radii beside the place; a third image would tell whether it stays");
     else
         clocale_print(to->verdict, sizeof to->verdict,

@@ -41,7 +41,7 @@
     X(SLOPE_STRAIGHT, "straight")                                                                  \
     X(SLOPE_RISES, "soft surface")                                                                 \
     X(SLOPE_FALLS, "not straight")                                                                 \
-    X(SLOPE_INCONCLUSIVE, "cannot say")
+    X(SLOPE_INCONCLUSIVE, "inconclusive")
 
 #define SENSITIVITY_COLUMNS(X)                                                                     \
     X(SENSITIVITY_DIRECTION, "direction",                                                          \

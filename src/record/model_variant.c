@@ -25,7 +25,7 @@ double validation_discrepancy_variance(const validation *v)
 
 const char *validation_verdict(agreement_verdict verdict)
 {
-    static const char *const words[] = {[AGREEMENT_INCONCLUSIVE] = "cannot say",
+    static const char *const words[] = {[AGREEMENT_INCONCLUSIVE] = "inconclusive",
                                         [AGREEMENT_YES] = "explains",
                                         [AGREEMENT_NO] = "does not"};
     return words[verdict];

@@ -332,7 +332,7 @@ static wt_status set_wear_agreement(const running_in_task *task, const run_set *
             ratio.value, format_range(ratio.low, ratio.high, 3).text);
     else
         validation_running_in_set_print(t, VALIDATION_RUNNING_IN_KEY_AGREES,
-                                        "cannot say: the time asks for %.3g times the wear rate "
+                                        "inconclusive: the time asks for %.3g times the wear rate "
                                         "that was measured, which has no "
                                         "stated error",
                                         ratio.value);
@@ -373,7 +373,7 @@ static wt_status set_running_in_keys(const running_in_task *task, const run_set 
     validation_running_in_set_print(
         t, VALIDATION_RUNNING_IN_KEY_TEST,
         "explains: the intervals of 95 %% of the time and of the change of friction, measured over "
-        "predicted, are from %s; does not: one of them is outside; else it cannot say. "
+        "predicted, are from %s; does not: one of them is outside; else it is inconclusive. "
         "Errors of record and prediction are in them, choices of the model are not",
         validation_requested_range(all->margin).text);
     if (result->settled_by[0] != '\0')

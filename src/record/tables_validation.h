@@ -53,7 +53,7 @@
 /* Whether the theory explains the record: as given, or with the shear stress that the record asks
  * for if this is plausible. */
 #define VALIDATION_OUTCOMES(X)                                                                     \
-    X(OUTCOME_INCONCLUSIVE, "cannot say")                                                          \
+    X(OUTCOME_INCONCLUSIVE, "inconclusive")                                                        \
     X(OUTCOME_EXPLAINS, "explains")                                                                \
     X(OUTCOME_EXPLAINS_WITH_SHEAR, "explains with a shear stress")                                 \
     X(OUTCOME_DOES_NOT, "does not")
@@ -117,7 +117,7 @@
       LABEL("Measured over predicted"))                                                            \
     X(VALIDATION_CHOICES_TREND, AS(trend), "change of the ratio with a decade of velocity",        \
       NUMBER, LABEL("per decade"), SPARSE)                                                         \
-    X(VALIDATION_CHOICES_VERDICT, AS(verdict), "explains, does not, or cannot say", TEXT,          \
+    X(VALIDATION_CHOICES_VERDICT, AS(verdict), "explains, does not, or inconclusive", TEXT,        \
       LABEL("Verdict"))                                                                            \
     X(VALIDATION_CHOICES_LIKELIHOOD, AS(log_likelihood),                                           \
       "natural logarithm of the likelihood of the record", NUMBER, LABEL("ln likelihood"))         \

@@ -145,7 +145,7 @@ static void required_shear_set_keys(const validation *v, table_writer *t)
     else
         validation_set_text(t, VALIDATION_KEY_SHAPE,
                             v->needed.value > 0
-                                ? "cannot say: with so few velocities the shear stress takes up "
+                                ? "inconclusive: with so few velocities the shear stress takes up "
                                   "whatever was measured"
                                 : "does not: the hysteresis part alone is more than was measured");
 }
@@ -281,7 +281,7 @@ static void set_validation_interval(table_writer *t, validation_key key, validat
 static void set_verdicts(const validation *v, table_writer *t)
 {
     static const char no_shear[] =
-        "cannot say: no shear stress is given, and the total friction is "
+        "inconclusive: no shear stress is given, and the total friction is "
         "not predicted without it";
     const bool layer = v->ratio[1].n > 0;
     validation_set_text(t, VALIDATION_KEY_JUDGED,
@@ -302,7 +302,8 @@ static void set_verdicts(const validation *v, table_writer *t)
         "explains: at every step the interval of 95 %% of measured over predicted, smooth over the "
         "velocity, is from %s; does not: at some step the interval that holds 95 %% at "
         "all "
-        "steps at once is outside; else it cannot say. Errors of record and scatter between steps "
+        "steps at once is outside; else it is inconclusive. Errors of record and scatter between "
+        "steps "
         "are in it, %s, choices of the model are not",
         validation_requested_range(v->job->margin).text,
         v->p.n_draws > 0 ? "and stated errors of the prediction"
@@ -364,7 +365,7 @@ static wt_status set_wear(const validation *v, table_writer *t, wt_error *err)
     set_validation_interval(t, VALIDATION_KEY_WEAR_RATIO, VALIDATION_KEY_WEAR_RATIO_LOW,
                             VALIDATION_KEY_WEAR_RATIO_HIGH, ratio);
     validation_set_text(t, VALIDATION_KEY_WEAR,
-                        isnan(error) ? "cannot say: what was worn has no stated error"
+                        isnan(error) ? "inconclusive: what was worn has no stated error"
                         : ratio.low <= 1 && ratio.high >= 1
                             ? "agrees within the errors"
                             : "differs: compute the layer with the wear rate that was measured");

@@ -130,7 +130,7 @@ typedef struct verdict_text {
 verdict_text model_variant_verdict(const validation *v, const model_variant *t);
 /* Returns the requested range of measured over predicted: "0.833 to 1.2". */
 range_text validation_requested_range(double margin);
-/* Returns "explains", "does not" or "cannot say". */
+/* Returns "explains", "does not" or "inconclusive". */
 const char *validation_verdict(agreement_verdict verdict);
 
 mean_ratio mean_ratio_compute(const model_variant *t); /* row: freed by the caller */

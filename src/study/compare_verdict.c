@@ -1,4 +1,4 @@
-/* Verdict on the difference between wear track and bulk: yes, no within a margin, or cannot say
+/* Verdict on the difference between wear track and bulk: yes, no within a margin, or inconclusive
  * with a remedy.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/compare.h"

@@ -11,7 +11,7 @@
 
 /* Does one value of a constant suffice? */
 #define SHARING_VERDICTS(X)                                                                        \
-    X(SHARING_INCONCLUSIVE, "cannot say")                                                          \
+    X(SHARING_INCONCLUSIVE, "inconclusive")                                                        \
     X(SHARING_ONE, "one")                                                                          \
     X(SHARING_DIFFERS, "differs")
 
@@ -29,7 +29,7 @@
     VALUE_AND_INTERVAL(X, COLLECTION_RATIO, "modulus_ratio",                                       \
                        "modulus of the track over that of the bulk", NUMBER, SHOWS(ratio),         \
                        LABEL("Track / bulk"), SPARSE)                                              \
-    X(COLLECTION_DIFFERS, AS(differs), "does the wear track differ: yes, no or cannot say",        \
+    X(COLLECTION_DIFFERS, AS(differs), "does the wear track differ: yes, no or inconclusive",      \
       ENUM(stated_verdict), LABEL("Differs"))                                                      \
     VALUE_AND_INTERVAL(X, COLLECTION_THICKNESS, "balance_thickness",                               \
                        "thickness of the layer where formation balances wear", SI(LENGTH),         \
@@ -96,8 +96,9 @@
       LABEL("p"), DIGITS(2))                                                                       \
     X(SHARED_CONSTANTS_HOLM_P, AS(holm_p), "p after Holm's correction for the number of rows",     \
       NUMBER, LABEL("p (Holm)"), DIGITS(2))                                                        \
-    X(SHARED_CONSTANTS_SUFFICES, AS(suffices), "does one value suffice: one, differs, cannot say", \
-      ENUM(sharing_verdict), LABEL("One value"))
+    X(SHARED_CONSTANTS_SUFFICES, AS(suffices),                                                     \
+      "does one value suffice: one, differs, inconclusive", ENUM(sharing_verdict),                 \
+      LABEL("One value"))
 #define SHARED_CONSTANTS_KEYS(X)                                                                   \
     X(SHARED_CONSTANTS_KEY_TESTED, "constants_tested", NUMBER, SHOWS(tested),                      \
       LABEL("Constants tested"))                                                                   \
@@ -159,12 +160,13 @@
     X(SHARED_PAIRS_OF, AS(of), "its name", TEXT, LABEL("Of"))                                      \
     X(SHARED_PAIRS_N, AS(n), "cases that it is of", NUMBER, LABEL("Cases"))                        \
     X(SHARED_PAIRS_ONE_ENERGY, AS(one_energy),                                                     \
-      "does one critical energy suffice: one, differs, cannot say", ENUM(sharing_verdict),         \
+      "does one critical energy suffice: one, differs, inconclusive", ENUM(sharing_verdict),       \
       LABEL("One U_c"))                                                                            \
-    X(SHARED_PAIRS_ONE_WEAR, AS(one_wear), "does one wear rate suffice: one, differs, cannot say", \
-      ENUM(sharing_verdict), LABEL("One k"))                                                       \
+    X(SHARED_PAIRS_ONE_WEAR, AS(one_wear),                                                         \
+      "does one wear rate suffice: one, differs, inconclusive", ENUM(sharing_verdict),             \
+      LABEL("One k"))                                                                              \
     X(SHARED_PAIRS_ONE_PAIR, AS(one_pair),                                                         \
-      "does one pair of both suffice: one, differs, cannot say", ENUM(sharing_verdict),            \
+      "does one pair of both suffice: one, differs, inconclusive", ENUM(sharing_verdict),          \
       LABEL("One pair"))                                                                           \
     OF_PAIR(X, SHARED_PAIRS)                                                                       \
     X(SHARED_PAIRS_CHI_SQUARED, AS(chi_squared), "chi-squared of the scatter of the pairs",        \
@@ -199,7 +201,7 @@
       DIGITS(2), SPARSE)                                                                           \
     X(RATIO_PAIRS_HOLM_P, AS(holm_p), "p after Holm's correction for the number of pairs", NUMBER, \
       LABEL("p (Holm)"), DIGITS(2), SPARSE)                                                        \
-    X(RATIO_PAIRS_DIFFER, AS(differ), "do they differ: yes, no within the margin, cannot say",     \
+    X(RATIO_PAIRS_DIFFER, AS(differ), "do they differ: yes, no within the margin, inconclusive",   \
       ENUM(stated_verdict), LABEL("Differ"))                                                       \
     X(RATIO_PAIRS_RATES, AS(rates),                                                                \
       "indentation rates that both have, at which they are compared; nan: none, the ratios of "    \

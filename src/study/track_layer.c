@@ -188,20 +188,20 @@ static void write_allowed_thickness(const track_layer_result *f, char *text, siz
                       high = format_length(p->thickness.high),
                       least = format_length(p->smallest_thickness), depth = format_length(p->depth);
     if (f->obstacle.reason != NULL)
-        clocale_print(text, size, "cannot say: %s", f->obstacle.reason);
+        clocale_print(text, size, "inconclusive: %s", f->obstacle.reason);
     else if (p->bound_kind == WT_LAYER_BOUND_OUTSIDE_LAW)
         clocale_print(text, size,
-                      "cannot say: the law of a layer is known for moduli of %g to %g times that "
+                      "inconclusive: the law of a layer is known for moduli of %g to %g times that "
                       "of the bulk, the modulus of the track is %.3g of it",
                       THIN_LAYER_MIN_RATIO, THIN_LAYER_MAX_RATIO, f->ratio);
     else if (p->bound_kind == WT_LAYER_BOUND_UNKNOWN && p->n[0] >= WT_DEPTH_MIN_CURVES &&
              p->n[1] >= WT_DEPTH_MIN_CURVES)
         clocale_print(text, size,
-                      "cannot say: no change with depth can be fitted to what the contact law "
+                      "inconclusive: no change with depth can be fitted to what the contact law "
                       "leaves of the curves of bulk and track");
     else if (p->bound_kind == WT_LAYER_BOUND_UNKNOWN)
         clocale_print(text, size,
-                      "cannot say: %zu curves of the bulk and %zu of the track tell of depth, %d "
+                      "inconclusive: %zu curves of the bulk and %zu of the track tell of depth, %d "
                       "of each are needed, without adhesion or loss whose effect is not known",
                       p->n[0], p->n[1], WT_DEPTH_MIN_CURVES);
     else if (p->bound_kind == WT_LAYER_BOUND_ANY)
@@ -242,22 +242,22 @@ static void write_agreement(const track_layer_result *f, char *text, size_t size
     if (o->from[0] == '\0')
         return;
     if (!(o->thickness.value > 0) || !isfinite(o->thickness.value)) {
-        clocale_print(text, size, "cannot say: %s gives no thickness above zero", o->from);
+        clocale_print(text, size, "inconclusive: %s gives no thickness above zero", o->from);
         return;
     }
     const metres_text here = format_length(o->thickness.value);
     const thickness_range_text both = format_thickness_range(f->agreement.low, f->agreement.high);
     if (f->obstacle.reason != NULL || p->bound_kind == WT_LAYER_BOUND_UNKNOWN ||
         p->bound_kind == WT_LAYER_BOUND_OUTSIDE_LAW)
-        clocale_print(text, size, "cannot say: the curves do not tell");
+        clocale_print(text, size, "inconclusive: the curves do not tell");
     else if (p->bound_kind == WT_LAYER_BOUND_EMPTY)
-        clocale_print(text, size, "cannot say: something else than a layer changes the curves");
+        clocale_print(text, size, "inconclusive: something else than a layer changes the curves");
     else if (has_no_error(f))
-        clocale_print(text, size, "cannot say: the error of %s by %s is not known", here.text,
+        clocale_print(text, size, "inconclusive: the error of %s by %s is not known", here.text,
                       o->from);
     else if (may_lack_error(f))
         clocale_print(text, size,
-                      "cannot say: the interval of %s by %s lacks the error of %s, and with it "
+                      "inconclusive: the interval of %s by %s lacks the error of %s, and with it "
                       "the curves might %s it",
                       here.text, o->from, o->lacks, f->agreement.differ ? "allow" : "not allow");
     else if (f->agreement.differ)
@@ -270,7 +270,7 @@ static void write_agreement(const track_layer_result *f, char *text, size_t size
     else
         clocale_print(
             text, size,
-            "cannot say: the curves allow the %s by %s, and others that differ from it by "
+            "inconclusive: the curves allow the %s by %s, and others that differ from it by "
             "more than a factor of %g; both together allow %s",
             here.text, o->from, WT_LAYER_MARGIN, both.text);
 }

@@ -15,7 +15,7 @@
 /* Significance level for adhesion or lack of fit in one group, against the stated conditions. */
 static const double level = 0.05;
 /* Significance level for the lack of fit of few curves. A missed effect causes a wrong yes, a false
- * alarm only a "cannot say". The level is therefore the usual type II error. */
+ * alarm only an "inconclusive". The level is therefore the usual type II error. */
 static const double few_level = 0.2;
 /* [m] Heuristic limit of tip wear: probes of 10 to 20 nm reach 50 to 100 nm after scans over hard
  * fillers. Blunter tips image themselves instead of the sample. */

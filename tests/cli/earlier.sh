@@ -44,6 +44,17 @@ grep -q '^## furthest:' former.tsv
 "$weartrack" table -q former.tsv shared_shift_law --format stream | grep -q '^## largest_deviation:'
 "$weartrack" table -q former.tsv common_law --as stream | grep -q '^## sample_shifts:'
 
+# The verdict "inconclusive" of these versions was "cannot say", in keys and in cells.
+"$weartrack" compare -q --sample-error 0.2 "$fixtures/case/dma.txt" m.h5 -o material_ratio.tsv
+sed 's/^\(## differs: \)inconclusive/\1cannot say/' material_ratio.tsv >key.tsv
+grep -q '^## differs: cannot say: ' key.tsv
+"$weartrack" table -q key.tsv material_ratio --format stream | grep -q '^## differs: inconclusive: '
+sed 's/	does not	/	cannot say	/' validation.tsv >cell.tsv
+grep -q '	cannot say	' cell.tsv
+"$weartrack" table -q cell.tsv validation_choices >cells.tsv
+grep -q '	inconclusive	' cells.tsv
+! grep -q 'cannot say' cells.tsv
+
 # Options and case elements of these versions.
 "$weartrack" master -q "$fixtures/dma/two_materials.csv" --common-law same -o again.tsv
 "$weartrack" table -q law.tsv shared_shift_law >one.tsv

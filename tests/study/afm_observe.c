@@ -95,12 +95,12 @@ static void read_curves(const char *path, const afm_scene *s, const afm_sample *
         }
         const double chance = stream_number(found, place_modulus.table, PLACE_POOLED_CHANCE, NULL);
         const char *changes = stream_key(found, PLACE_DEPTH, PLACE_DEPTH_CHANGES);
-        const bool silent =
-            changes != NULL && strncmp(changes, PLACE_CANNOT_SAY, strlen(PLACE_CANNOT_SAY)) == 0;
+        const bool silent = changes != NULL &&
+                            strncmp(changes, PLACE_INCONCLUSIVE, strlen(PLACE_INCONCLUSIVE)) == 0;
         const bool shown = changes != NULL && strncmp(changes, PLACE_YES, strlen(PLACE_YES)) == 0;
         t->draw->verdict = accepted < share_needed * CURVES || chance < level || shown ? NO
-                           : isnan(chance) || silent                                   ? CANNOT_SAY
-                                                                                       : YES;
+                           : isnan(chance) || silent ? INCONCLUSIVE
+                                                     : YES;
         for (int i = 0; i < AFM_DEPTHS && changes != NULL && s->tip != TIP_PUNCH; i++)
             trial_add(t, Q_DEPTH, afm_apparent(s, sample, (i + 1.0) / AFM_DEPTHS),
                       place_row(found, &place_depth, i));

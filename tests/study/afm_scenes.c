@@ -12,9 +12,9 @@
 #define DESCRIBED RIGHT(YES)
 #define NOT_DESCRIBED RIGHT(NO)
 #define EITHER (RIGHT(YES) | RIGHT(NO))
-#define ANYTHING (EITHER | RIGHT(CANNOT_SAY))
-#define NOT_REFUSED (RIGHT(YES) | RIGHT(CANNOT_SAY)) /* too noisy to say more */
-#define NOT_MISSED (RIGHT(NO) | RIGHT(CANNOT_SAY))
+#define ANYTHING (EITHER | RIGHT(INCONCLUSIVE))
+#define NOT_REFUSED (RIGHT(YES) | RIGHT(INCONCLUSIVE)) /* too noisy to say more */
+#define NOT_MISSED (RIGHT(NO) | RIGHT(INCONCLUSIVE))
 
 /* With a baseline of 1.3 um. */
 #define SOFT .modulus = 50e3, .spring_constant = 0.02, .depth = 400e-9

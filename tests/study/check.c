@@ -228,7 +228,7 @@ static void check_pool(void)
         }
         tally_add(&s, draws, 2, &honest);
         draws[0].observations[0].found = draws[1].observations[0].found = (estimate){1, 0.4, 1.6};
-        draws[0].verdict = CANNOT_SAY;
+        draws[0].verdict = INCONCLUSIVE;
         tally_add(&s, draws, 2, &proud);
     }
     check_near("draws together", honest.draws[Q_C1], 200, 0);
@@ -253,7 +253,7 @@ static void check_verdicts(void)
     static draw draws[20];
     s.verdict_promised = true;
     for (int i = 0; i < 20; i++)
-        draws[i].verdict = CANNOT_SAY;
+        draws[i].verdict = INCONCLUSIVE;
     check_true("the right verdict passes", tally_complaints(&s, draws, 20, NULL) == 0);
     for (int i = 0; i < 20; i++)
         draws[i].verdict = YES;

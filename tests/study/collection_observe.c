@@ -45,7 +45,7 @@ static void take_verdict(trial *t, quantity q, double ratio, const stream *found
                no = stream_is(found, table, column, row, PLACE_NO) != 0;
     const bool right = yes  ? fabs(log(ratio)) > 0
                        : no ? fabs(log(ratio)) < log1p(margin)
-                            : stream_is(found, table, column, row, PLACE_CANNOT_SAY) != 0;
+                            : stream_is(found, table, column, row, PLACE_INCONCLUSIVE) != 0;
     const double said = yes || no || !right ? 0 : (double)NAN;
     trial_add(t, q, right ? 0 : 1, (estimate){0, said, said});
     if (!right)
@@ -232,7 +232,7 @@ static bool read_validation(const study_truth *truth, const char *result, const 
         found != NULL ? place_friction_verdict(found, PLACE_VALIDATION) : NO_VERDICT;
     if (said != NO_VERDICT) {
         const bool wrong = said == NO;
-        const double stated = said == CANNOT_SAY ? (double)NAN : 0;
+        const double stated = said == INCONCLUSIVE ? (double)NAN : 0;
         trial_add(t, Q_SAID_RECORD, wrong ? 1 : 0, (estimate){0, stated, stated});
         if (wrong)
             t->draw->verdict = NO;

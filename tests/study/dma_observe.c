@@ -38,7 +38,7 @@ static estimate law_of_constants(const stream *t, const dma_scene *s, double tem
  */
 static bool is_failing(const dma_scene *s)
 {
-    return (s->facts.right & ~RIGHT(CANNOT_SAY)) == RIGHT(NO);
+    return (s->facts.right & ~RIGHT(INCONCLUSIVE)) == RIGHT(NO);
 }
 
 /* Relative to the isotherm of the reference, both at the temperatures that they really had. Of two
@@ -184,7 +184,8 @@ static verdict read_verdict(const stream *t)
         return YES;
     if (begins(text, PLACE_FAILS))
         return NO;
-    return begins(text, PLACE_CANNOT_SAY) || begins(text, PLACE_UNTESTED) ? CANNOT_SAY : NO_VERDICT;
+    return begins(text, PLACE_INCONCLUSIVE) || begins(text, PLACE_UNTESTED) ? INCONCLUSIVE
+                                                                            : NO_VERDICT;
 }
 
 static void compare_master(const char *path, const dma_scene *s, const rubber *r,

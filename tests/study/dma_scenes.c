@@ -77,7 +77,7 @@ static const contact contact_warm = {.q0 = 2e3,
 #define G13 .first = -40, .last = 80, .step = 10, .lg_first = -1, .lg_last = 2, .frequencies = 16
 #define GOOD .facts.right = RIGHT(YES)
 #define BAD .facts.right = RIGHT(NO)
-#define OPEN .facts.right = RIGHT(CANNOT_SAY)
+#define OPEN .facts.right = RIGHT(INCONCLUSIVE)
 /* What the full run supports (table.tsv). */
 #define VERDICT_PROMISED .facts.verdict_promised = true
 #define PROMISED .facts.intervals_promised = true, VERDICT_PROMISED
@@ -85,7 +85,7 @@ static const contact contact_warm = {.q0 = 2e3,
 #define SECOND(...)                                                                                \
     VERDICT_PROMISED, .rubber = RUBBER_TWO, .law = {__VA_ARGS__}, .reference = 20, .first = -40,   \
                       .last = 70, .step = 10, FREQUENCIES10,                                       \
-                      .facts.right = RIGHT(NO) | RIGHT(CANNOT_SAY)
+                      .facts.right = RIGHT(NO) | RIGHT(INCONCLUSIVE)
 #define D13_GRID                                                                                   \
     .first = -30, .last = 60, .step = 10, .lg_first = -1, .lg_last = 2, .frequencies = 25
 
@@ -96,7 +96,7 @@ const dma_scene dma_scenes[] = {
      .facts.given =
          {{Q_SHIFT, 99, .011}, {Q_LAW, 98, NONE}, {Q_STORAGE, 98, NONE}, {Q_LOSS, 97, NONE}}},
     {NAMED("D2", "broad, 5 %"), PROMISED, .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.05),
-     .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY), .facts.given = {{Q_SHIFT, 98, .056}}},
+     .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE), .facts.given = {{Q_SHIFT, 98, .056}}},
     {NAMED("D3", "broad, 0.1 %, 0.05 K"), PROMISED, .rubber = RUBBER_BROAD, BASE_LAW, G10,
      NOISE(.001), .temperature_error = .05, GOOD,
      .facts.given = {{Q_LAW, 96, .005}, {Q_STORAGE, 99, NONE}, {Q_LOSS, 98, NONE}}},
@@ -113,7 +113,7 @@ const dma_scene dma_scenes[] = {
     {NAMED("D7", "broad, one decade in steps of 4 K, free b"), PROMISED, .rubber = RUBBER_BROAD,
      .law = {900, -90, 0, NONE, 1, 0}, .reference = 0, .first = -28, .last = 32, .step = 4,
      .lg_first = 0, .lg_last = 1, .frequencies = 11, NOISE(.01), FREE,
-     .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY),
+     .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE),
      .facts.given = {{Q_SHIFT, 96, .025}, {Q_STORAGE, 97, NONE}, {Q_LOSS, 97, NONE}}},
     {NAMED("D8", "broad, 1 %, 0.3 K"), PROMISED, .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
      .temperature_error = .3, GOOD,
@@ -133,7 +133,7 @@ const dma_scene dma_scenes[] = {
      G10, .noise_storage = .005, .noise_loss = .03, FREE, GOOD,
      .facts.given = {{Q_SHIFT, 95, .024}, {Q_STORAGE, 95, NONE}, {Q_LOSS, 95, NONE}}},
     {NAMED("D13", "broad, 1 %, correlated along f"), PROMISED, .rubber = RUBBER_BROAD, BASE_LAW,
-     D13_GRID, NOISE(.01), .correlation = .7, .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY),
+     D13_GRID, NOISE(.01), .correlation = .7, .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE),
      .facts.given = {{Q_SHIFT, 96, .026}}},
     {NAMED("D14", "broad, 1 %, two isotherms 5 %"), PROMISED, .rubber = RUBBER_BROAD, BASE_LAW,
      D13_GRID, NOISE(.01), .loud = .05, GOOD, .facts.given = {{Q_SHIFT, 96, .019}}},
@@ -153,7 +153,7 @@ const dma_scene dma_scenes[] = {
      .law = {900, -90, 300, NONE, 1, 0}, .reference = 20, G13, NOISE(.015), FREE, BAD},
     {NAMED("V3", "two laws, 5 %"), VERDICT_PROMISED, .rubber = RUBBER_TWO,
      .law = {900, -90, 300, NONE, 1, 0}, .reference = 20, G13, NOISE(.05), FREE,
-     .facts.right = RIGHT(NO) | RIGHT(CANNOT_SAY)},
+     .facts.right = RIGHT(NO) | RIGHT(INCONCLUSIVE)},
     {NAMED("V4", "E' and E'' exchanged"), VERDICT_PROMISED, .rubber = RUBBER_BROAD, BASE_LAW, G10,
      NOISE(.01), .exchanged = true, FREE, BAD},
     {NAMED("V5", "crystallising below 10 degC"), VERDICT_PROMISED, .rubber = RUBBER_BROAD, BASE_LAW,
@@ -176,7 +176,7 @@ const dma_scene dma_scenes[] = {
      .contact = &contact_d1},
     {NAMED("half_decade", "half a decade in steps of 3 K"), .rubber = RUBBER_BROAD, BASE_LAW,
      .first = -28, .last = 50, .step = 3, .lg_first = 0, .lg_last = .5, .frequencies = 8,
-     NOISE(.01), .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)},
+     NOISE(.01), .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE)},
     {NAMED("outliers", "3 % of the points 25 % off"), PROMISED, .rubber = RUBBER_BROAD, BASE_LAW,
      G10, NOISE(.01), .outliers = .03, .outlier_size = .25, GOOD},
     {NAMED("outliers_large", "2 % of the points a factor of 3 off"), .rubber = RUBBER_BROAD,
@@ -184,7 +184,7 @@ const dma_scene dma_scenes[] = {
     {NAMED("far", "thirty decades of shift, in steps of up to two and a half"),
      .rubber = RUBBER_WIDE, .law = {2500, -105, 0, NONE, 1, 0}, .reference = 20, .first = -55,
      .last = 40, .step = 2.5, .lg_first = -1.5, .lg_last = 2, .frequencies = 15, NOISE(.01),
-     .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)},
+     .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE)},
     {NAMED("far_steps", "steps of up to twenty decades, nothing overlaps"), .rubber = RUBBER_WIDE,
      .law = {2500, -105, 0, NONE, 1, 0}, .reference = 20, .first = -70, .last = 50, .step = 30,
      FREQUENCIES10, NOISE(.01), OPEN},
@@ -207,7 +207,7 @@ const dma_scene dma_scenes[] = {
     {NAMED("temperature_departs", "0.2 K, b departs"), .rubber = RUBBER_SHARP, BASE_LAW, G10,
      NOISE(.01), .temperature_error = .2, .departure = .05, GOOD},
     {NAMED("correlated_strong", "rho 0.9, 2 %"), .rubber = RUBBER_BROAD, BASE_LAW, D13_GRID,
-     NOISE(.02), .correlation = .9, .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)},
+     NOISE(.02), .correlation = .9, .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE)},
     {NAMED("havriliak_negami", "two of them, 1 %"), .rubber = RUBBER_HAVRILIAK_NEGAMI, BASE_LAW,
      G10, NOISE(.01), GOOD, .contact = &contact_d1},
     {NAMED("fractional_zener", "1 %, 0.1 K"), .rubber = RUBBER_FRACTIONAL_ZENER, BASE_LAW, G10,
@@ -240,23 +240,23 @@ const dma_scene dma_scenes[] = {
     /* much is not measured: an end of the spectrum, or the law */
     {NAMED("short", "four cold isotherms: the slow end of the spectrum four to five decades away"),
      .rubber = RUBBER_BROAD, BASE_LAW, .first = -10, .last = 20, .step = 10, FREQUENCIES10,
-     NOISE(.01), .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)},
+     NOISE(.01), .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE)},
     {NAMED("short_two", "the same of two processes"), .rubber = RUBBER_TWO, TWO_LAW, .first = 0,
      .last = 40, .step = 10, FREQUENCIES10, NOISE(.01),
-     .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)},
+     .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE)},
     {NAMED("three", "three isotherms, and friction beyond them"), .rubber = RUBBER_BROAD, BASE_LAW,
      .first = 5, .last = 35, .step = 15, FREQUENCIES10, NOISE(.01),
-     .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY), .contact = &contact_d1},
+     .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE), .contact = &contact_d1},
     {NAMED("three_two", "the same of two processes"), .rubber = RUBBER_TWO, TWO_LAW, .first = 10,
      .last = 30, .step = 10, FREQUENCIES10, NOISE(.01),
-     .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY), .contact = &contact_d1},
+     .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE), .contact = &contact_d1},
     {NAMED("coarse", "five isotherms of five points, 2 %, 0.3 K"), .rubber = RUBBER_BROAD, BASE_LAW,
      .first = -10, .last = 50, .step = 15, .lg_first = -1, .lg_last = 1.4, .frequencies = 5,
-     NOISE(.02), .temperature_error = .3, .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY),
+     NOISE(.02), .temperature_error = .3, .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE),
      .contact = &contact_d1},
     {NAMED("coarse_two", "the same of two processes"), .rubber = RUBBER_TWO, TWO_LAW, .first = -10,
      .last = 50, .step = 15, .lg_first = -1, .lg_last = 1.4, .frequencies = 5, NOISE(.02),
-     .temperature_error = .3, .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY),
+     .temperature_error = .3, .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE),
      .contact = &contact_d6},
 
     /* a second process with a law less and less its own: what is missed grows with the shift */
@@ -288,7 +288,7 @@ const dma_scene dma_scenes[] = {
      .rubber = RUBBER_FRACTIONAL_ZENER, .law = {800, -110, 0, NONE, 1, 0}, .reference = 0,
      .first = -45, .last = 60, .step = 15, .lg_first = -1, .lg_last = 2, .frequencies = 19,
      NOISE(.03), .correlation = .4, .departure = .03,
-     .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)},
+     .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE)},
     {NAMED("held_ripple", "wave on the spectrum, ragged, points missing, 0.7 %, free b"), PROMISED,
      .rubber = RUBBER_RIPPLE, .law = {1000, -85, 0, NONE, 1, 0}, .reference = 20, .first = -25,
      .last = 65, .step = 9, .lg_first = -1, .lg_last = 1.8, .frequencies = 12, NOISE(.007),

@@ -54,7 +54,7 @@ typedef enum quantity {
     Q_SHARED_WEAR,     /* wear rate of all cases of a severity */
     Q_SHARED_SHEAR,    /* shear stress of all cases */
     Q_SHARED_RATE,     /* modulus over a decade of rate, of all cases of a compound, or of all */
-    /* "Yes" and "no" as intervals that hold the truth if they are right; "cannot say" states none
+    /* "Yes" and "no" as intervals that hold the truth if they are right; "inconclusive" states none
      */
     Q_SAID_DIFFERS,
     Q_SAID_PAIR,
@@ -78,7 +78,7 @@ extern const quantity_facts quantities[Q_COUNT];
 
 /* Yes: superposition holds; the track is another rubber than the bulk; the
  * contact law describes the curves. */
-typedef enum verdict { CANNOT_SAY, YES, NO, NO_VERDICT, VERDICT_COUNT } verdict;
+typedef enum verdict { INCONCLUSIVE, YES, NO, NO_VERDICT, VERDICT_COUNT } verdict;
 #define RIGHT(v) (1u << (v))
 
 /* What statistics-scenes gives: coverage in percent, median half width; nan where it gives none. */

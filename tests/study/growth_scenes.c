@@ -8,8 +8,8 @@
 /* As a recorder writes them, few of them in the change. */
 #define ROWS                                                                                       \
     .of_inputs = 0.03, .of_layer = 0.05, .of_ratio = 0.03, .noise = 0.001, .laps = 400, .lengths = 8
-#define NOT_NO .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)
-#define NOT_YES .facts.right = RIGHT(NO) | RIGHT(CANNOT_SAY)
+#define NOT_NO .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE)
+#define NOT_YES .facts.right = RIGHT(NO) | RIGHT(INCONCLUSIVE)
 
 const growth_scene growth_scenes[] = {
     {NAMED("R1", "the theory is right, inputs good to 3 %"), PROMISED, .facts.right = RIGHT(YES),
@@ -39,7 +39,7 @@ const growth_scene growth_scenes[] = {
     {NAMED("R13", "by transport, five times as slow"), PROMISED, .facts.right = RIGHT(NO),
      .off_time = 5, .of_inputs = 0.03, .of_layer = 0.05, .of_ratio = 0.03, .lengths = 20,
      .transport = true},
-    {NAMED("R14", "no shear stress in the case"), PROMISED, .facts.right = RIGHT(CANNOT_SAY),
+    {NAMED("R14", "no shear stress in the case"), PROMISED, .facts.right = RIGHT(INCONCLUSIVE),
      .of_inputs = 0.05, .of_layer = 0.05, .of_ratio = 0.05, .unsaid = true},
     {NAMED("R15", "one row a lap, at its start"), PROMISED, NOT_NO, ROWS, .rows = ROWS_FROM},
     {NAMED("R16", "one row a lap, at its middle, by transport"), PROMISED, NOT_NO, ROWS,

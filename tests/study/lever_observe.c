@@ -124,7 +124,7 @@ static void read_ratio(const lever_scene *s, const char *path, trial *t)
         t->draw->verdict = said == NULL                                       ? NO_VERDICT
                            : strncmp(said, PLACE_YES, strlen(PLACE_YES)) == 0 ? YES
                            : strncmp(said, PLACE_NO, strlen(PLACE_NO)) == 0   ? NO
-                                                                              : CANNOT_SAY;
+                                                                              : INCONCLUSIVE;
         trial_add(t, Q_RATIO, s->ratio > 0 ? s->ratio : usual_ratio,
                   place_row(found, &place_ratio, 0));
     }

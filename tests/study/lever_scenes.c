@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "lever_scene.h"
 
-#define ALIKE (RIGHT(NO) | RIGHT(CANNOT_SAY))
-#define DIFFERS (RIGHT(YES) | RIGHT(CANNOT_SAY))
+#define ALIKE (RIGHT(NO) | RIGHT(INCONCLUSIVE))
+#define DIFFERS (RIGHT(YES) | RIGHT(INCONCLUSIVE))
 
 const lever_scene lever_scenes[] = {
     {NAMED("IK1", "spring constant 10 %, one lever"), .facts.intervals_promised = true,

@@ -69,12 +69,12 @@ extern const place place_needed_wear, place_needed_energy;
 #define PLACE_LAYER_HIGH "thickness_high"
 #define PLACE_LAYER_BOTH_LOW "both_low"
 #define PLACE_LAYER_BOTH_HIGH "both_high"
-#define PLACE_LAYER_AGREE "agree"     /* begins with yes, no or cannot say */
+#define PLACE_LAYER_AGREE "agree"     /* begins with yes, no or inconclusive */
 #define PLACE_LAYER_ALLOWED "allowed" /* begins with none where no thickness is */
 #define PLACE_NONE "none"
 #define PLACE_VALIDATION "validation"
 #define PLACE_VALIDATION_RUNNING_IN "validation_running_in"
-#define PLACE_VALIDATION_VERDICT "verdict"  /* begins with explains, does not or cannot say */
+#define PLACE_VALIDATION_VERDICT "verdict"  /* begins with explains, does not or inconclusive */
 #define PLACE_STEADY_CYCLES "steady_cycles" /* in `place_steady.table` */
 #define PLACE_WAVENUMBER "wavenumber"       /* [rad/m], beside the density */
 #define PLACE_SOURCE "source"               /* likewise: where a row is from */
@@ -84,7 +84,7 @@ extern const place place_needed_wear, place_needed_energy;
 #define PLACE_DOUBTFUL "doubtful"
 #define PLACE_POOLED_CHANCE "pooled_misfit_p" /* in `place_modulus.table` */
 #define PLACE_DEPTH "modulus_depth"
-#define PLACE_DEPTH_CHANGES "changes_bulk" /* begins with yes, no or cannot say */
+#define PLACE_DEPTH_CHANGES "changes_bulk" /* begins with yes, no or inconclusive */
 #define PLACE_DEPTH_MISFIT_CHANCE "misfit_p_bulk"
 #define PLACE_TEMPERATURE "temperature"     /* [K], beside shift and law */
 #define PLACE_FREQUENCY "angular_frequency" /* [rad/s], beside the moduli */
@@ -102,7 +102,7 @@ extern const place place_needed_wear, place_needed_energy;
 #define PLACE_VERDICT "superposition"
 #define PLACE_FAILS "fail" /* how the verdict begins */
 #define PLACE_HOLDS "holds"
-#define PLACE_CANNOT_SAY "cannot say"
+#define PLACE_INCONCLUSIVE "inconclusive"
 #define PLACE_UNTESTED "not tested"
 
 /* In `place_ratio.table`. */

@@ -133,14 +133,14 @@ static void print_verdicts(const job *j, int draws)
 {
     const verdict_tally t = tally_verdicts(j->facts, j->draws, draws);
     const int wrong = t.draws - t.right -
-                      (j->facts->right & RIGHT(CANNOT_SAY) ? 0 : t.said[CANNOT_SAY]) -
+                      (j->facts->right & RIGHT(INCONCLUSIVE) ? 0 : t.said[INCONCLUSIVE]) -
                       t.said[NO_VERDICT];
     const char *words = "";
     for (int i = draws - 1; i >= 0; i--)
         if (j->draws[i].words[0] != '\0')
             words = j->draws[i].words;
     printf("%s\t%s\t%d\t%d\t%d\t%d\t%d\t%d\t%d\t%d\t%d\t%.2g\t%s\t%s\n", j->facts->name,
-           j->facts->about, t.draws, t.right, wrong, t.said[YES], t.said[NO], t.said[CANNOT_SAY],
+           j->facts->about, t.draws, t.right, wrong, t.said[YES], t.said[NO], t.said[INCONCLUSIVE],
            t.outcomes[OUTCOME_REFUSED], t.outcomes[OUTCOME_BROKEN], t.wrong_yes, t.seconds,
            j->facts->verdict_promised ? "yes" : "no", words);
 }

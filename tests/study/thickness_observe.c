@@ -102,7 +102,7 @@ static void read_layer(const char *path, const thickness_scene *s, trial *t)
         estimate e = range_of(found, PLACE_LAYER_LOW, PLACE_LAYER_HIGH);
         if (begins(allowed, PLACE_NONE)) /* stated, and holds nothing */
             e.low = e.high = e.value = -1;
-        if (begins(allowed, PLACE_CANNOT_SAY))
+        if (begins(allowed, PLACE_INCONCLUSIVE))
             e.low = e.high = (double)NAN;
         trial_add(t, Q_ALLOWED, truth, e);
         if (s->other == 1) /* in which the other is right */
@@ -110,10 +110,10 @@ static void read_layer(const char *path, const thickness_scene *s, trial *t)
                       stream_key(found, PLACE_LAYER, PLACE_LAYER_BOTH_LOW) != NULL
                           ? range_of(found, PLACE_LAYER_BOTH_LOW, PLACE_LAYER_BOTH_HIGH)
                           : (estimate){-1, -1, -1});
-        t->draw->verdict = begins(agree, PLACE_YES)          ? YES
-                           : begins(agree, PLACE_CANNOT_SAY) ? CANNOT_SAY
-                           : begins(agree, PLACE_NO)         ? NO
-                                                             : NO_VERDICT;
+        t->draw->verdict = begins(agree, PLACE_YES)            ? YES
+                           : begins(agree, PLACE_INCONCLUSIVE) ? INCONCLUSIVE
+                           : begins(agree, PLACE_NO)           ? NO
+                                                               : NO_VERDICT;
     }
     stream_free(found);
 }

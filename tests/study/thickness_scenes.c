@@ -3,8 +3,8 @@
 
 #define PROMISED .facts.intervals_promised = true, .facts.verdict_promised = true
 /* The other source is right, or off. */
-#define RIGHT_SOURCE .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)
-#define WRONG_SOURCE .facts.right = RIGHT(NO) | RIGHT(CANNOT_SAY)
+#define RIGHT_SOURCE .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE)
+#define WRONG_SOURCE .facts.right = RIGHT(NO) | RIGHT(INCONCLUSIVE)
 #define WHITE .curves.noise = .005
 #define SPOTS .spot_scatter = .05
 
@@ -22,7 +22,7 @@ const thickness_scene thickness_scenes[] = {
     {NAMED("TH6", "the whole track is softer, source 50 nm"), PROMISED, WRONG_SOURCE, WHITE, SPOTS,
      .ratio = .64, .other_thickness = 50e-9, .other_error = .15},
     {NAMED("TH7", "track like bulk, source 50 nm"), .facts.verdict_promised = true,
-     .facts.right = RIGHT(CANNOT_SAY), WHITE, SPOTS, .ratio = 1, .other_thickness = 50e-9,
+     .facts.right = RIGHT(INCONCLUSIVE), WHITE, SPOTS, .ratio = 1, .other_thickness = 50e-9,
      .other_error = .15},
     {NAMED("TH8", "soft layer of 40 nm, correlated 2 %"), PROMISED, RIGHT_SOURCE,
      .curves.noise = .02, .curves.kind = NOISE_CORRELATED, SPOTS, .ratio = .5, .thickness = 40e-9,

@@ -319,8 +319,8 @@ static verdict read_verdict(const stream *found)
         return NO_VERDICT;
     if (strncmp(said, PLACE_YES, strlen(PLACE_YES)) == 0)
         return YES;
-    if (strncmp(said, PLACE_CANNOT_SAY, strlen(PLACE_CANNOT_SAY)) == 0)
-        return CANNOT_SAY;
+    if (strncmp(said, PLACE_INCONCLUSIVE, strlen(PLACE_INCONCLUSIVE)) == 0)
+        return INCONCLUSIVE;
     return strncmp(said, PLACE_NO, strlen(PLACE_NO)) == 0 ? NO : NO_VERDICT;
 }
 
@@ -368,7 +368,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     if (run_compare(s, files, made, t))
         compare_ratio(made, s, t);
     else if (s->copy_across && t->draw->outcome == OUTCOME_REFUSED)
-        t->draw->verdict = CANNOT_SAY;
+        t->draw->verdict = INCONCLUSIVE;
 }
 
 family track_family(void)

@@ -16,9 +16,9 @@
 
 /* What is right where the layer is there, and where it is not. */
 #define SEEN RIGHT(YES)
-#define PERHAPS RIGHT(YES) | RIGHT(CANNOT_SAY)
-#define UNKNOWN RIGHT(CANNOT_SAY)
-#define NOT_YES RIGHT(NO) | RIGHT(CANNOT_SAY)
+#define PERHAPS RIGHT(YES) | RIGHT(INCONCLUSIVE)
+#define UNKNOWN RIGHT(INCONCLUSIVE)
+#define NOT_YES RIGHT(NO) | RIGHT(INCONCLUSIVE)
 
 /* Where the right answer is that nothing can be said, there is no interval. */
 #define SILENT .facts.verdict_promised = true, NOT_GIVEN

@@ -3,8 +3,8 @@
 #include "validation_scene.h"
 
 #define PROMISED .facts.intervals_promised = true, .facts.verdict_promised = true
-#define NOT_NO .facts.right = RIGHT(YES) | RIGHT(CANNOT_SAY)
-#define NOT_YES .facts.right = RIGHT(NO) | RIGHT(CANNOT_SAY)
+#define NOT_NO .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE)
+#define NOT_YES .facts.right = RIGHT(NO) | RIGHT(INCONCLUSIVE)
 
 const validation_scene validation_scenes[] = {
     {NAMED("M1", "the theory is right, inputs good to 2 %"), PROMISED, .facts.right = RIGHT(YES),
@@ -17,7 +17,7 @@ const validation_scene validation_scenes[] = {
     {NAMED("M5", "1.25 times, beyond the margin"), PROMISED, NOT_YES, .off = 1.25, .error = 0.03},
     {NAMED("M6", "1.15 times, within the margin"), PROMISED, NOT_NO, .off = 1.15, .error = 0.03},
     {NAMED("M7", "the theory is right, a shear stress good to 40 %"), PROMISED,
-     .facts.right = RIGHT(CANNOT_SAY), .error = 0.02, .of_shear = 0.4},
+     .facts.right = RIGHT(INCONCLUSIVE), .error = 0.02, .of_shear = 0.4},
     {NAMED("M8", "the theory is right, velocities that scatter by 8 %"), PROMISED, NOT_NO,
      .error = 0.03, .scatter = 0.08},
     {NAMED("M9", "1.25 times, velocities that scatter by 8 %"), PROMISED, NOT_YES, .off = 1.25,
@@ -25,7 +25,7 @@ const validation_scene validation_scenes[] = {
     {NAMED("M10", "one velocity"), PROMISED, NOT_NO, .error = 0.03, .velocities = 1},
     {NAMED("M11", "four velocities, laps that scatter by 10 %"), PROMISED, NOT_NO, .error = 0.05,
      .noise = 0.1, .velocities = 4},
-    {NAMED("M12", "no shear stress in the case"), PROMISED, .facts.right = RIGHT(CANNOT_SAY),
+    {NAMED("M12", "no shear stress in the case"), PROMISED, .facts.right = RIGHT(INCONCLUSIVE),
      .error = 0.05, .unsaid = true},
 };
 const int n_validation_scenes = sizeof validation_scenes / sizeof validation_scenes[0];

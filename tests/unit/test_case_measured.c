@@ -142,7 +142,8 @@ static void test_only_what_is_asked(void **state)
     wt_result_free(result);
 }
 
-/* No curve of the track can be used: the comparison cannot say, the bulk is there, and all is said.
+/* No curve of the track can be used: the comparison is inconclusive, the bulk is there, and all is
+ * said.
  */
 static void test_no_track(void **state)
 {

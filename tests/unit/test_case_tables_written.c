@@ -408,7 +408,7 @@ static void test_common_law(void **state)
         law.margin = i == 0 ? 0.1 : 1e-9;
         assert_int_equal(wt_shared_shift_law_compute(&law, &table, NULL), WT_OK);
         assert_string_equal(wt_table_key(table, "law"), i == 0 ? "WLF" : "Arrhenius");
-        assert_true(strncmp(wt_table_key(table, "agree"), i == 0 ? "no: " : "cannot say: ", 4) ==
+        assert_true(strncmp(wt_table_key(table, "agree"), i == 0 ? "no: " : "inconclusive: ", 4) ==
                     0);
         assert_string_equal(wt_table_key(table, "left_out"), "none: it could not be fitted");
         see(table);

@@ -143,7 +143,7 @@ static void test_law(void **state)
     assert_near(key_estimate(t, "reference_temperature").value, REFERENCE, 0);
     assert_string_equal(wt_table_key(t, "vertical"), "tied");
     assert_string_equal(wt_table_key(t, "deformation"), "tension");
-    /* A lack of fit is found by chance in one draw of a hundred: then "cannot say". */
+    /* A lack of fit is found by chance in one draw of a hundred: then "inconclusive". */
     assert_int_not_equal(strncmp(wt_table_key(t, "superposition"), "fails", 5), 0);
     assert_true(atof(wt_table_key(t, "misfit_high")) < 0.002);
 }

@@ -94,7 +94,7 @@ static void test_closed(void **state)
     (void)add(0, true, true);
     check(judged().verdict, "explains: a change as the layer makes it is over after 1 times");
     (void)add(2, true, true);
-    check(judged().verdict, "cannot say");
+    check(judged().verdict, "inconclusive");
 }
 
 /* A run that agrees does not make one that contradicts agree, whichever is first. */
@@ -140,14 +140,14 @@ static void test_open_agrees(void **state)
     (void)add(0, true, false);
     run_verdict said = judged();
     check(said.verdict,
-          "cannot say: a change as the layer makes it is over after 1 times the time predicted");
+          "inconclusive: a change as the layer makes it is over after 1 times the time predicted");
     check(said.verdict, "which not every record tells");
     check(said.settled_by, "goes on until a change as the layer makes it is over");
     begin();
     (void)add(0, false, true);
     said = judged();
     check(said.verdict,
-          "cannot say: a change as the layer makes it is over within the first cycles");
+          "inconclusive: a change as the layer makes it is over within the first cycles");
     check(said.settled_by, "shorter cycles at the start");
     begin();
     (void)add(0, false, false);
@@ -184,7 +184,7 @@ static void test_bare(void **state)
         (void)add(0, true, true);
         (void)add(0, true, true);
         layer[i].n_bare = 2;
-        check(judged().verdict, "cannot say: within the stated errors there may be no layer");
+        check(judged().verdict, "inconclusive: within the stated errors there may be no layer");
         layer[i].n_bare = 1;
         check(judged().verdict, "explains: ");
     }
@@ -202,7 +202,7 @@ static void test_share_of_variance(void **state)
         wide->value[k * RUN_QUANTITIES + RUN_TIME_RATIO] =
             0.8 * flow_draw_normal(all.seed, k - 1, FLOW_DRAW_WEAR);
     const run_verdict said = judged();
-    check(said.verdict, "cannot say: a change as the layer makes it is over after 1 times");
+    check(said.verdict, "inconclusive: a change as the layer makes it is over after 1 times");
     check(said.settled_by, "known better");
     check(said.settled_by, " % of the variance");
     check_not(said.settled_by, "nan");
@@ -215,7 +215,7 @@ static void test_share_of_variance(void **state)
         values[2][k] = (double)NAN;
     }
     const run_verdict other = judged();
-    check(other.verdict, "cannot say: ");
+    check(other.verdict, "inconclusive: ");
     check_not(other.verdict, "nan");
     check_not(other.settled_by, "nan");
 }
@@ -328,7 +328,7 @@ static void test_not_together(void **state)
     assert_true(isnan(run_level_interval(&all.level[RUN_TIME_RATIO]).value));
     assert_true(isnan(run_level_interval(&all.level[RUN_ENERGY]).value));
     check(run_set_assess(&all).verdict,
-          "cannot say: a record tells a time of running-in that all together do not");
+          "inconclusive: a record tells a time of running-in that all together do not");
     records_end();
 }
 
@@ -529,7 +529,7 @@ static void test_sentence_and_table(void **state)
         double scale; /* of its friction above 0.3 */
         const char *begins, *holds;
     } tried[] = {{0, 1, "explains: ", "is over after"},
-                 {60, 1, "cannot say: ", "is not over at the end of the record, after"},
+                 {60, 1, "inconclusive: ", "is not over at the end of the record, after"},
                  {0, -8, "does not: the change of friction is -", "is over after"}};
     (void)state;
     for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
@@ -561,7 +561,7 @@ static void test_without_draws(void **state)
     change_case(energy, energy);
     change_record(0, 0, 0);
     run_case(0);
-    check(wt_table_key(runs, "verdict"), "cannot say: the prediction has no errors");
+    check(wt_table_key(runs, "verdict"), "inconclusive: the prediction has no errors");
     for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++)
         assert_true(isnan(number_cell(runs, 0, unknown[i])));
     assert_true(number_cell(runs, 0, "time_ratio") > 0);
@@ -608,7 +608,7 @@ static void test_before_the_first_friction(void **state)
     change_case(energy, energy);
     change_record(0, 0, 60);
     run_case(40);
-    check(wt_table_key(runs, "verdict"), "cannot say: ");
+    check(wt_table_key(runs, "verdict"), "inconclusive: ");
     case_end();
 }
 

@@ -281,7 +281,7 @@ static void test_verdict(void **state)
                                             "20 %, the margin set");
     assert_null(wt_table_key(tables.comparison, "settled_by"));
     assert_string_equal(verdict(1.02, 0.05),
-                        "cannot say: the interval of the ratio has room for no "
+                        "inconclusive: the interval of the ratio has room for no "
                         "difference and for one above 5 %");
     assert_non_null(strstr(wt_table_key(tables.comparison, "settled_by"),
                            "spots in each group would show a difference of 5 %"));
@@ -301,7 +301,7 @@ static void test_unsaid_temperature(void **state)
     char warmer[64];
     snprintf(warmer, sizeof warmer, "a track %.2g K warmer", -log(ratio) / slope);
     const char *said = verdict_of(wt_compare_job_defaults(), ratio);
-    assert_non_null(strstr(said, "cannot say: the wear track seems softer"));
+    assert_non_null(strstr(said, "inconclusive: the wear track seems softer"));
     assert_non_null(strstr(said, warmer));
     c = tables.comparison;
     assert_non_null(strstr(wt_table_key(c, "settled_by"), "indentation-temperature"));
@@ -472,12 +472,13 @@ static void test_warmer(void **state)
                         "yes: the wear track is softer than the bulk");
     assert_near(key_estimate(tables.comparison, "modulus_ratio").value,
                 complex_modulus(10) / complex_modulus(0), 1e-9);
-    assert_non_null(strstr(warmer(1, true, NULL, 0), "cannot say: bulk and track were indented at "
-                                                     "different temperatures"));
+    assert_non_null(strstr(warmer(1, true, NULL, 0),
+                           "inconclusive: bulk and track were indented at "
+                           "different temperatures"));
     assert_null(wt_table_key(tables.comparison, "modulus_ratio"));
     /* the material states no error, so that its step may be off by more than the margin */
     assert_non_null(strstr(warmer(1, true, &rubber, 0), "is not known: material"));
-    assert_non_null(strstr(wt_table_key(tables.comparison, "differs"), "cannot say"));
+    assert_non_null(strstr(wt_table_key(tables.comparison, "differs"), "inconclusive"));
     assert_near(key_estimate(tables.comparison, "modulus_ratio").value, 1, 1e-9);
     assert_string_equal(warmer(RATIO, true, &rubber, 0),
                         "yes: the wear track is softer than the bulk");
@@ -505,7 +506,7 @@ static void test_out_of_reach(void **state)
     static double tau = 1e-3, term = 6e6;
     wt_rubber rubber = rubber_of(&tau, &term);
     rubber.law.wlf = (wt_wlf){403.15, 6.5, 105}; /* the pole is between bulk and track */
-    assert_non_null(strstr(warmer(1, true, &rubber, 0), "cannot say: the DMA does not reach"));
+    assert_non_null(strstr(warmer(1, true, &rubber, 0), "inconclusive: the DMA does not reach"));
     assert_null(wt_table_key(tables.comparison, "modulus_ratio"));
     assert_non_null(strstr(wt_table_key(tables.comparison, "settled_by"), "temperature-slope"));
     assert_non_null(strstr(wt_table_key(tables.dma_comparison, "material_statement"), "none at "));
@@ -743,7 +744,7 @@ static void test_loss_not_known(void **state)
     set_shown(bulk_table, (double)NAN, 0);
     set_shown(track_table, 0.01, 0);
     assert_non_null(strstr(includes_of(job), "but not, for it is not known: loss of unknown"));
-    assert_non_null(strstr(wt_table_key(tables.comparison, "differs"), "cannot say"));
+    assert_non_null(strstr(wt_table_key(tables.comparison, "differs"), "inconclusive"));
     assert_non_null(strstr(wt_table_key(tables.comparison, "settled_by"), "a DMA of the rubber"));
     set_shown(bulk_table, 0.01, 0);
     assert_non_null(includes_of(job));
@@ -862,7 +863,7 @@ static void test_none_accepted(void **state)
         const wt_table *c = made.comparison;
         const size_t rejected = cases[i].verdict == WT_CURVE_SATURATED ? 7 : 6;
         snprintf(words, sizeof words,
-                 "cannot say: none of the 7 curves of the %s has a modulus (%zu: %s)",
+                 "inconclusive: none of the 7 curves of the %s has a modulus (%zu: %s)",
                  empty ? "track" : "bulk", rejected, wt_curve_verdict_text(cases[i].verdict));
         assert_string_equal(wt_table_key(c, "differs"), words);
         assert_non_null(strstr(wt_table_key(c, "settled_by"), cases[i].settled_by));

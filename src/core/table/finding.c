@@ -69,7 +69,7 @@ static const char *general_sentence(const finding *f)
     return decided[f->question][f->sign == SIGN_ABOVE];
 }
 
-/* The test of the moduli states its own reason: "cannot say: too few spots". */
+/* The test of the moduli states its own reason: "inconclusive: too few spots". */
 static void write_sentence(finding *f)
 {
     const char *stated = f->value.verdict != NULL ? f->value.verdict : "";

@@ -192,7 +192,7 @@
 
 /* Verdicts of several tables. */
 #define STATED_VERDICTS(X)                                                                         \
-    X(VERDICT_INCONCLUSIVE, "cannot say")                                                          \
+    X(VERDICT_INCONCLUSIVE, "inconclusive")                                                        \
     X(VERDICT_YES, "yes")                                                                          \
     X(VERDICT_NO, "no")                                                                            \
     X(VERDICT_NOT_TESTED, "not tested")                                                            \

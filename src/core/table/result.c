@@ -194,6 +194,30 @@ static void replace_member(const char *table, char **name)
     }
 }
 
+/* Replaces a former verdict. The reason after it stays: "cannot say: too few spots". */
+static void replace_verdict(char **text)
+{
+    static const char former[] = "cannot say";
+    const size_t n = sizeof former - 1;
+    if (*text == NULL || strncmp(*text, former, n) != 0)
+        return;
+    char *const current = format_text("inconclusive%s", *text + n);
+    free(*text);
+    *text = current;
+}
+
+/* Consecutive cells may share one text. */
+static void replace_verdicts(char **texts, size_t n_rows)
+{
+    for (size_t row = 0, end; row < n_rows; row = end) {
+        for (end = row + 1; end < n_rows && texts[end] == texts[row]; end++)
+            ;
+        replace_verdict(&texts[row]);
+        for (size_t i = row + 1; i < end; i++)
+            texts[i] = texts[row];
+    }
+}
+
 void table_use_current_names(wt_table *table)
 {
     const char *current = table_current_name(table->name);
@@ -201,10 +225,15 @@ void table_use_current_names(wt_table *table)
         free(table->name);
         table->name = wt_strdup(current);
     }
-    for (size_t i = 0; i < table->n_columns; i++)
+    for (size_t i = 0; i < table->n_columns; i++) {
         replace_member(table->name, &table->columns[i].name);
-    for (size_t i = 0; i < table->n_keys; i++)
+        if (table->columns[i].texts != NULL)
+            replace_verdicts(table->columns[i].texts, table->n_rows);
+    }
+    for (size_t i = 0; i < table->n_keys; i++) {
         replace_member(table->name, &table->keys[i].name);
+        replace_verdict(&table->keys[i].text);
+    }
 }
 
 struct wt_result {
