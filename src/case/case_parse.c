@@ -108,6 +108,56 @@ static wt_status validate_document(xmlDoc *doc, wt_error *err)
     return status;
 }
 
+/* ---- values to be filled in -------------------------------------------------------------------
+ */
+
+typedef struct open_values {
+    size_t n;
+    char list[sizeof((wt_error *)0)->place];
+} open_values;
+
+static void add_if_open(const char *text, const xmlNode *node, const char *name, open_values *open)
+{
+    if (strstr(text, "FILL IN") == NULL) /* as new-case writes it */
+        return;
+    const size_t used = strlen(open->list);
+    open->n++;
+    if (used + strlen(name) + sizeof ", line 4294967295 <>, ..." < sizeof open->list)
+        snprintf(open->list + used, sizeof open->list - used, "%sline %ld <%s>",
+                 used > 0 ? ", " : "", xmlGetLineNo((xmlNode *)node), name);
+    else if (used > 0 && open->list[used - 1] != '.')
+        snprintf(open->list + used, sizeof open->list - used, ", ...");
+}
+
+static void find_open_values(const xmlNode *parent, open_values *open)
+{
+    for (const xmlNode *node = parent->children; node != NULL; node = node->next) {
+        if (node->type == XML_TEXT_NODE && node->content != NULL)
+            add_if_open((const char *)node->content, parent, (const char *)parent->name, open);
+        if (node->type != XML_ELEMENT_NODE)
+            continue;
+        for (const xmlAttr *a = node->properties; a != NULL; a = a->next)
+            if (a->children != NULL && a->children->content != NULL)
+                add_if_open((const char *)a->children->content, node, (const char *)a->name, open);
+        find_open_values(node, open);
+    }
+}
+
+/* Reports all values at once, as the first one that a section rejects would hide the others. */
+static wt_status check_filled_in(const xmlDoc *doc, wt_error *err)
+{
+    open_values open = {.n = 0};
+    find_open_values((const xmlNode *)doc, &open);
+    if (open.n == 0)
+        return WT_OK;
+    wt_fail(err, WT_E_MISSING, "%zu value%s of the case %s still to be filled in", open.n,
+            open.n == 1 ? "" : "s", open.n == 1 ? "is" : "are");
+    wt_error_place(err, "%s", open.list);
+    wt_error_expected(err, "the value, with its unit, in place of FILL IN");
+    wt_error_advice(err, "weartrack-case(5) says what each element holds");
+    return WT_E_MISSING;
+}
+
 /* ---- document -------------------------------------------------------------------------------- */
 
 static wt_status read_case_document(const wt_case *c, xmlDoc **out, wt_error *err)
@@ -197,8 +247,10 @@ static wt_status parse_case(wt_case *c, wt_error *err)
     wt_status status = read_case_document(c, &doc, err);
     if (status == WT_OK) {
         use_current_elements(xmlDocGetRootElement(doc));
-        status = validate_document(doc, err);
+        status = check_filled_in(doc, err);
     }
+    if (status == WT_OK)
+        status = validate_document(doc, err);
     const xmlNode *root = status == WT_OK ? xmlDocGetRootElement(doc) : NULL;
     const struct {
         const char *name;

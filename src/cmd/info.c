@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cmd/file_kind.h"
+#include "core/base/array.h"
 #include "core/table/registry.h"
 
 static void print_metadata(const char *name, const wt_table *metadata)
@@ -79,26 +80,68 @@ static void print_missing_options(const file_kind *found)
     }
 }
 
-/* Prints a suggestion for the next command, for the only file or for all. */
-static void print_next_command(const char *const *files, size_t n, const file_kind *found)
+/* True if `word` is an option of reading that the suggested subcommand takes as well. */
+static bool is_taken_by(const char *subcommand, const char *word)
 {
+#define OF_SWEEPS " columns deformation format formats frequency sample sample-by sheet units "
+    static const struct {
+        const char *subcommand, *options; /* names between blanks */
+    } taken[] = {
+        {"convert", OF_SWEEPS " height-unit pixel-size sensitivity spectrum-convention "
+                              "spring-constant strain temperature temperature-in-name "},
+        {"indent --tip", " columns format formats sensitivity spring-constant units "},
+        {"master", OF_SWEEPS " strain temperature temperature-in-name "},
+        {"new-case", " formats "},
+        {"payne", OF_SWEEPS " temperature temperature-in-name "},
+        {"ramp", OF_SWEEPS " strain temperature-in-name "},
+        {"record", " columns format formats sheet units "},
+        {"thermal", " columns format formats sensitivity units "},
+    };
+#undef OF_SWEEPS
+    char name[64];
+    snprintf(name, sizeof name, " %.*s ", (int)strcspn(word, "="), word);
+    for (size_t i = 0; i < COUNT_OF(taken); i++)
+        if (strcmp(subcommand, taken[i].subcommand) == 0)
+            return strstr(taken[i].options, name) != NULL;
+    return false;
+}
+
+/* Prints the options without which the suggested subcommand would not read what this call reads. */
+static void print_given_options(int argc, char **argv, const char *subcommand)
+{
+    for (int i = 1; i < argc; i++) {
+        if (strncmp(argv[i], "--", 2) != 0 || !is_taken_by(subcommand, argv[i] + 2))
+            continue;
+        print_shell_argument(argv[i]);
+        if (strchr(argv[i], '=') == NULL && i + 1 < argc)
+            print_shell_argument(argv[++i]);
+    }
+}
+
+/* Prints a suggestion for the next command, for the only file or for all. */
+static void print_next_command(const cmd_session *s, int argc, char **argv, const file_kind *found)
+{
+    const char *const *files = s->files;
     if (found->nothing)
         return;
-    if (n > 1) {
+    if (s->n_files > 1) {
         fputs("\nnext: weartrack new-case", stdout);
-        for (size_t i = 0; i < n; i++)
+        print_given_options(argc, argv, "new-case");
+        for (size_t i = 0; i < s->n_files; i++)
             print_shell_argument(files[i]);
         fputs(" -o case.xml\n", stdout);
         return;
     }
-    printf("\nnext: weartrack %s", found->is_result               ? "table --list"
-                                   : found->kind == WT_KIND_FORCE ? "indent --tip"
-                                   : found->next != NULL          ? found->next
-                                   : found->kind == WT_KIND_SWEEP ? "master"
-                                                                  : "convert");
+    const char *const next = found->is_result               ? "table --list"
+                             : found->kind == WT_KIND_FORCE ? "indent --tip"
+                             : found->next != NULL          ? found->next
+                             : found->kind == WT_KIND_SWEEP ? "master"
+                                                            : "convert";
+    printf("\nnext: weartrack %s", next);
     if (!found->is_result && found->kind == WT_KIND_FORCE)
         print_shell_argument(*found->tip != '\0' ? found->tip
                                                  : "pyramid:half-angle=35deg,radius=20nm");
+    print_given_options(argc, argv, next);
     print_missing_options(found);
     print_shell_argument(files[0]);
     char *output = found->is_result
@@ -141,6 +184,6 @@ int cmd_info(int argc, char **argv)
     if (n_known == 0)
         s.status = CMD_FAILED;
     if (n_found == s.n_files)
-        print_next_command(s.files, s.n_files, &found);
+        print_next_command(&s, argc, argv, &found);
     return cmd_session_free(&s);
 }

@@ -135,7 +135,7 @@ static void large(void **state)
     close_all(&r);
 }
 
-/* The end of the file is missing: the curves before it are there. */
+/* The file is cut off: the curves before it are there. */
 static void cut(void **state)
 {
     (void)state;
@@ -149,7 +149,7 @@ static void cut(void **state)
     close_all(&r);
     f.missing_bytes = 2 * (IN + OUT) * CURVES;
     assert_int_equal(nanoscope_write(&f), 0);
-    refused(WT_E_CORRUPT, "the end of the file is missing");
+    refused(WT_E_CORRUPT, "the file is cut off");
     assert_int_equal(open_force(&r, path, NULL), WT_E_CORRUPT);
     assert_string_equal(r.err.place, "\\*Ciao force image list"); /* where it says how many */
     close_all(&r);

@@ -88,7 +88,7 @@ static wt_status read_image_block(const nanoscope_header *h, size_t section, inp
         return fail_image(err, "the size of the block contradicts the pixels",
                           "2 or 4 bytes for each of Samps/line x Number of lines");
     if (offset > w->size || bytes > w->size - offset)
-        return fail_image(err, "the end of the file is missing", "all of the image");
+        return fail_image(err, "the file is cut off", "all of the image");
     parse_scan_size(text != NULL
                         ? text
                         : nanoscope_get(h, nanoscope_section(h, "Ciao scan list", 0), "Scan Size"),

@@ -182,11 +182,10 @@ static wt_status limit_curves(nanoscope_file *f, wt_log *log, wt_error *err)
         f->n_curves = whole_curves < f->n_curves ? whole_curves : f->n_curves;
     }
     if (f->n_curves == 0)
-        return fail_block(err, "the end of the file is missing", "at least one curve");
+        return fail_block(err, "the file is cut off", "at least one curve");
     if (f->n_curves < f->n_planned)
-        wt_log_add(log, WT_LOSS, f->name, NULL,
-                   "the end of the file is missing: %zu of %zu curves are there", f->n_curves,
-                   f->n_planned);
+        wt_log_add(log, WT_LOSS, f->name, NULL, "the file is cut off: %zu of %zu curves are there",
+                   f->n_curves, f->n_planned);
     return WT_OK;
 }
 

@@ -58,7 +58,9 @@ wt_status nanoscope_header_read(const unsigned char *bytes, size_t length, nanos
     size_t lines = 1;
     *header = (nanoscope_header){.text = NULL};
     if (end == NULL) {
-        wt_fail(err, WT_E_CORRUPT, "the header has no end");
+        wt_fail(err, WT_E_CORRUPT,
+                length < NANOSCOPE_HEADER_MAX ? "the file is cut off within its header"
+                                              : "the header has no end");
         wt_error_expected(err, "the byte 1A behind the line \"\\*File list end\"");
         return WT_E_CORRUPT;
     }
