@@ -23,24 +23,14 @@ typedef struct wt_ratio_slope {
     double low, high;   /* [rad/s] */
     double temperature; /* temperature of these frequencies [K]; NaN: that of the material */
 } wt_ratio_slope;
-/* Computes ln |ratio| relative to the reference, and the phase of the causal minimum-phase ratio
- * with this magnitude (Bode 1940, Kramers-Kronig relations). The phase is exponent pi/2 well inside
- * `low` and `high` and 0 far outside. omega > 0. */
-WT_API void wt_ratio_slope_eval(const wt_ratio_slope *slope, double omega, double *log_ratio,
-                                double *phase);
 
 /* A soft or stiff surface layer bonded to the bulk. Its modulus is a constant ratio of the bulk
- * modulus, a ratio that is a power of the frequency, or that of its own material. Its stiffness at
- * a wavenumber follows Burmister (1943) for nu = 1/2, independent of the material's Poisson ratio,
+ * modulus, or a ratio that is a power of the frequency. Its stiffness at a wavenumber follows Burmister (1943) for nu = 1/2, independent of the material's Poisson ratio,
  * with the complex moduli at each frequency. */
 typedef struct wt_layer_state {
     double thickness;     /* [m], 0 = none */
     double modulus_ratio; /* E_layer / E_bulk, > 0 */
     wt_ratio_slope slope; /* frequency dependence of that ratio; all 0: constant */
-    const wt_material
-        *material; /* material of the layer, borrowed, replaces the ratio; NULL = none */
-    wt_shift_law material_law; /* shift law of that material for a flash temperature; WT_LAW_NONE:
-                             that of the bulk */
 } wt_layer_state;
 
 /* ---- contact and friction ------------------------------------------------------------------- */

@@ -264,7 +264,8 @@ static void widen_zero_loss_range(const wt_sliding *sliding, const wt_roughness 
         slowest = fmin(slowest, sliding->velocity[i]);
         fastest = fmax(fastest, sliding->velocity[i]);
     }
-    if (!layer_moduli_zero_loss_range(moduli, fmin(moduli->limit[0], roughness->q0 * slowest),
+    if (!layer_moduli_zero_loss_range(moduli,
+                                      fmin(moduli->layer.slope.low, roughness->q0 * slowest),
                                       roughness->q1 * fastest, found))
         return;
     range[0] = fmin(range[0], found[0]);

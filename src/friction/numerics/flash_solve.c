@@ -39,8 +39,6 @@ struct flash_scratch {
     double *steps, *changes;                /* [DEPTH * nodes] differences of the rise and of the
                                                residual */
     double *shift, *omega, *x, *j1, *j2;    /* [nodes] */
-    double *extra_shift;                    /* [nodes] ln of the extra shift of a layer; NULL if
-                                           it is shifted as the bulk */
     double *loss_j1, *loss_j2;              /* [nodes] with softening */
     double *g, *running, *area, *mu, *heat; /* [nodes] */
     double *wave, *square, *sum;            /* [waves] */
@@ -67,8 +65,6 @@ flash_scratch *flash_scratch_new(const wt_friction_workspace *ws, arena *memory)
         &s->g,     &s->running, &s->area,     &s->mu,        &s->heat,          &s->coarse};
     for (size_t i = 0; i < COUNT_OF(by_node); i++)
         *by_node[i] = arena_numbers(memory, n);
-    if (flash_has_layer_shift(ws->flash))
-        s->extra_shift = arena_numbers(memory, n);
     s->steps = arena_numbers(memory, DEPTH * n);
     s->changes = arena_numbers(memory, DEPTH * n);
     double **const by_wave[] = {&s->wave, &s->square, &s->sum, &s->amount[0], &s->amount[1]};
@@ -182,11 +178,9 @@ static void compute_moduli(const flash_map *map)
         s->omega[i] *= grid->q[i] * map->at.speed;
         s->x[i] = grid->log_q[i] + log_speed + s->shift[i];
     }
-    if (s->extra_shift != NULL)
-        flash_log_layer_shift(map->law, s->rise, grid->n, s->extra_shift);
     double ignored_error = 0; /* the pass at these temperatures reports this error */
-    friction_moduli(ws, grid->q, s->omega, s->x, s->extra_shift, grid->n, s->j1, s->j2, s->loss_j1,
-                    s->loss_j2, &ignored_error);
+    friction_moduli(ws, grid->q, s->omega, s->x, grid->n, s->j1, s->j2, s->loss_j1, s->loss_j2,
+                    &ignored_error);
     s->nodes += grid->n;
     if (ws->loss == NULL)
         return;
@@ -373,14 +367,9 @@ static double sum_weighted(const flash_grid *grid, const double *value)
 static double steepest_shift(const flash_law *law, double rise)
 {
     const double step = 1e-3, at[] = {step, rise, rise + step}; /* [K] */
-    double shift[3], extra_shift[3] = {0};
+    double shift[3];
     flash_log_shift(law, at, 3, shift);
-    if (flash_has_layer_shift(law))
-        flash_log_layer_shift(law, at, 3, extra_shift);
-    const double bulk = fmax(fabs(shift[0]), fabs(shift[2] - shift[1]));
-    for (size_t i = 0; i < 3; i++)
-        shift[i] += extra_shift[i];
-    return fmax(bulk, fmax(fabs(shift[0]), fabs(shift[2] - shift[1]))) / step;
+    return fmax(fabs(shift[0]), fabs(shift[2] - shift[1])) / step;
 }
 
 static double residual_goal(const flash_law *law)

@@ -31,42 +31,20 @@ enum { MIN_LEVELS = 3, MAX_LEVELS = 12 };
 /* Rubber is destroyed above this temperature [K]; a hotter solution is not valid. */
 static const double hottest = 573.15;
 
-/* ln(a_T / a_T0) of a law, where `log_a` is ln a_T0. */
-static void compute_log_shift(const wt_shift_law *shift, double temperature, double log_a,
-                              const double *rise, size_t n, double *log_shift)
+void flash_log_shift(const flash_law *law, const double *rise, size_t n, double *log_shift)
 {
+    const wt_shift_law *shift = &law->shift;
     const wt_wlf *wlf = &shift->wlf;
     /* relative to T0, so that small rises keep their digits */
-    const double c2 = wlf->c2 + temperature - wlf->reference_temperature;
+    const double c2 = wlf->c2 + law->temperature - wlf->reference_temperature;
     const double c1 = M_LN10 * wlf->c1 * wlf->c2 / c2;
     if (shift->kind == WT_LAW_WLF)
         for (size_t i = 0; i < n; i++)
             log_shift[i] = -c1 * rise[i] / (c2 + rise[i]);
     else
         for (size_t i = 0; i < n; i++)
-            log_shift[i] = M_LN10 * wt_shift_law_log_a(shift, temperature + rise[i]) - log_a;
-}
-
-void flash_log_shift(const flash_law *law, const double *rise, size_t n, double *log_shift)
-{
-    compute_log_shift(&law->shift, law->temperature, law->log_a, rise, n, log_shift);
-}
-
-bool flash_has_layer_shift(const flash_law *law)
-{
-    return law != NULL && law->layer_shift.kind != WT_LAW_NONE;
-}
-
-void flash_log_layer_shift(const flash_law *law, const double *rise, size_t n,
-                           double *log_extra_shift)
-{
-    for (size_t i = 0; i < n; i++) {
-        double bulk, layer;
-        flash_log_shift(law, &rise[i], 1, &bulk);
-        compute_log_shift(&law->layer_shift, law->temperature, law->layer_log_a, &rise[i], 1,
-                          &layer);
-        log_extra_shift[i] = layer - bulk;
-    }
+            log_shift[i] =
+                M_LN10 * wt_shift_law_log_a(shift, law->temperature + rise[i]) - law->log_a;
 }
 
 /* ---- use of a profile ------------------------------------------------------------------------ */
@@ -102,15 +80,6 @@ void heat_log_shift(const heat_profile *heat, const double *q, size_t n, double 
     for (size_t i = 0; i < n; i++)
         log_shift[i] = fmin(log_shift[i], heat->law->hottest);
     flash_log_shift(heat->law, log_shift, n, log_shift);
-}
-
-void heat_log_layer_shift(const heat_profile *heat, const double *q, size_t n,
-                          double *log_extra_shift)
-{
-    heat_rise(heat, q, n, log_extra_shift);
-    for (size_t i = 0; i < n; i++)
-        log_extra_shift[i] = fmin(log_extra_shift[i], heat->law->hottest);
-    flash_log_layer_shift(heat->law, log_extra_shift, n, log_extra_shift);
 }
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
@@ -235,8 +204,7 @@ static void create_grids(wt_friction_workspace *ws, flash_law *law)
 
 /* ---- construction ---------------------------------------------------------------------------- */
 
-static wt_status check_shift_law(const wt_friction_options *o, const wt_shift_law *layer,
-                                 wt_error *err)
+static wt_status check_shift_law(const wt_friction_options *o, wt_error *err)
 {
     if (o->shift.kind == WT_LAW_NONE) {
         (void)wt_fail(err, WT_E_MISSING, "a flash temperature needs the shift law of the material");
@@ -249,16 +217,13 @@ static wt_status check_shift_law(const wt_friction_options *o, const wt_shift_la
     if (isnan(wt_shift_law_log_a(&o->shift, o->temperature)))
         return range_error("temperature of the surroundings", o->temperature,
                            "one at which the shift law has a value", err);
-    if (layer->kind != WT_LAW_NONE && isnan(wt_shift_law_log_a(layer, o->temperature)))
-        return range_error("temperature of the surroundings", o->temperature,
-                           "one at which the shift law of the layer has a value", err);
     return WT_OK;
 }
 
 wt_status flash_new(wt_friction_workspace *ws, wt_error *err)
 {
     const wt_friction_options *o = &ws->options;
-    wt_status status = check_shift_law(o, &ws->layer_law, err);
+    wt_status status = check_shift_law(o, err);
     if (status != WT_OK)
         return status;
     flash_law *law = arena_alloc(&ws->memory, 1, sizeof *law);
@@ -266,10 +231,6 @@ wt_status flash_new(wt_friction_workspace *ws, wt_error *err)
     law->shift = o->shift;
     law->temperature = o->temperature;
     law->log_a = M_LN10 * wt_shift_law_log_a(&law->shift, law->temperature);
-    if (o->layer.thickness > 0 && ws->layer_law.kind != WT_LAW_NONE) {
-        law->layer_shift = ws->layer_law;
-        law->layer_log_a = M_LN10 * wt_shift_law_log_a(&law->layer_shift, law->temperature);
-    }
     law->hottest = hottest - o->temperature;
     law->tolerance = o->tolerance;
     law->q0 = ws->roughness->q0;

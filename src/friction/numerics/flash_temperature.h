@@ -30,9 +30,6 @@ typedef struct heat_profile {
 /* Rise above T0 at n wavenumbers [K], and ln(a_T / a_T0) there. */
 void heat_rise(const heat_profile *heat, const double *q, size_t n, double *rise);
 void heat_log_shift(const heat_profile *heat, const double *q, size_t n, double *log_shift);
-/* Variant of flash_log_layer_shift at the temperatures of the profile. */
-void heat_log_layer_shift(const heat_profile *heat, const double *q, size_t n,
-                          double *log_extra_shift);
 
 /* Two grids: a solution is searched for on the coarse one and refined on the fine one. */
 enum { FLASH_COARSE, FLASH_FINE, FLASH_GRIDS };
@@ -64,9 +61,6 @@ typedef struct flash_law {
     wt_flash options;
     wt_shift_law shift;
     double temperature, log_a; /* T0 and ln a_T there */
-    wt_shift_law layer_shift;  /* shift law of a layer's own material; none if it is shifted as
-                                  the bulk */
-    double layer_log_a;        /* ln a_T of the layer at T0 */
     double hottest;            /* largest rise above T0 [K] */
     double tolerance;
     double q0;
@@ -80,11 +74,6 @@ struct friction_load;
 
 /* ln(a_T / a_T0) at n rises; NaN where the law has no value. */
 void flash_log_shift(const flash_law *law, const double *rise, size_t n, double *log_shift);
-/* True if a layer's own material has another shift law. The second function computes ln of its
- * shift relative to the bulk at n rises. */
-bool flash_has_layer_shift(const flash_law *law);
-void flash_log_layer_shift(const flash_law *law, const double *rise, size_t n,
-                           double *log_extra_shift);
 /* Creates the law of a workspace whose material, roughness and tolerance are set. */
 wt_status flash_new(struct wt_friction_workspace *ws, wt_error *err) WT_NODISCARD;
 

@@ -24,7 +24,7 @@ double friction_heat_error(const flash_solution *solution, const friction_pass *
 }
 
 void friction_shift_nodes(const flash_solution *solution, const double *q, size_t n, double *omega,
-                          double *log_omega, double *extra_shift)
+                          double *log_omega)
 {
     double shift[GAUSS_NODES_MAX], factor[GAUSS_NODES_MAX];
     heat_log_shift(&solution->heat, q, n, shift);
@@ -33,8 +33,6 @@ void friction_shift_nodes(const flash_solution *solution, const double *q, size_
         omega[i] *= factor[i];
         log_omega[i] += shift[i];
     }
-    if (extra_shift != NULL)
-        heat_log_layer_shift(&solution->heat, q, n, extra_shift);
 }
 
 /* Sets all results of a load without a solution to NaN. */

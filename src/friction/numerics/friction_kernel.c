@@ -79,8 +79,6 @@ void friction_scratch_init(friction_scratch *scratch, const wt_friction_workspac
                                        &scratch->estimated_mu,  &scratch->variance_effect};
     for (size_t i = 0; i < COUNT_OF(by_subinterval); i++)
         *by_subinterval[i] = arena_alloc(memory, subintervals + 1, sizeof **by_subinterval[i]);
-    if (flash_has_layer_shift(ws->flash))
-        scratch->extra_shift = arena_numbers(memory, (subintervals + 2) * GAUSS_NODES_MAX);
     if (ws->flash != NULL)
         scratch->flash = flash_scratch_new(ws, memory);
 }
@@ -157,7 +155,7 @@ static wt_status init_softening(wt_friction_workspace *ws, wt_error *err)
 }
 
 /* Prepares a layer with its own moduli, which are then part of J1 and J2. Subintervals end where
- * either material is not smooth. */
+ * its moduli are not smooth. */
 static wt_status init_layer_moduli(wt_friction_workspace *ws, wt_error *err)
 {
     wt_layer_state *layer = &ws->options.layer;
@@ -170,18 +168,11 @@ static wt_status init_layer_moduli(wt_friction_workspace *ws, wt_error *err)
         return status;
     *ws->layer = layer_moduli_create(ws->material, *layer, ws->options.tolerance);
     ws->layer->weight = ws->anisotropic ? &ws->weight : NULL;
-    size_t more = ws->layer->n_edges;
-    const double *edges = ws->layer->edges;
-    if (layer->material != NULL && layer->material->law->breaks != NULL)
-        edges = layer->material->law->breaks(layer->material, &more);
-    if (layer->material != NULL)
-        ws->layer_law = layer->material_law;
+    const size_t more = ws->layer->n_edges;
     *layer = (wt_layer_state){.thickness = layer->thickness, .modulus_ratio = 1};
-    if (more == 0)
-        return WT_OK;
     double *all = arena_numbers(&ws->memory, ws->n_knots + more);
     for (size_t k = 0; k < ws->n_knots + more; k++)
-        all[k] = k < ws->n_knots ? ws->knots[k] : edges[k - ws->n_knots];
+        all[k] = k < ws->n_knots ? ws->knots[k] : ws->layer->edges[k - ws->n_knots];
     numbers_sort(all, ws->n_knots + more);
     ws->knots = all;
     ws->n_knots += more;
@@ -397,8 +388,7 @@ typedef struct compute_job {
 static bool needs_extrapolated_share(const wt_friction_workspace *ws)
 {
     return !ws->options.skip_extrapolated_share &&
-           (ws->layer != NULL ? !isnan(ws->layer->limit[0]) || !isnan(ws->layer->limit[1])
-                              : angular_has_limits(ws->angular));
+           (ws->layer != NULL || angular_has_limits(ws->angular));
 }
 
 /* Computes a load with known temperatures, for a positive velocity. */

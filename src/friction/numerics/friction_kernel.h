@@ -23,10 +23,8 @@ typedef struct friction_scratch {
     double *bounds;                   /* [room + 1] t */
     /* [(room + 2) * max nodes] all subintervals, then one recomputed, then the core */
     double *omega, *log_omega, *j1, *j2;
-    double *rise, *full;       /* rise of G, and hysteresis at full contact */
-    double *extra_shift;       /* ln of the extra shift of a layer; NULL if it is shifted as the
-                              bulk */
-    double *loss_j1, *loss_j2; /* integrals of the loss modulus, with softening */
+    double *rise, *full;                    /* rise of G, and hysteresis at full contact */
+    double *loss_j1, *loss_j2;              /* integrals of the loss modulus, with softening */
     double *subinterval_mu, *subinterval_g; /* [room + 1] parts of the last pass */
     double *error_mu, *error_g;             /* errors of the rules in these parts */
     /* [room + 1] for each subinterval: G and the hysteresis at full contact by the first rule, and
@@ -50,8 +48,6 @@ struct wt_friction_workspace {
     bool anisotropic;
     struct lateral_force *lateral; /* integrals of its lateral force; NULL if none */
     layer_moduli *layer;           /* layer's own moduli; NULL if none */
-    wt_shift_law layer_law;        /* shift law of its own material; none if it is shifted as the
-                                      bulk */
     flash_law *flash;              /* NULL if the rubber has the temperature of its surroundings */
     double stiffness;              /* 1 / (1 - nu^2) */
     double rounding; /* relative rounding error of the integrals, without that of J1 and J2 */
@@ -115,13 +111,12 @@ void node_contributions_add(node_contributions *record, const double *q, const d
 void friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
                            size_t n_cuts, arena *memory);
 
-/* J1 and J2 at n wavenumbers and their frequencies omega, x = ln omega. `extra_shift` is ln of the
- * shift of a layer relative to the bulk; NULL for none. With softening, the integrals of the loss
- * modulus are computed, too. The own moduli of a layer are included, and `*error` is raised to
- * their largest relative error. */
+/* J1 and J2 at n wavenumbers and their frequencies omega, x = ln omega. With softening, the
+ * integrals of the loss modulus are computed, too. The own moduli of a layer are included, and
+ * `*error` is raised to their largest relative error. */
 void friction_moduli(const wt_friction_workspace *ws, const double *q, const double *omega,
-                     const double *x, const double *extra_shift, size_t n, double *j1, double *j2,
-                     double *loss_j1, double *loss_j2, double *error);
+                     const double *x, size_t n, double *j1, double *j2, double *loss_j1,
+                     double *loss_j2, double *error);
 /* Adds the errors of a part from J1, J2 and rounding; its n nodes have ln omega = `x`, and G so far
  * includes the part. The series have errors. Steep integrands also amplify the rounding of ln(q /
  * q0), ln omega and the logarithms of the knots. */
@@ -159,10 +154,9 @@ void friction_heated_point(const wt_friction_workspace *ws, friction_scratch *sc
                            wt_friction_point *point);
 /* Error of the temperatures [K], from a pass at them. */
 double friction_heat_error(const flash_solution *solution, const friction_pass *pass);
-/* Shifts the frequencies at n <= GAUSS_NODES_MAX wavenumbers by the temperatures there, and
- * computes ln of the extra shift of the layer (NULL if not requested). */
+/* Shifts the frequencies at n <= GAUSS_NODES_MAX wavenumbers by the temperatures there. */
 void friction_shift_nodes(const flash_solution *solution, const double *q, size_t n, double *omega,
-                          double *log_omega, double *extra_shift);
+                          double *log_omega);
 /* Moves the knots t of the material according to the temperatures. */
 void friction_shift_knots(const wt_friction_workspace *ws, const heat_profile *heat, double *knots);
 

@@ -51,23 +51,15 @@ void lateral_force_extend(lateral_force *side, double lowest, double highest)
 /* Values at the nodes of a record. */
 typedef struct lateral_nodes {
     double *omega, *log_omega, *j1, *j2, *shifted, *plain;
-    double *extra_shift; /* extra shift of a layer's frequencies; NULL if shifted as the bulk */
-    double *numbers;     /* memory of these arrays */
+    double *numbers; /* memory of these arrays */
 } lateral_nodes;
 
-static lateral_nodes lateral_nodes_create(const node_contributions *record, friction_load at,
-                                          bool extra_shift)
+static lateral_nodes lateral_nodes_create(const node_contributions *record, friction_load at)
 {
     const size_t n = record->n;
-    double *numbers = wt_alloc(7 * n, sizeof *numbers);
-    const lateral_nodes nodes = {numbers,
-                                 numbers + n,
-                                 numbers + 2 * n,
-                                 numbers + 3 * n,
-                                 numbers + 4 * n,
-                                 numbers + 5 * n,
-                                 extra_shift ? numbers + 6 * n : NULL,
-                                 numbers};
+    double *numbers = wt_alloc(6 * n, sizeof *numbers);
+    const lateral_nodes nodes = {numbers,         numbers + n,     numbers + 2 * n, numbers + 3 * n,
+                                 numbers + 4 * n, numbers + 5 * n, numbers};
     for (size_t i = 0; i < n; i++) {
         nodes.omega[i] = record->q[i] * at.speed;
         nodes.log_omega[i] = log(record->q[i]) + log(at.speed);
@@ -75,7 +67,7 @@ static lateral_nodes lateral_nodes_create(const node_contributions *record, fric
     for (size_t i = 0; at.heat != NULL && i < n; i += GAUSS_NODES_MAX)
         friction_shift_nodes(at.heat, record->q + i,
                              n - i < GAUSS_NODES_MAX ? n - i : GAUSS_NODES_MAX, nodes.omega + i,
-                             nodes.log_omega + i, extra_shift ? nodes.extra_shift + i : NULL);
+                             nodes.log_omega + i);
     return nodes;
 }
 
@@ -93,17 +85,13 @@ wt_estimate lateral_force_compute(const wt_friction_workspace *ws, friction_load
     wt_estimate side = {.unit = "1"};
     if (n == 0)
         return side;
-    const lateral_nodes k =
-        lateral_nodes_create(record, at, at.heat != NULL && flash_has_layer_shift(ws->flash));
+    const lateral_nodes k = lateral_nodes_create(record, at);
     size_t piece[2] = {0, 0};
     double own_error = 0;
     if (ws->layer != NULL) {
-        layer_moduli_eval(ws->layer, record->q, k.omega, k.extra_shift, n, k.j1, k.j2, NULL,
-                          &own_error);
-        layer_moduli_eval(&s->own[0], record->q, k.omega, k.extra_shift, n, k.shifted, k.j2, NULL,
-                          &own_error);
-        layer_moduli_eval(&s->own[1], record->q, k.omega, k.extra_shift, n, k.plain, k.j2, NULL,
-                          &own_error);
+        layer_moduli_eval(ws->layer, record->q, k.omega, n, k.j1, k.j2, NULL, &own_error);
+        layer_moduli_eval(&s->own[0], record->q, k.omega, n, k.shifted, k.j2, NULL, &own_error);
+        layer_moduli_eval(&s->own[1], record->q, k.omega, n, k.plain, k.j2, NULL, &own_error);
     } else {
         angular_eval(ws->angular, k.omega, k.log_omega, n, k.j1, k.j2);
         angular_eval(s->shifted, k.omega, k.log_omega, n, k.shifted, k.j2);

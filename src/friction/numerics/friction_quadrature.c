@@ -23,7 +23,6 @@ typedef struct node_view {
     const double *f, *g; /* NULL without softening */
     double half;
     double *omega, *log_omega, *j1, *j2;
-    double *extra_shift; /* extra shift of a layer's frequencies; NULL if shifted as the bulk */
     double *rise, *full; /* rise of G, and hysteresis at full contact, both without weights */
 } node_view;
 
@@ -32,8 +31,6 @@ static node_view create_view(friction_scratch *scratch, const scale_grid *grid, 
     return (node_view){.rule = grid->rule,
                        .omega = scratch->omega + from,
                        .log_omega = scratch->log_omega + from,
-                       .extra_shift =
-                           scratch->extra_shift != NULL ? scratch->extra_shift + from : NULL,
                        .j1 = scratch->j1 + from,
                        .j2 = scratch->j2 + from,
                        .rise = scratch->rise + from,
@@ -83,8 +80,7 @@ static void fill_view_frequencies(const node_view *view, friction_load at)
 {
     fill_frequencies(view->rule->n, view->q, view->t, at, view->omega, view->log_omega);
     if (at.heat != NULL)
-        friction_shift_nodes(at.heat, view->q, view->rule->n, view->omega, view->log_omega,
-                             view->extra_shift);
+        friction_shift_nodes(at.heat, view->q, view->rule->n, view->omega, view->log_omega);
 }
 
 /* Evaluates J1 and J2 at n nodes whose frequencies are set. */
@@ -95,9 +91,8 @@ static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *sc
     double *loss_j1 = ws->loss != NULL ? scratch->loss_j1 + from : NULL;
     double *loss_j2 = ws->loss != NULL ? scratch->loss_j2 + from : NULL;
     scratch->nodes += n;
-    friction_moduli(ws, q, omega, scratch->log_omega + from,
-                    scratch->extra_shift != NULL ? scratch->extra_shift + from : NULL, n,
-                    scratch->j1 + from, scratch->j2 + from, loss_j1, loss_j2, &scratch->own_error);
+    friction_moduli(ws, q, omega, scratch->log_omega + from, n, scratch->j1 + from,
+                    scratch->j2 + from, loss_j1, loss_j2, &scratch->own_error);
 }
 
 /* Factors of G from J2, and of the hysteresis at full contact from J1. */
@@ -350,12 +345,10 @@ static double extrapolated_part(const wt_friction_workspace *ws, const node_view
 {
     const size_t n = view->rule->n;
     double j1[GAUSS_NODES_MAX] = {0}, outside[GAUSS_NODES_MAX], sum = 0;
-    for (size_t j = 0; ws->layer != NULL && j < n; j++) {
-        const double times = view->extra_shift != NULL ? exp(view->extra_shift[j]) : 1;
-        const double at = times * view->omega[j];
-        if (at < ws->layer->limit[0] || at > ws->layer->limit[1])
+    for (size_t j = 0; ws->layer != NULL && j < n; j++)
+        if (view->omega[j] < ws->layer->layer.slope.low ||
+            view->omega[j] > ws->layer->layer.slope.high)
             sum += part->share[j];
-    }
     if (ws->layer != NULL)
         return sum;
     for (size_t j = 0; j < n; j++)

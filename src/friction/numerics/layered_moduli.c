@@ -26,9 +26,62 @@ static const struct {
 } rules[] = {{1e-6, 0.3, -12}, {0, 0.2, -24}};
 static const double rule_end = 3.6; /* the rest is e^(-e^3.6), below rounding */
 
+/* ---- ratio of the moduli ------------------------------------------------------------------------
+ */
+
+/* The logarithm of a minimum-phase ratio is analytic, so that its phase follows from its modulus
+ * (Bode, Bell Syst. Tech. J. 19 (1940) 421), with u = ln omega:
+ *   phase(u) = 1/pi int (d ln|ratio| / du') ln coth(|u - u'| / 2) du'
+ * The result is exponent / pi [L(u - u_low) - L(u - u_high)], L(y) = int_0^y ln coth(|t| / 2) dt.
+ */
+
+/* Coefficient of the series of chi. */
+#define TERM(k) (1.0 / ((k) * (k)))
+
+/* Legendre's chi function, the sum of z^k / k^2 over odd k, for 0 <= z <= sqrt(2) - 1. */
+static double legendre_chi_2(double z)
+{
+    /* The series starts at the k whose term is 1e-16 of the first. */
+    static const double term[] = {TERM(35), TERM(33), TERM(31), TERM(29), TERM(27), TERM(25),
+                                  TERM(23), TERM(21), TERM(19), TERM(17), TERM(15), TERM(13),
+                                  TERM(11), TERM(9),  TERM(7),  TERM(5),  TERM(3),  TERM(1)};
+    const double square = z * z;
+    double sum = 0;
+    for (size_t i = 0; i < sizeof term / sizeof term[0]; i++)
+        sum = sum * square + term[i];
+    return z * sum;
+}
+
+/* L as a function of z = e^-|y|, by the closed form of legendre_chi_2(z) + legendre_chi_2((1 - z) /
+ * (1 + z)). */
+static double phase_integral(double z)
+{
+    const double other = (1 - z) / (1 + z);
+    if (z >= 1)
+        return 0;
+    return other > z ? M_PI * M_PI / 4 - 2 * legendre_chi_2(z)
+                     : log(z) * log(other) + 2 * legendre_chi_2(other);
+}
+
+static double step_phase(double omega, double edge)
+{
+    return omega > edge ? phase_integral(edge / omega) : -phase_integral(omega / edge);
+}
+
+void ratio_slope_eval(const wt_ratio_slope *slope, double omega, double *log_ratio, double *phase)
+{
+    const double clamped = fmin(fmax(omega, slope->low), slope->high);
+    *log_ratio = *phase = 0;
+    if (slope->exponent == 0)
+        return;
+    *log_ratio = slope->exponent * log(clamped / slope->reference);
+    *phase =
+        slope->exponent / M_PI * (step_phase(omega, slope->low) - step_phase(omega, slope->high));
+}
+
 bool layer_has_moduli(const wt_layer_state *layer)
 {
-    return layer->thickness > 0 && (layer->material != NULL || layer->slope.exponent != 0);
+    return layer->thickness > 0 && layer->slope.exponent != 0;
 }
 
 wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *slope,
@@ -80,14 +133,6 @@ static void create_angle_rule(layer_moduli *m, double tolerance)
     }
 }
 
-static bool has_knots(const wt_material *material)
-{
-    size_t n = 0;
-    if (material->law->breaks != NULL)
-        (void)material->law->breaks(material, &n);
-    return n > 0;
-}
-
 /* Loss angle of the layer's modulus, before a negative loss modulus is set to 0. */
 static double loss_angle(double log_omega, void *user)
 {
@@ -95,7 +140,7 @@ static double loss_angle(double log_omega, void *user)
     const double omega = exp(log_omega);
     double storage, loss, log_ratio, phase;
     m->bulk->law->modulus(m->bulk, &omega, 1, &storage, &loss);
-    wt_ratio_slope_eval(&m->layer.slope, omega, &log_ratio, &phase);
+    ratio_slope_eval(&m->layer.slope, omega, &log_ratio, &phase);
     return atan2(loss, storage) + phase;
 }
 
@@ -106,7 +151,7 @@ static void add_zero_loss_edges(layer_moduli *m)
 {
     const double beyond = 6 * M_LN10,
                  step = M_LN10 / 8; /* the loss angle of a rubber changes over decades */
-    const double low = log(m->limit[0]) - beyond, high = log(m->limit[1]) + beyond;
+    const double low = log(m->layer.slope.low) - beyond, high = log(m->layer.slope.high) + beyond;
     double before = loss_angle(low, m), root;
     for (double from = low; from < high && m->n_edges < LAYER_MAX_EDGES; from += step) {
         const double now = loss_angle(from + step, m);
@@ -121,45 +166,32 @@ static void add_zero_loss_edges(layer_moduli *m)
 layer_moduli layer_moduli_create(const wt_material *bulk, wt_layer_state layer, double tolerance)
 {
     layer_moduli m = {.bulk = bulk, .layer = layer};
-    if (layer.material == NULL) {
-        m.limit[0] = m.edges[m.n_edges++] = layer.slope.low;
-        m.limit[1] = m.edges[m.n_edges++] = layer.slope.high;
-        if (layer.slope.exponent < 0)
-            add_zero_loss_edges(&m);
-    } else {
-        m.limit[0] = layer.material->frequency_min;
-        m.limit[1] = layer.material->frequency_max;
-    }
-    m.knots = has_knots(bulk) || (layer.material != NULL && has_knots(layer.material));
+    size_t n_breaks = 0;
+    m.edges[m.n_edges++] = layer.slope.low;
+    m.edges[m.n_edges++] = layer.slope.high;
+    if (layer.slope.exponent < 0)
+        add_zero_loss_edges(&m);
+    if (bulk->law->breaks != NULL)
+        (void)bulk->law->breaks(bulk, &n_breaks);
+    m.knots = n_breaks > 0;
     create_angle_rule(&m, tolerance);
     return m;
 }
 
 /* ---- moduli ---------------------------------------------------------------------------------- */
 
-/* Complex moduli of bulk and layer; the frequencies of a layer's own material are multiplied by
- * `times`. A negative loss modulus is set to 0, because a rubber cannot return more energy than it
- * received. */
-static void evaluate_moduli(const layer_moduli *m, const double *omega, double times, size_t n,
+/* Complex moduli of bulk and layer. A negative loss modulus is set to 0, because a rubber cannot
+ * return more energy than it received. */
+static void evaluate_moduli(const layer_moduli *m, const double *omega, size_t n,
                             double complex *bulk, double complex *layer)
 {
     double storage[ANGLE_NODES], loss[ANGLE_NODES];
     m->bulk->law->modulus(m->bulk, omega, n, storage, loss);
     for (size_t i = 0; i < n; i++)
         bulk[i] = storage[i] + unit * loss[i];
-    if (m->layer.material != NULL) {
-        double at[ANGLE_NODES];
-        for (size_t i = 0; i < n; i++)
-            at[i] = times * omega[i];
-        m->layer.material->law->modulus(m->layer.material, at, n, storage, loss);
-    }
     for (size_t i = 0; i < n; i++) {
-        if (m->layer.material != NULL) {
-            layer[i] = storage[i] + unit * loss[i];
-            continue;
-        }
         double log_ratio, phase;
-        wt_ratio_slope_eval(&m->layer.slope, omega[i], &log_ratio, &phase);
+        ratio_slope_eval(&m->layer.slope, omega[i], &log_ratio, &phase);
         const double ratio = m->layer.modulus_ratio * exp(log_ratio);
         const double complex turned = bulk[i] * (ratio * cos(phase) + unit * (ratio * sin(phase)));
         layer[i] = creal(turned) + unit * fmax(cimag(turned), 0);
@@ -169,7 +201,7 @@ static void evaluate_moduli(const layer_moduli *m, const double *omega, double t
 double layer_moduli_ratio(const layer_moduli *m, double omega)
 {
     double complex bulk, layer;
-    evaluate_moduli(m, &omega, 1, 1, &bulk, &layer);
+    evaluate_moduli(m, &omega, 1, &bulk, &layer);
     return cabs(layer) / cabs(bulk);
 }
 
@@ -177,10 +209,10 @@ bool layer_moduli_zero_loss_range(const layer_moduli *m, double low, double high
 {
     enum { STEPS = 200 }; /* about ten in a decade */
     bool any = false;
-    for (size_t i = 0; m->layer.material == NULL && i <= STEPS; i++) {
+    for (size_t i = 0; i <= STEPS; i++) {
         const double omega = low * pow(high / low, (double)i / STEPS);
         double complex bulk, layer;
-        evaluate_moduli(m, &omega, 1, 1, &bulk, &layer);
+        evaluate_moduli(m, &omega, 1, &bulk, &layer);
         if (cimag(layer) > 0 || !(cimag(bulk) > 0))
             continue;
         if (!any)
@@ -237,7 +269,7 @@ typedef struct angle_sums {
 } angle_sums;
 
 static void add_angle_part(const layer_moduli *m, const layered_wave *wave, double omega,
-                           double times, double from, double to, angle_sums *sums)
+                           double from, double to, angle_sums *sums)
 {
     double sine[ANGLE_NODES], at[ANGLE_NODES] = {0};
     double complex bulk[ANGLE_NODES], layer[ANGLE_NODES];
@@ -245,7 +277,7 @@ static void add_angle_part(const layer_moduli *m, const layered_wave *wave, doub
         sine[i] = sin(from + (to - from) * m->fraction[i]);
         at[i] = omega * sine[i];
     }
-    evaluate_moduli(m, at, times, m->n, bulk, layer);
+    evaluate_moduli(m, at, m->n, bulk, layer);
     for (size_t i = 0; i < m->n; i++) {
         const double complex e = layer[i] * layered_stiffness(wave, layer[i] / bulk[i]);
         const double square = sine[i] * sine[i], width = 4 * (to - from);
@@ -272,8 +304,7 @@ static double angle_error(const layer_moduli *m, const double sum[ANGLE_LEVELS])
     return (m->knots ? fewer : fmin(fewer, room * fewer * fewer)) + 8 * DBL_EPSILON;
 }
 
-static angle_sums integrate_quarter_turn(const layer_moduli *m, double q, double omega,
-                                         double times)
+static angle_sums integrate_quarter_turn(const layer_moduli *m, double q, double omega)
 {
     const layered_wave wave = layered_wave_create(q * m->layer.thickness);
     angle_sums sums = {{0}, {0}, {0}};
@@ -281,20 +312,18 @@ static angle_sums integrate_quarter_turn(const layer_moduli *m, double q, double
     for (size_t k = 0; k < m->n_edges; k++)
         if (m->edges[k] < omega) {
             const double to = asin(m->edges[k] / omega);
-            add_angle_part(m, &wave, omega, times, from, to, &sums);
+            add_angle_part(m, &wave, omega, from, to, &sums);
             from = to;
         }
-    add_angle_part(m, &wave, omega, times, from, M_PI_2, &sums);
+    add_angle_part(m, &wave, omega, from, M_PI_2, &sums);
     return sums;
 }
 
-void layer_moduli_eval(const layer_moduli *m, const double *q, const double *omega,
-                       const double *extra_shift, size_t n, double *j1, double *j2, double *loss_j2,
-                       double *error)
+void layer_moduli_eval(const layer_moduli *m, const double *q, const double *omega, size_t n,
+                       double *j1, double *j2, double *loss_j2, double *error)
 {
     for (size_t i = 0; i < n; i++) {
-        const angle_sums sums = integrate_quarter_turn(
-            m, q[i], omega[i], extra_shift != NULL ? exp(extra_shift[i]) : 1);
+        const angle_sums sums = integrate_quarter_turn(m, q[i], omega[i]);
         j1[i] = sums.j1[0];
         j2[i] = sums.j2[0];
         *error = fmax(*error, fmax(angle_error(m, sums.j1), angle_error(m, sums.j2)));

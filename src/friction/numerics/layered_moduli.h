@@ -18,19 +18,22 @@ enum { ANGLE_NODES = 144, ANGLE_LEVELS = 2 }; /* levels: all nodes, every second
 enum { LAYER_MAX_EDGES = 16 };
 
 typedef struct layer_moduli {
-    const wt_material *bulk; /* borrowed, as is the material of the layer */
+    const wt_material *bulk; /* borrowed */
     wt_layer_state layer;
     const angular_weight *weight;  /* weight of anisotropic roughness, borrowed; NULL if none */
     double edges[LAYER_MAX_EDGES]; /* frequencies at which the layer's moduli are not smooth,
                                        rising [rad/s] */
     size_t n_edges;
-    double limit[2]; /* range in which the layer's moduli are measured [rad/s]; NaN if unlimited */
-    bool knots;      /* a material has knots inside the smooth parts */
-    size_t n;        /* number of nodes of one smooth part of a quarter turn */
+    bool knots; /* the bulk has knots inside the smooth parts */
+    size_t n;   /* number of nodes of one smooth part of a quarter turn */
     double fraction[ANGLE_NODES], share[ANGLE_NODES]; /* positions in the part, and weights */
     double below[ANGLE_LEVELS];                       /* weight of the range below the first node */
 } layer_moduli;
 
+/* Computes ln |ratio| relative to the reference, and the phase of the causal minimum-phase ratio
+ * with this magnitude (Bode 1940, Kramers-Kronig relations). The phase is exponent pi/2 well inside
+ * `low` and `high` and 0 far outside. omega > 0. */
+void ratio_slope_eval(const wt_ratio_slope *slope, double omega, double *log_ratio, double *phase);
 /* True if a layer has its own moduli. */
 bool layer_has_moduli(const wt_layer_state *layer);
 /* Shifts the frequencies of a slope from its temperature to another one by the law of the bulk. */
@@ -43,11 +46,9 @@ double layer_moduli_ratio(const layer_moduli *moduli, double omega);
  * modulus, which is set to 0. False if there is none. */
 bool layer_moduli_zero_loss_range(const layer_moduli *moduli, double low, double high,
                                   double range[2]);
-/* J1 and J2 at n wavenumbers with their frequencies q v. The frequency of the layer is
- * exp(extra_shift) times as high (NULL: the same). loss_j2 receives the integral of the squared
- * loss modulus. `*error` is raised to the largest relative error. */
-void layer_moduli_eval(const layer_moduli *moduli, const double *q, const double *omega,
-                       const double *extra_shift, size_t n, double *j1, double *j2, double *loss_j2,
-                       double *error);
+/* J1 and J2 at n wavenumbers with their frequencies q v. loss_j2 receives the integral of the
+ * squared loss modulus. `*error` is raised to the largest relative error. */
+void layer_moduli_eval(const layer_moduli *moduli, const double *q, const double *omega, size_t n,
+                       double *j1, double *j2, double *loss_j2, double *error);
 
 #endif
