@@ -211,6 +211,11 @@ wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double ge
     return status;
 }
 
+bool master_reference_is_fitted(const master_work *work)
+{
+    return work->at < work->set.n && work->placed[work->at];
+}
+
 /* Creates a spectrum for the placed curves and the arrays of the posterior for each curve. */
 wt_status master_new_spectrum(master_work *work, wt_error *err)
 {

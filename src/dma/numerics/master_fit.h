@@ -66,6 +66,8 @@ extern const double master_uniform_noise[SPECTRUM_SHAPES];
 /* Sets the prior of the vertical shifts, with widths of clamping and departure [decade]. */
 wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double geometry,
                             double departure, wt_error *err) WT_NODISCARD;
+/* Returns true if the spectrum contains the isotherm at the reference temperature. */
+bool master_reference_is_fitted(const master_work *work);
 /* Creates a spectrum for the placed curves at their present shifts, without outliers. */
 wt_status master_new_spectrum(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_fit_robust(master_work *work, wt_error *err) WT_NODISCARD;
@@ -116,8 +118,6 @@ bool master_find_unit_slip(master_work *work, size_t *found);
 /* Fills `master` and transfers the posterior to it. */
 wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, wt_master *master,
                         wt_error *err) WT_NODISCARD;
-/* Returns true if the spectrum contains the isotherm at the reference temperature. */
-bool master_reference_is_fitted(const master_work *work);
 /* Returns log10 a of the isotherm at the reference temperature against the anchor, 0 without one.
  */
 double master_reference_shift(const master_work *work);

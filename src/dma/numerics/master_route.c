@@ -174,25 +174,41 @@ static wt_status widen_part(master_work *work, bool warm, wt_error *err)
     return status;
 }
 
+/* Fits again from the isotherm nearest to `base` [K]. The reference stays. */
+static wt_status move_anchor(master_work *work, double base, wt_error *err)
+{
+    work->options.reference_temperature = work->reference;
+    const wt_status status = master_choose_anchor(work, base, err);
+    if (status == WT_OK)
+        closed_form_shifts(&work->set, work->anchor, work->posterior->closed_form);
+    return status;
+}
+
+/* Finds the part that one spectrum describes. It starts around the anchor, and from there towards
+ * the warm side, above the glass. The anchor then moves into the part. */
 static wt_status find_describable_part(master_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
-    bool holds = false;
     wt_status status = WT_OK;
     if (work->set.quantity != WT_SHIFT_MODULI || n <= LEAST_PART)
         return WT_OK;
-    /* around the anchor, rather on the warm side, above the glass */
-    work->first = work->anchor > 0 ? work->anchor - 1 : 0;
-    if (work->first + LEAST_PART > n)
-        work->first = n - LEAST_PART;
-    work->last = work->first + LEAST_PART - 1;
-    status = test_part(work, work->first, work->last, &holds, err);
-    if (status != WT_OK || !holds)
+    size_t first = work->anchor > 0 ? work->anchor - 1 : 0;
+    do {
+        work->first = first + LEAST_PART <= n ? first : n - LEAST_PART;
+        work->last = work->first + LEAST_PART - 1;
+        status = test_part(work, work->first, work->last, &work->part, err);
+        first += LEAST_PART - 1;
+    } while (status == WT_OK && !work->part && work->last + 1 < n);
+    if (status != WT_OK || !work->part)
         return status;
     status = widen_part(work, true, err);
     if (status == WT_OK)
         status = widen_part(work, false, err);
-    work->part = true;
+    if (status == WT_OK && (work->anchor < work->first || work->anchor > work->last)) {
+        status =
+            move_anchor(work, work->set.curves[(work->first + work->last) / 2].temperature, err);
+        master_find_overlaps(work);
+    }
     return status;
 }
 
@@ -244,16 +260,10 @@ static bool misfit_is_relevant(const master_work *work)
 /* Fits again from the start. */
 static wt_status refit(master_work *work, wt_error *err)
 {
-    const double base = work->set.curves[work->anchor].temperature;
-    work->options.reference_temperature = work->reference;
     work->plain = work->is_gross = work->exceeds_noise = work->tested = false;
     work->lack = (lack_of_fit){0};
-    wt_status status = master_choose_anchor(work, base, err);
-    if (status == WT_OK) {
-        closed_form_shifts(&work->set, work->anchor, work->posterior->closed_form);
-        status = fit_free_shifts(work, err);
-    }
-    return status;
+    const wt_status status = move_anchor(work, work->set.curves[work->anchor].temperature, err);
+    return status == WT_OK ? fit_free_shifts(work, err) : status;
 }
 
 /* Fits one spectrum, without what does not belong to the others if one isotherm has that. */

@@ -59,11 +59,6 @@ static bool note_undetermined(const master_work *work, size_t i, wt_master_shift
     return shift->note[0] != '\0';
 }
 
-bool master_reference_is_fitted(const master_work *work)
-{
-    return work->at < work->set.n && work->placed[work->at];
-}
-
 double master_reference_shift(const master_work *work)
 {
     const size_t at = work->at, end = at < work->first ? work->first : work->last;
