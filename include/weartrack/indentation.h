@@ -75,34 +75,32 @@ WT_API void wt_contact_table_eval(const wt_contact_table *table, const double *d
 
 /* ---- one force curve: baseline, contact point, modulus -------------------------------------- */
 
-/* Verdict on a curve: enumerator, identifier, text. Accepted and doubtful curves have a usable
- * modulus. The tests run in about this order; the first that applies is reported with its numbers:
- *   not_finite         more than 10 % of the samples are missing
- *   too_short          fewer than 32 different samples, or fewer than 8 in contact
- *   no_approach        the height is not monotonic, or the force falls along the segment
- *   saturated          the force is constant while the piezo moves, or its slope decreases at the
- *                      top (a contact force rises ever steeper; one false alarm in 1000), and the
- *                      part below has no modulus; with a modulus it is doubtful
- *   rigid              the indentation is less than 2 % of the cantilever deflection, or 1 % of
- *                      sensitivity would change the modulus by more than 50 %
- *   negative_modulus, no_contact   no contact point gives a positive modulus; the largest force is
- *                      less than 5 times the noise
- *   no_baseline        contact before the first sample, or a baseline of fewer than 10 samples
- * A standard error above largest_error times the modulus, with most of its variance from
- *   ambiguous_contact  a second, equally likely contact point
- *   adhesive           lack of fit, with a snap-in or a pull-off
- *   disturbed_baseline lack of fit, with a curved baseline (p below 1 %)
- *   poor_fit           other lack of fit; or no convergence
+/* Verdict on a curve: enumerator, identifier, text. Accepted, wide and doubtful curves have a
+ * usable modulus. The tests run in about this order; the first that applies is reported with its
+ * numbers: not_finite         more than 10 % of the samples are missing too_short          fewer
+ * than 32 different samples, or fewer than 8 in contact no_approach        the height is not
+ * monotonic, or the force falls along the segment saturated          the force is constant while
+ * the piezo moves, or its slope decreases at the top (a contact force rises ever steeper; one false
+ * alarm in 1000), and the part below has no modulus; with a modulus it is doubtful rigid the
+ * indentation is less than 2 % of the cantilever deflection, or 1 % of sensitivity would change the
+ * modulus by more than 50 % negative_modulus, no_contact   no contact point gives a positive
+ * modulus; the largest force is less than 5 times the noise no_baseline        contact before the
+ * first sample, or a baseline of fewer than 10 samples A standard error above largest_error times
+ * the modulus, with most of its variance from ambiguous_contact  a second, equally likely contact
+ * point adhesive           lack of fit, with a snap-in or a pull-off disturbed_baseline lack of
+ * fit, with a curved baseline (p below 1 %) poor_fit           other lack of fit; or no convergence
  *   imprecise          noise
  * A modulus that is
+ *   wide               with a standard error above doubtful_error, and no other objection
  *   doubtful           deeper than one radius of a sphere or than the range of the thin-sample law;
- *                      of a punch with hysteresis loss; with a standard error above
- *                      doubtful_error; with interference on the baseline
- *                      above 10 % of the largest force, peak to peak
+ *                      of a punch with hysteresis loss; with an unknown error by the misfit or a
+ *                      pull that no law describes; with interference on the baseline above 10 % of
+ *                      the largest force, peak to peak
  * Verdicts that no fit gives: excluded, unreadable. */
 #define WT_CURVE_VERDICT_LIST(X)                                                                   \
     X(WT_CURVE_ACCEPTED, "accepted", "accepted")                                                   \
-    X(WT_CURVE_DOUBTFUL, "doubtful", "a modulus with a wide interval, or outside of the law")      \
+    X(WT_CURVE_WIDE, "wide", "a modulus with a wide interval")                                     \
+    X(WT_CURVE_DOUBTFUL, "doubtful", "a modulus that an effect outside of the law may bias")       \
     X(WT_CURVE_NO_APPROACH, "no_approach", "the curve has no approach segment")                    \
     X(WT_CURVE_TOO_SHORT, "too_short", "too few samples for a fit")                                \
     X(WT_CURVE_NO_BASELINE, "no_baseline", "starts in contact: no baseline before it")             \
@@ -126,7 +124,7 @@ typedef enum wt_curve_verdict {
 } wt_curve_verdict;
 WT_API const char *wt_curve_verdict_id(wt_curve_verdict verdict);   /* static */
 WT_API const char *wt_curve_verdict_text(wt_curve_verdict verdict); /* static */
-/* Returns true if the modulus is usable: accepted or doubtful. */
+/* Returns true if the modulus is usable: accepted, wide or doubtful. */
 WT_API bool wt_curve_verdict_is_usable(wt_curve_verdict verdict);
 
 enum { WT_MISFIT_TERMS = 6 };
@@ -175,7 +173,7 @@ typedef struct wt_indent_options {
     double fit_depth_from;          /* smallest indentation in the contact [m] */
     double fit_force_from;          /* smallest force in the contact [N] */
     double fit_force_fraction_from; /* smallest force in the contact over the largest */
-    double doubtful_error; /* standard error over modulus above which a curve is doubtful; default
+    double doubtful_error; /* standard error over modulus above which a curve is wide; default
                               0.2 */
     bool fit_retract;      /* also fits the retract alone, as a check; default false */
 } wt_indent_options;
@@ -612,7 +610,8 @@ typedef struct wt_group_data {
         bend_error; /* systematic errors of all moduli by loss and baseline curvature, the latter
                        with its sign; 0 if not detected, NaN if detected with unknown size */
     double range_error; /* the same by the misfit of the law, as the ranges of the fit show */
-    const char *tip;    /* description; borrowed from the table; NULL if unknown */
+    wt_tip tip;
+    bool has_tip;                 /* false: unknown, or several tips */
     bool has_several_cantilevers; /* the curves have several spring constants */
     bool has_several_sensitivities, has_several_tips;
     bool spots_are_named;            /* the user named the spots */

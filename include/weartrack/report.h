@@ -67,8 +67,8 @@ WT_API wt_status wt_curve_browser_write(const wt_result *result, const char *pat
                                         bool with_provenance, wt_error *err) WT_NODISCARD;
 
 /* Writes the force curves of all groups as a PDF of A4 sheets, twelve on each, with fit, verdict
- * and reason: rejected ones first, then doubtful ones. Only the drawing options are used; NULL =
- * defaults. WT_E_EMPTY if the result has no table "curves", WT_E_TOOL as in wt_report_write.
+ * and reason: rejected ones first, then doubtful and wide ones. Only the drawing options are used;
+ * NULL = defaults. WT_E_EMPTY if the result has no table "curves", WT_E_TOOL as in wt_report_write.
  * `progress` counts sheets. */
 WT_API wt_status wt_curve_sheets_write(const wt_result *result, const char *path,
                                        const wt_report_options *options,

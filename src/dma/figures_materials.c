@@ -96,7 +96,7 @@ static bool load_ratio_side(figure_drawing *d, ratio_panel_column *side, value_s
     side->span = EMPTY_SPAN;
     for (size_t i = 0; i < d->n_groups; i++) {
         const row_filter rows = {
-            {MATERIAL_RATIO_MATERIAL, MATERIAL_RATIO_OVER}, {d->groups[i], side->over}, false};
+            {MATERIAL_RATIO_MATERIAL, MATERIAL_RATIO_OVER}, {d->groups[i], side->over}, NULL};
         side->section[i] = drawing_section(d, d->table, side->over, &rows, columns,
                                            sizeof columns / sizeof *columns, 2);
         span_add_section(&side->span, d, side->section[i], 0, side->scale == AXIS_LOG);

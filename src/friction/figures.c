@@ -133,7 +133,7 @@ static void draw_transverse_isotropy(figure_drawing *d)
     text_add(&d->script, "set multiplot layout 2,1\n");
     for (size_t k = 0; k < COUNT_OF(factor_sets); k++) {
         const row_filter rows = {
-            {TRANSVERSE_ISOTROPY_FACTORS, 0}, {factor_sets[k].factors, NULL}, false};
+            {TRANSVERSE_ISOTROPY_FACTORS, 0}, {factor_sets[k].factors, NULL}, NULL};
         section[k] = drawing_section(d, d->table, factor_sets[k].factors, &rows, columns, 3, 3);
     }
     axis_log(d, "x", "Sliding velocity", &field[TRANSVERSE_ISOTROPY_VELOCITY], velocity);

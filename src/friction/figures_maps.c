@@ -35,7 +35,7 @@ static const char *friction_label(unsigned column)
 static int add_map_section(figure_drawing *d, const char *against, const unsigned *columns,
                            size_t n)
 {
-    const row_filter rows = {{FRICTION_MAP_AGAINST, 0}, {against, NULL}, false};
+    const row_filter rows = {{FRICTION_MAP_AGAINST, 0}, {against, NULL}, NULL};
     return drawing_section(d, d->table, against, &rows, columns, n, n);
 }
 

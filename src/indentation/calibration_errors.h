@@ -55,8 +55,6 @@ wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options
 void calibration_errors_set_keys(const calibration_errors *of, table_writer *rows);
 void calibration_errors_clear(calibration_errors *errors);
 
-const char *calibration_source_text(wt_systematic_source source);
-
 /* Summarises a group. Its interval includes the scatter of the spots and the errors that all curves
  * share; it is NaN if one of them is unknown. */
 wt_status modulus_budget_interval(const wt_group_data *group, wt_group_summary *summary,

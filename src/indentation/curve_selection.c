@@ -6,7 +6,7 @@
 #include "core/base/array.h"
 #include "core/data/force_curve.h"
 #include "core/table/table_rows.h"
-#include "indentation/fitted_force.h"
+#include "indentation/curve_tables.h"
 
 #include <math.h>
 #include <stdlib.h>

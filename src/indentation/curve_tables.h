@@ -21,5 +21,10 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
 /* Appends the modulus against depth of a group. */
 wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group,
                                const wt_modulus_profile *depth, wt_error *err) WT_NODISCARD;
+/* Computes the fitted forces of the n samples of the approach in contact. `delta` and the order are
+ * those of wt_indent_plot_points. time (scratch), model: [n_points of the approach]. */
+void fitted_forces(const wt_indent_fit *fit, const wt_indent_options *options,
+                   const wt_contact_table *contact, const wt_segment *approach, const double *delta,
+                   size_t n, double *time, double *model);
 
 #endif

@@ -33,22 +33,11 @@ typedef struct dwell_modulation {
 /* Largest number of modulations of one curve. The user of a JPK instrument sets the number of
  * segments. */
 enum { DWELL_MAX_MODULATIONS = 32 };
+
 typedef struct dwell_curve {
     wt_dwell dwell; /* all held segments combined, without the sines */
     dwell_modulation modulations[DWELL_MAX_MODULATIONS], air[DWELL_MAX_MODULATIONS];
     size_t n, n_air;
 } dwell_curve;
-
-/* Fits the segments from `first` to the retract, after an approach that was fitted. */
-wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
-                          const wt_force_curve *curve, const wt_segment *approach,
-                          const wt_segment *first, const wt_indent_fit *fit, dwell_curve *to,
-                          wt_error *err) WT_NODISCARD;
-/* True if E' is positive and E'' is positive or compatible with 0. Other values indicate a wrong
- * model. Values of E'' near 0 are valid, because their exclusion would bias the means of many
- * curves. */
-bool dwell_is_valid_modulus(const wt_dwell_moduli *moduli);
-/* True for a dwell or a modulation with samples. */
-bool dwell_is_hold_segment(const wt_segment *segment);
 
 #endif

@@ -2,9 +2,13 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "report/curve_panel.h"
 #include "report/drawing.h"
 
+#include "core/base/array.h"
+
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Largest number of points in one panel; more are not distinguishable. */
@@ -23,7 +27,7 @@ static table_view group_keys(const figure_drawing *d, size_t i)
 static int segment_section(figure_drawing *d, size_t i, const char *segment)
 {
     const row_filter rows = {
-        {FORCE_DISPLACEMENT_GROUP, FORCE_DISPLACEMENT_SEGMENT}, {d->groups[i], segment}, false};
+        {FORCE_DISPLACEMENT_GROUP, FORCE_DISPLACEMENT_SEGMENT}, {d->groups[i], segment}, NULL};
     int section =
         drawing_section(d, d->table, segment, &rows, d->columns, d->n_columns, d->n_columns);
     span_add_section(&d->x, d, section, 0, false);
@@ -124,25 +128,46 @@ static void caption_force_indentation(figure_drawing *d)
 
 /* ---- modulus by group ------------------------------------------------------------------------ */
 
+static wt_curve_verdict row_verdict(const table_view *table, size_t row)
+{
+    return (wt_curve_verdict)indentation_enum(table, row, INDENTATION_VERDICT);
+}
+
+static bool is_accepted_row(const table_view *table, size_t row)
+{
+    return row_verdict(table, row) == WT_CURVE_ACCEPTED;
+}
+
+/* Curves with a modulus that is wide or doubtful. */
+static bool is_limited_row(const table_view *table, size_t row)
+{
+    return !is_accepted_row(table, row) && wt_curve_verdict_is_usable(row_verdict(table, row));
+}
+
+static bool is_rejected_row(const table_view *table, size_t row)
+{
+    return !wt_curve_verdict_is_usable(row_verdict(table, row));
+}
+
 /* Draws the accepted curves of each group next to its mean. */
 static void draw_modulus_groups(figure_drawing *d)
 {
     static const unsigned curve_columns[] = {INDENTATION_MODULUS,
                                              INDENTATION_MODULUS_STANDARD_ERROR};
-    static const row_filter accepted = {{INDENTATION_VERDICT}, {"accepted"}, false},
-                            doubtful = {{INDENTATION_VERDICT}, {"doubtful"}, false};
+    static const row_filter accepted = {.accepts = is_accepted_row},
+                            limited = {.accepts = is_limited_row};
     const size_t n = d->n_groups;
     int mean[DRAWING_GROUPS], open[DRAWING_GROUPS];
 
     for (size_t i = 0; i < n; i++) {
-        const row_filter rows = {{d->figure->group}, {d->groups[i]}, false};
+        const row_filter rows = {{d->figure->group}, {d->groups[i]}, NULL};
         const table_view *curves = figure_tables_indentation(d->tables, d->groups[i]);
         d->data[i] = curves == NULL
                          ? NO_SECTION
                          : drawing_section(d, curves, d->groups[i], &accepted, curve_columns, 2, 1);
-        open[i] = curves == NULL
-                      ? NO_SECTION
-                      : drawing_section(d, curves, "doubtful", &doubtful, curve_columns, 2, 1);
+        open[i] = curves == NULL ? NO_SECTION
+                                 : drawing_section(d, curves, "wide or doubtful", &limited,
+                                                   curve_columns, 2, 1);
         span_add_section(&d->y[0], d, open[i], 0, true);
         mean[i] = drawing_section(d, d->table, d->groups[i], &rows, d->columns, d->n_columns, 1);
         span_add_section(&d->y[0], d, d->data[i], 0, true);
@@ -215,6 +240,223 @@ static void caption_modulus_rate(figure_drawing *d)
     text_add(&d->caption, ".");
 }
 
+/* ---- modulus over the sample ----------------------------------------------------------------- */
+
+enum { MAP_POINTS = 9, MAP_LIMIT = 70000 }; /* smallest and largest number of curves of a map */
+
+/* Returns the smallest distance between two different positions, or 0 if there are none. Positions
+ * closer than a thousandth of the range are equal. */
+static double grid_step(const table_view *table, unsigned column)
+{
+    size_t n = table->n_rows;
+    double *x = wt_alloc(n, sizeof *x), step = 0;
+    for (size_t row = 0; row < n; row++)
+        x[row] = view_number(table, table->schema, row, column);
+    numbers_sort(x, n);
+    for (size_t i = 1; i < n; i++) {
+        double gap = x[i] - x[i - 1];
+        if (gap > 1e-3 * (x[n - 1] - x[0]) && (step == 0 || gap < step))
+            step = gap;
+    }
+    free(x);
+    return step;
+}
+
+typedef struct map_panel {
+    const char *group;
+    const table_view *table;
+    int accepted, limited, rejected;
+    double step_x, step_y;
+} map_panel;
+
+/* True if all positions are known and come from one file. Several files need not share an origin.
+ */
+static bool has_map_positions(map_panel *panel)
+{
+    const table_view *table = panel->table;
+    if (table == NULL || table->n_rows < MAP_POINTS || table->n_rows > MAP_LIMIT)
+        return false;
+    const char *file = indentation_text(table, 0, INDENTATION_FILE);
+    for (size_t row = 0; row < table->n_rows; row++)
+        if (!isfinite(indentation_get(table, row, INDENTATION_X)) ||
+            !isfinite(indentation_get(table, row, INDENTATION_Y)) ||
+            strcmp(indentation_text(table, row, INDENTATION_FILE), file) != 0)
+            return false;
+    panel->step_x = grid_step(table, INDENTATION_X);
+    panel->step_y = grid_step(table, INDENTATION_Y);
+    return table->column[INDENTATION_FILE] >= 0 && panel->step_x > 0 && panel->step_y > 0;
+}
+
+static void map_axis(figure_drawing *d, const char *letter, const map_panel *panel,
+                     indentation_column column, double step)
+{
+    value_span span = EMPTY_SPAN;
+    span_add_column(&span, panel->table, column, false);
+    span = (value_span){span.low - step / 2, span.high + step / 2};
+    axis_linear(d, letter, letter, &indentation_schema.columns[column], span);
+}
+
+static void draw_modulus_panel(figure_drawing *d, const map_panel *panel)
+{
+    map_axis(d, "x", panel, INDENTATION_X, panel->step_x);
+    map_axis(d, "y", panel, INDENTATION_Y, panel->step_y);
+    text_format(&d->script, "half_x = %s; half_y = %s  # m\n", LITERAL(panel->step_x / 2),
+                LITERAL(panel->step_y / 2));
+    plot_heading(d, panel->group);
+    plot_item(d, panel->accepted,
+              "($1*x_unit):($2*y_unit):(half_x*x_unit):(half_y*y_unit):($3*cb_unit) with "
+              "boxxyerror fc palette notitle");
+    plot_item(d, panel->limited,
+              "($1*x_unit):($2*y_unit):(half_x*x_unit):(half_y*y_unit):($3*cb_unit) with "
+              "boxxyerror fc palette notitle");
+    plot_item(d, panel->limited, "($1*x_unit):($2*y_unit) with points ls 16 pt 6 notitle");
+    plot_item(d, panel->limited, "($1*x_unit):($2*y_unit) with points ls 14 pt 6 notitle");
+    plot_item(d, panel->rejected, "($1*x_unit):($2*y_unit) with points ls 14 pt 2 notitle");
+    plot_end(d);
+}
+
+static void draw_modulus_map(figure_drawing *d)
+{
+    static const unsigned columns[] = {INDENTATION_X, INDENTATION_Y, INDENTATION_MODULUS};
+    static const row_filter accepted = {.accepts = is_accepted_row},
+                            limited = {.accepts = is_limited_row},
+                            rejected = {.accepts = is_rejected_row};
+    map_panel panels[DRAWING_GROUPS];
+    size_t n = 0;
+    value_span colour = EMPTY_SPAN;
+
+    for (size_t i = 0; i < d->n_groups && d->status == WT_OK; i++) {
+        map_panel panel = {.group = d->groups[i],
+                           .table = figure_tables_indentation(d->tables, d->groups[i])};
+        if (!has_map_positions(&panel))
+            continue;
+        panel.accepted = drawing_section(d, panel.table, panel.group, &accepted, columns, 3, 3);
+        panel.limited =
+            drawing_section(d, panel.table, "wide or doubtful", &limited, columns, 3, 3);
+        panel.rejected = drawing_section(d, panel.table, "rejected", &rejected, columns, 3, 2);
+        span_add_section(&colour, d, panel.accepted, 2, true);
+        span_add_section(&colour, d, panel.limited, 2, true);
+        if (panel.accepted >= 0 || panel.limited >= 0)
+            panels[n++] = panel;
+    }
+    if (n == 0 || span_is_empty(&colour) || d->status != WT_OK)
+        return;
+    d->width = 0.95 * (double)n;
+    axis_log(d, "cb", "Modulus", &indentation_schema.columns[INDENTATION_MODULUS], colour);
+    text_format(
+        &d->script,
+        "set size ratio -1\nset border 15\nset cblabel offset 1,0\nset multiplot layout 1,%zu\n",
+        n);
+    for (size_t i = 0; i < n; i++)
+        draw_modulus_panel(d, &panels[i]);
+    text_add(&d->script, "unset multiplot\n");
+}
+
+/* ---- force curves ---------------------------------------------------------------------------- */
+
+/* Largest number of curves on one sheet; separate sheets and the page show the rest. */
+enum { SHEET_CURVES = 12, SHEET_COLUMNS = 3 };
+
+/* Returns the largest number of title lines in one row of panels. */
+static size_t max_title_lines(const figure_drawing *d, const curve_list *list, size_t first,
+                              size_t n)
+{
+    size_t most = 0;
+    for (size_t i = first; i < first + n && i < list->n; i++) {
+        const size_t lines = curve_panel_line_count(d, &list->curves[i]);
+        most = lines > most ? lines : most;
+    }
+    return most;
+}
+
+static void draw_sheet(figure_drawing *d, const curve_list *list)
+{
+    const size_t n = list->n < SHEET_CURVES ? list->n : SHEET_CURVES,
+                 columns = n < SHEET_COLUMNS ? n : SHEET_COLUMNS,
+                 rows = (n + columns - 1) / columns;
+    d->width = 0.75 * (double)columns;
+    d->height = 0.85 * (double)rows;
+    text_format(&d->script, "set lmargin 9\nset rmargin 2\nset multiplot layout %zu,%zu\n", rows,
+                columns);
+    for (size_t i = 0; i < n; i++) {
+        if (i % columns == 0)
+            text_format(&d->script, "set tmargin %zu\n", max_title_lines(d, list, i, columns) + 1);
+        draw_curve_panel(d, &list->curves[i]);
+    }
+    text_add(&d->script, "unset multiplot\n");
+    text_format(&d->caption, " %s %zu of %zu curves.", curve_panel_legend, n, list->n_rows);
+    if (n < list->n)
+        text_add(&d->caption, " weartrack report --sheets draws the others.");
+}
+
+static void draw_curves(figure_drawing *d)
+{
+    curve_list list;
+    curve_list_init(d->tables, &list);
+    if (list.n > 0)
+        draw_sheet(d, &list);
+    curve_list_clear(&list);
+}
+
+/* ---- heights about a spot -------------------------------------------------------------------- */
+
+/* Draws the cells of one column in colour, with the circle of the contact. */
+static void draw_spot_panel(figure_drawing *d, int section, const char *title)
+{
+    plot_heading(d, title);
+    plot_item(d, section,
+              "($1*x_unit):($2*y_unit):(half_x*x_unit):(half_y*y_unit):($3*cb_unit) with "
+              "boxxyerror fc palette notitle");
+    plot_expression(
+        d, "[t=0:2*pi] contact*x_unit*cos(t), contact*y_unit*sin(t) with lines lw 1 lc rgb "
+           "'white' notitle");
+    plot_end(d);
+}
+
+static void draw_spot_map(figure_drawing *d)
+{
+    static const spot_map_column shown_columns[] = {SPOT_MAP_BEFORE, SPOT_MAP_AFTER,
+                                                    SPOT_MAP_CHANGE};
+    static const char *const titles[] = {"before", "after", "change"};
+    enum { PANELS = sizeof shown_columns / sizeof *shown_columns };
+    const double contact = spot_map_value(d->table, SPOT_MAP_KEY_CONTACT_RADIUS).value;
+    int sections[PANELS];
+    value_span x = EMPTY_SPAN, y = EMPTY_SPAN,
+               colours[PANELS] = {EMPTY_SPAN, EMPTY_SPAN, EMPTY_SPAN};
+    size_t n = 0;
+    for (size_t i = 0; i < PANELS; i++) {
+        const unsigned columns[] = {SPOT_MAP_X, SPOT_MAP_Y, shown_columns[i]};
+        sections[i] = drawing_section(d, d->table, titles[i], NULL, columns, 3, 3);
+        /* Both heights share one colour scale. */
+        span_add_section(&colours[i < 2 ? 0 : i], d, sections[i], 2, false);
+        n += sections[i] >= 0;
+    }
+    if (n == 0 || d->status != WT_OK)
+        return;
+    const double step_x = grid_step(d->table, SPOT_MAP_X), step_y = grid_step(d->table, SPOT_MAP_Y);
+    span_add_column(&x, d->table, SPOT_MAP_X, false);
+    span_add_column(&y, d->table, SPOT_MAP_Y, false);
+    const size_t across = n < 2 ? n : 2, down = (n + 1) / 2;
+    d->width = 0.95 * (double)across;
+    d->height = 0.9 * (double)down;
+    axis_linear(d, "x", "x from the place", &spot_map_schema.columns[SPOT_MAP_X],
+                (value_span){x.low - step_x / 2, x.high + step_x / 2});
+    axis_linear(d, "y", "y from the place", &spot_map_schema.columns[SPOT_MAP_Y],
+                (value_span){y.low - step_y / 2, y.high + step_y / 2});
+    text_format(&d->script,
+                "half_x = %s; half_y = %s; contact = %s  # m\nset parametric\nset size ratio -1\n"
+                "set border 15\nset cblabel offset 1,0\nset multiplot layout %zu,%zu\n",
+                LITERAL(step_x / 2), LITERAL(step_y / 2), LITERAL(contact), down, across);
+    for (size_t i = 0; i < PANELS; i++) {
+        if (sections[i] < 0)
+            continue;
+        axis_linear(d, "cb", i < 2 ? "Height" : "Change of the height",
+                    &spot_map_schema.columns[shown_columns[i]], colours[i < 2 ? 0 : i]);
+        draw_spot_panel(d, sections[i], titles[i]);
+    }
+    text_add(&d->script, "unset multiplot\n");
+}
+
 /* ---- descriptions ---------------------------------------------------------------------------- */
 
 const figure_description figures_indentation[] = {
@@ -255,8 +497,8 @@ const figure_description figures_indentation[] = {
      .curves = {CURVE(MODULUS_GROUPS_GEOMETRIC_MEAN, OWN, .with_errors = true)},
      .empty_reason = "no group has a modulus above zero",
      .caption_text =
-         "Modulus of every accepted curve (open circles: doubtful; spread sideways for sight "
-         "only) and, to the right, "
+         "Modulus of every accepted curve (open circles: wide or doubtful; spread sideways for "
+         "sight only) and, to the right, "
          "the geometric mean of the group with its 95 % confidence interval; logarithmic "
          "axis.",
      .draw = draw_modulus_groups,
@@ -267,8 +509,8 @@ const figure_description figures_indentation[] = {
      .by_group = true,
      .group = MODULUS_GROUPS_GROUP,
      .caption_text =
-         "Modulus of the curves at their positions; circles: doubtful, crosses: rejected "
-         "curves. One "
+         "Modulus of the curves at their positions; circles: wide or doubtful, crosses: "
+         "rejected curves. One "
          "scale of colour for all maps.",
      .draw = draw_modulus_map},
     {.name = "modulus_depth",
@@ -299,5 +541,22 @@ const figure_description figures_indentation[] = {
          "Geometric mean of the modulus against indentation rate, binned by half a decade; "
          "bars: 95 % confidence interval. Curves in the bins:",
      .caption = caption_modulus_rate},
+    {.name = "curves",
+     .title = "Force curves to look at",
+     .table = &curves_schema,
+     .caption_text =
+         "Force against displacement of single curves, refused ones first, then doubtful ones; "
+         "counted from the contact point where there is one.",
+     .empty_reason = "no curve has samples",
+     .draw = draw_curves},
+    {.name = "spot_map",
+     .title = "Heights about a spot",
+     .table = &spot_map_schema,
+     .empty_reason = "no height is known about the place",
+     .caption_text =
+         "Heights about the place of an indentation, each less its plane: before it; after it, "
+         "moved by the drift between the images; and what changed. The circle is the contact "
+         "of the tip at its depth.",
+     .draw = draw_spot_map},
     {.name = NULL},
 };

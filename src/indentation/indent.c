@@ -139,6 +139,8 @@ static void set_indentation_keys(const indent_task *task, const flow_files *file
         indentation_set_value(t, INDENTATION_KEY_SPECTRUM_TEMPERATURE,
                               task->spectrum.reference_temperature, 0, 0);
     indentation_set_text(t, INDENTATION_KEY_TIP, tip);
+    if (task->n_tips < 2)
+        indent_set_tip_keys(task->n_tips > 0 ? task->tips[0] : &job->tip, t);
     indentation_set_print(t, INDENTATION_KEY_POISSON_RATIO, "%g", job->options.poisson_ratio);
     if (indent_range_text(&job->options, range, sizeof range))
         indentation_set_text(t, INDENTATION_KEY_FIT_RANGE, range);
@@ -148,6 +150,7 @@ static void set_indentation_keys(const indent_task *task, const flow_files *file
                           : spots == SPOTS_MIXED ? ": some named, the others one for each file"
                                                  : ": each file is a spot, none were named");
     indentation_set_print(t, INDENTATION_KEY_N_ACCEPTED, "%zu", task->n_accepted);
+    indentation_set_print(t, INDENTATION_KEY_N_WIDE, "%zu", task->n_wide);
     indentation_set_print(t, INDENTATION_KEY_N_DOUBTFUL, "%zu", task->n_doubtful);
     indentation_set_print(t, INDENTATION_KEY_N_REJECTED, "%zu", task->n_curves - task->n_accepted);
 }

@@ -30,6 +30,7 @@ typedef struct indent_summary {
     double (*contacts)[WT_CONTACT_ESTIMATORS]; /* [n] contact points of other estimators; NULL if
                                                   not requested */
 } indent_summary;
+
 void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
                         const wt_indent_options *options);
 void indent_summary_clear(indent_summary *summary);
@@ -44,9 +45,6 @@ void indent_systematic_errors(const wt_indent_job *job, double depth, char *text
 void indent_summary_report(const indent_summary *summary, const wt_indent_job *job,
                            const wt_job *work, table_writer *rows);
 
-/* True if the curve loses work and the effect on its modulus is not known. */
-bool indent_has_unknown_loss(const wt_indent_fit *fit);
-
 /* Curves for the modulus against depth, including curves that one modulus does not describe. */
 typedef struct indent_depths {
     wt_curve_residuals *curve; /* [n] */
@@ -54,6 +52,7 @@ typedef struct indent_depths {
     long n_spots;
     const char *last_spot; /* borrowed */
 } indent_depths;
+
 /* Collects the data of a curve on the modulus against depth. Returns false and sets all members to
  * NaN if there are none or `asked` is false. */
 bool indent_depth_curve(const wt_indent_fit *fit, const wt_force_curve *curve, bool asked,
@@ -64,12 +63,15 @@ wt_status indent_depths_table(const indent_depths *depths, const wt_indent_job *
                               const wt_contact_table *contact, wt_indent_tables *tables,
                               wt_error *err);
 void indent_depths_clear(indent_depths *depths);
-
 /* Parameter check of a wt_estimate: the standard error must be below the value. */
 wt_status indent_error_check(const void *estimate, wt_error *err);
 /* Parses a tip for the parameter table. The thickness and the bond of the sample do not change. */
 wt_status indent_read_tip(const char *text, void *tip, wt_error *err);
 wt_status indent_check_tip(const void *tip, wt_error *err);
+/* Writes the tip as keys of the indentation table, and reads it. Returns false for a table of
+ * several tips, or without a valid tip. */
+void indent_set_tip_keys(const wt_tip *tip, table_writer *rows);
+bool indent_tip_from_table(const table_view *indentation, wt_tip *tip);
 /* Checks the parameters and their combinations. */
 wt_status indent_job_check(const wt_indent_job *job, wt_error *err);
 /* Describes the limits of the fit. Returns false if there are none. */

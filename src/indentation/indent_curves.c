@@ -5,6 +5,7 @@
 
 #include "core/base/array.h"
 #include "core/base/utf8.h"
+#include "indentation/law/tip.h"
 #include "indentation/numerics/curve.h"
 #include "read/force_assembler.h"
 
@@ -126,14 +127,6 @@ static void store_modulus(indent_task *task, const queued_curve *it)
     indent_summary_add(&task->summary, &it->fit, &task->options);
 }
 
-static bool has_same_description(const wt_tip *a, const wt_tip *b)
-{
-    char descriptions[2][256];
-    wt_tip_describe(a, descriptions[0], sizeof descriptions[0]);
-    wt_tip_describe(b, descriptions[1], sizeof descriptions[1]);
-    return strcmp(descriptions[0], descriptions[1]) == 0;
-}
-
 /* Records the calibration of the curve for the keys of the group. */
 static void record_calibration(indent_task *task, const wt_cantilever *used)
 {
@@ -143,7 +136,7 @@ static void record_calibration(indent_task *task, const wt_cantilever *used)
     task->s_high = fmax(task->s_high, used->sensitivity);
     task->has_given_sensitivity = task->has_given_sensitivity || used->sensitivity_is_overridden;
     for (size_t i = 0; i < task->n_tips; i++)
-        if (task->tips[i] == task->file_tip || has_same_description(task->tips[i], task->file_tip))
+        if (!tips_differ(task->tips[i], task->file_tip))
             return;
     task->tips = array_grow(task->tips, task->n_tips, sizeof(const wt_tip *));
     task->tips[task->n_tips++] = task->file_tip;
@@ -193,6 +186,7 @@ static wt_status write_item(indent_task *task, queued_curve *it, wt_error *err)
     if (task->rows.status != WT_OK || !wt_curve_verdict_is_usable(it->fit.verdict))
         return task->rows.status;
     task->n_accepted++;
+    task->n_wide += it->fit.verdict == WT_CURVE_WIDE;
     task->n_doubtful += it->fit.verdict == WT_CURVE_DOUBTFUL;
     record_calibration(task, &it->curve.cantilever);
     const double error = it->fit.modulus.standard_error / it->fit.modulus.value;

@@ -1,14 +1,282 @@
-/* Combined results of the curves of a group: shared shifts, mean residual and contact points of
- * other estimators.
+/* Combined results of the curves of a group: modulus against depth, errors that no residual shows,
+ * shared shifts, mean residual and contact points of other estimators.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
+#include "core/base/clocale.h"
 #include "core/base/number.h"
+#include "core/math/root.h"
+#include "core/table/table_rows.h"
+#include "indentation/curve_tables.h"
 #include "indentation/indent.h"
+#include "indentation/law/tip.h"
 #include "indentation/numerics/curve.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* True if the curve loses work and the effect on its modulus is not known. */
+static bool indent_has_unknown_loss(const wt_indent_fit *fit)
+{
+    const bool has_pull =
+        fit->adhesion_force > 0 || fit->pull_off_force > 0; /* a pull loses work too */
+    return fit->loss > CURVE_MIN_LOSS && isnan(fit->loss_bias) &&
+           isnan(fit->spectrum_factor.value) && !has_pull;
+}
+
+/* ---- curves for the modulus against depth ---------------------------------------------------- */
+
+/* True if the curve has data on the modulus against depth. A fit that begins at a depth lacks the
+ * misfit at small depths. */
+static bool has_depth_information(const wt_indent_fit *fit)
+{
+    const bool has_pull = fit->adhesion_force > 0 || fit->pull_off_force > 0;
+    return !(fit->fitted_from > 0) &&
+           (wt_curve_verdict_is_usable(fit->verdict) || fit->verdict == WT_CURVE_POOR_FIT) &&
+           !((fit->verdict == WT_CURVE_WIDE || fit->verdict == WT_CURVE_DOUBTFUL) && has_pull) &&
+           isnan(fit->work_of_adhesion.value) && isnan(fit->contact_pull.value) &&
+           fit->modulus.value > 0 && !isnan(fit->misfit[0]);
+}
+
+bool indent_depth_curve(const wt_indent_fit *fit, const wt_force_curve *curve, bool is_requested,
+                        wt_curve_residuals *to)
+{
+    const double none = (double)NAN;
+    *to = (wt_curve_residuals){
+        .baseline = none, .window = none, .curvature = none, .loss_error = none};
+    for (size_t i = 0; i < WT_MISFIT_TERMS; i++)
+        to->misfit[i] = none;
+    if (!is_requested || !has_depth_information(fit))
+        return false;
+    *to = (wt_curve_residuals){.modulus = fit->modulus.value,
+                               .depth = fit->max_indentation,
+                               .spring_constant = curve->cantilever.spring_constant,
+                               .baseline = fit->baseline_length,
+                               .window = fit->misfit_length,
+                               .curvature = fit->baseline_curvature,
+                               .loss_error = indent_has_unknown_loss(fit) ? none : fit->loss_error};
+    memcpy(to->misfit, fit->misfit, sizeof to->misfit);
+    return true;
+}
+
+void indent_depths_add(indent_depths *to, const wt_curve_residuals *curve, const char *spot)
+{
+    to->curve = array_grow(to->curve, to->n, sizeof *to->curve);
+    wt_curve_residuals *added = &to->curve[to->n++];
+    if (to->last_spot == NULL || strcmp(spot, to->last_spot) != 0)
+        to->n_spots++;
+    to->last_spot = spot;
+    *added = *curve;
+    added->spot = to->n_spots;
+}
+
+wt_status indent_depths_table(const indent_depths *depths, const wt_indent_job *job,
+                              const wt_contact_table *contact, wt_indent_tables *tables,
+                              wt_error *err)
+{
+    wt_modulus_profile depth;
+    if (job->options.plain_least_squares || depths->n == 0)
+        return WT_OK;
+    const wt_status status = wt_modulus_profile_fit(contact, job->options.poisson_ratio,
+                                                    depths->curve, depths->n, &depth, err);
+    return status == WT_OK ? flow_depth_table_add(tables, job->group, &depth, err) : status;
+}
+
+void indent_depths_clear(indent_depths *depths)
+{
+    free(depths->curve);
+}
+
+/* ---- table of the modulus against depth ------------------------------------------------------ */
+
+TABLE_ROW(modulus_depth, MODULUS_DEPTH, const char *group; double depth; wt_interval modulus;
+          size_t n, n_units;)
+
+TABLE_KEYS(modulus_depth, MODULUS_DEPTH, const char *changes, *reading; wt_interval ratio;
+           double chance, misfit_p;)
+
+typedef struct depth_text {
+    char text[48];
+} depth_text;
+
+static depth_text format_si_value(double value, const char *unit)
+{
+    depth_text w;
+    wt_format_si(value, unit, 3, w.text, sizeof w.text);
+    return w;
+}
+
+/* Returns advice on how to decide. The flag states that the residual is not a change with depth. */
+static const char *depth_advice(const wt_modulus_profile *d, bool other_misfit)
+{
+    if (d->loss_share > 0.5 || (other_misfit && d->loss_share > 0))
+        return "the DMA of the rubber would tell";
+    if (d->curvature_share > 0.5 || (other_misfit && d->curvature_share > 0))
+        return "the baselines are bent: a straight piezo, or one that has settled, would tell";
+    return other_misfit ? "another tip or rate would tell" : "more curves would tell";
+}
+
+static void describe_depth_change(const wt_modulus_profile *d, char text[320])
+{
+    const depth_text shallow = format_si_value(d->depth[0], "m"),
+                     deep = format_si_value(d->depth[WT_DEPTHS - 1], "m");
+    const double margin = 100 * WT_DEPTH_MARGIN;
+    const bool is_small = fabs(log(d->change.low)) < log1p(WT_DEPTH_MARGIN) &&
+                          fabs(log(d->change.high)) < log1p(WT_DEPTH_MARGIN);
+    char range[96];
+    clocale_print(range, sizeof range, "%.3f, 95 %% interval %.3f to %.3f", d->change.value,
+                  d->change.low, d->change.high);
+    if (d->n_excluded_by_loss > 0 && d->n_excluded_by_loss >= d->n)
+        clocale_print(
+            text, 320,
+            "inconclusive: %zu of %zu curves lose work on the way out, and what that does "
+            "to their moduli is not known; the DMA of the rubber would tell",
+            d->n_excluded_by_loss, d->n + d->n_excluded_by_loss);
+    else if (isnan(d->change.value))
+        clocale_print(text, 320,
+                      "inconclusive: %zu curves without adhesion do not tell, 12 are "
+                      "needed that differ by noise alone",
+                      d->n);
+    else if (d->verdict == WT_DEPTH_OTHER_RESIDUAL)
+        clocale_print(
+            text, 320,
+            "inconclusive: the curves have a residual in common that no modulus that changes "
+            "with depth leaves (chance %s); %s",
+            format_probability(d->misfit_p).text, depth_advice(d, true));
+    else if (d->verdict == WT_DEPTH_CHANGES && d->change.low < 1 && d->change.high > 1)
+        clocale_print(text, 320,
+                      "yes: between %s and %s the modulus changes, by how much and which way the "
+                      "curves do not tell (factor %s)",
+                      shallow.text, deep.text, range);
+    else if (d->verdict == WT_DEPTH_CHANGES)
+        clocale_print(text, 320,
+                      "yes%s: at %s the modulus is another than at %s, by a factor of %s",
+                      is_small ? ", but hardly" : "", deep.text, shallow.text, range);
+    else if (d->verdict == WT_DEPTH_SAME)
+        clocale_print(text, 320,
+                      "no: between %s and %s the modulus changes by less than %g %% (factor %s)",
+                      shallow.text, deep.text, margin, range);
+    else
+        clocale_print(
+            text, 320,
+            "inconclusive: between %s and %s the modulus may be the same or change by more "
+            "than %g %% (factor %s); %s",
+            shallow.text, deep.text, margin, range, depth_advice(d, false));
+}
+
+/* Describes the layer that would cause such a change, and other possible causes. */
+static void describe_layer_reading(const wt_modulus_profile *d, char text[640])
+{
+    char numbers[256] = "";
+    if (!isnan(d->thickness.value))
+        clocale_print(numbers, sizeof numbers,
+                      "; one of %s (%s to %s) with %s on %s would look like that",
+                      format_si_value(d->thickness.value, "m").text,
+                      format_si_value(d->thickness.low, "m").text,
+                      format_si_value(d->thickness.high, "m").text,
+                      format_si_value(d->layer_modulus.value, "Pa").text,
+                      format_si_value(d->substrate_modulus.value, "Pa").text);
+    clocale_print(text, 640,
+                  "if a layer thinner than the indentation makes it, the layer is %s than what is "
+                  "below; then shallow indentations tell the layer, deep ones what is below, and "
+                  "the modulus of a whole curve is that of neither%s; another radius of the tip, "
+                  "loss, adhesion and an uneven piezo do the same, which a second rate, a second "
+                  "tip or the untouched bulk tells apart",
+                  d->change.low > 1    ? "softer"
+                  : d->change.high < 1 ? "stiffer"
+                                       : "softer or stiffer",
+                  numbers);
+}
+
+wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group,
+                               const wt_modulus_profile *d, wt_error *err)
+{
+    table_writer t = {0};
+    char text[320], reading[640];
+    if (tables->modulus_depth == NULL) {
+        t = table_begin(&modulus_depth_schema, err);
+        if (table_end(&t, &tables->modulus_depth) != WT_OK)
+            return t.status;
+    }
+    t = table_continue(tables->modulus_depth, &modulus_depth_schema, group, err);
+    table_block(&t);
+    describe_depth_change(d, text);
+    modulus_depth_keys keys = {text, NULL, d->change, (double)NAN, (double)NAN};
+    if (d->verdict == WT_DEPTH_CHANGES) {
+        describe_layer_reading(d, reading);
+        keys.reading = reading;
+    }
+    if (!isnan(d->change.value)) {
+        keys.chance = d->change_p;
+        keys.misfit_p = d->misfit_p;
+    }
+    modulus_depth_set_keys(&t, &keys);
+    for (size_t i = 0; i < WT_DEPTHS && !isnan(d->change.value); i++)
+        TABLE_ADD(modulus_depth, &t, group, d->depth[i], d->modulus[i], d->n, d->n_units);
+    return table_end(&t, NULL);
+}
+
+/* ---- errors that no residual shows ----------------------------------------------------------- */
+
+/* Text on systematic errors that leave no residual and that no interval holds: a base below the
+ * sample and a piezo that bends. The text states the effect and how to detect it. */
+
+/* Smallest relative effect of a base that is reported; most stated errors exceed a smaller one. */
+static const double min_base_effect = 0.05;
+
+/* Range of the thickness over the depth. A sample of a thousand depths is thick for any tip. */
+static const double min_thickness_ratio = 0.1, max_thickness_ratio = 1e3;
+
+typedef struct base_search {
+    wt_tip tip;
+    double depth;
+} base_search;
+
+/* Returns a value that rises with the logarithm of the thickness and is 0 at the limit. */
+static double base_effect_margin(double log_thickness, void *user)
+{
+    base_search *s = user;
+    const contact_point_values thick = contact_values(&s->tip, s->depth);
+    wt_tip thin = s->tip;
+    thin.sample_thickness = exp(log_thickness);
+    return min_base_effect - (thin_sample_values(&thin, thick).g / thick.g - 1);
+}
+
+/* Thickness at which a rigid base increases the modulus by min_base_effect; NaN if not known. */
+static double required_thickness(const wt_tip *tip, double depth)
+{
+    base_search search = {*tip, depth};
+    double found = (double)NAN;
+    const double low = log(min_thickness_ratio * depth), high = log(max_thickness_ratio * depth);
+    search.tip.sample_thickness = 0;
+    if (!(depth > 0) || !(base_effect_margin(low, &search) < 0) ||
+        !(base_effect_margin(high, &search) > 0) ||
+        root_find(base_effect_margin, &search, low, high, 1e-3, &found, NULL) != WT_OK)
+        return (double)NAN;
+    return exp(found);
+}
+
+void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size)
+{
+    const wt_tip *tip = &job->tip;
+    *text = '\0';
+    if (!(depth > 0))
+        return;
+    const double thin = tip->sample_thickness > 0 ? (double)NAN : required_thickness(tip, depth);
+    if (thin > 0) {
+        char thickness_text[32];
+        wt_format_si(thin, "m", 2, thickness_text, sizeof thickness_text);
+        clocale_append(
+            text, size,
+            "a sample on something hard (thinner than %s: a modulus more than %g %% too large; "
+            "--sample-thickness), ",
+            thickness_text, 100 * min_base_effect);
+    }
+    clocale_append(text, size,
+                   "a piezo that bends in contact only (calibrate it, or press on something hard)");
+}
+
+/* ---- the group ------------------------------------------------------------------------------- */
 
 static void add_shift(indent_shift_sum *all, double shift)
 {
@@ -121,23 +389,14 @@ double indent_summary_range_spread(const indent_summary *summary)
 }
 
 /* Tests the mean residual of the accepted curves. */
-static void test_mean_residual(const indent_summary *summary, const wt_indent_job *job,
-                               const wt_job *work, table_writer *rows)
+static void test_mean_residual(const indent_summary *summary, table_writer *rows)
 {
-    const size_t n = summary->n_misfits;
-    const wt_pooled_misfit pool =
-        wt_pooled_misfit_compute((const double(*)[WT_MISFIT_TERMS])summary->misfits, n);
-    const bool is_significant = pool.p_value < job->options.misfit_p_threshold;
+    const wt_pooled_misfit pool = wt_pooled_misfit_compute(
+        (const double(*)[WT_MISFIT_TERMS])summary->misfits, summary->n_misfits);
     if (isnan(pool.p_value))
         return;
     indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT, "%.3g", pool.misfit);
     indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT_CHANCE, "%.3g", pool.p_value);
-    if (is_significant)
-        wt_log_add(work->log, WT_WARNING, NULL, NULL,
-                   "%s: the mean residual of %zu accepted curves is %.2g %% of the largest "
-                   "force, which scatter does not explain (chance %s): another tip, a "
-                   "layer, loss, adhesion or an uneven piezo; the moduli may be further off",
-                   job->group, n, 100 * pool.misfit, format_probability(pool.p_value).text);
 }
 
 /* Median of the contact points of one estimator where it found one; NaN if nowhere. scratch: [n].
@@ -207,6 +466,6 @@ void indent_summary_report(const indent_summary *summary, const wt_indent_job *j
     report_common_shifts(summary, job, work, rows);
     indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, indent_summary_range_spread(summary),
                           0, 0);
-    test_mean_residual(summary, job, work, rows);
+    test_mean_residual(summary, rows);
     report_contact_estimates(summary, job, work);
 }

@@ -1,7 +1,9 @@
 /* The parameters of the indentation job. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/array.h"
 #include "core/base/param.h"
 #include "indentation/curve_selection.h"
 #include "indentation/indent.h"
+#include "indentation/law/tip.h"
 #include "indentation/numerics/curve.h"
 #include "read/read_params.h"
 
@@ -176,6 +178,43 @@ bool indent_range_text(const wt_indent_options *o, char *text, size_t size)
         length = append_range_text(text, size, length, ranges[i].of);
     }
     return length > 0;
+}
+
+/* Dimensions of a tip that have a key each. A key is absent where the dimension is 0. */
+static const struct {
+    indentation_key key;
+    size_t offset; /* of a double in wt_tip */
+} tip_keys[] = {
+    {INDENTATION_KEY_TIP_HALF_ANGLE, offsetof(wt_tip, half_angle)},
+    {INDENTATION_KEY_TIP_RADIUS, offsetof(wt_tip, radius)},
+    {INDENTATION_KEY_TIP_TRANSITION, offsetof(wt_tip, transition_radius)},
+    {INDENTATION_KEY_SAMPLE_THICKNESS, offsetof(wt_tip, sample_thickness)},
+};
+
+void indent_set_tip_keys(const wt_tip *tip, table_writer *to)
+{
+    indentation_set_text(to, INDENTATION_KEY_TIP_SHAPE, tip_shape_text((tip_shape)tip->shape));
+    if (tip->sides > 0)
+        indentation_set_value(to, INDENTATION_KEY_TIP_SIDES, tip->sides, 0, 0);
+    for (size_t i = 0; i < COUNT_OF(tip_keys); i++) {
+        const double value = *(const double *)((const char *)tip + tip_keys[i].offset);
+        if (value > 0)
+            indentation_set_value(to, tip_keys[i].key, value, (double)NAN, 0);
+    }
+}
+
+bool indent_tip_from_table(const table_view *t, wt_tip *tip)
+{
+    const double most_sides = tip_dimensions[TIP_SIDES].limits.high,
+                 sides = fmax(0, indentation_value(t, INDENTATION_KEY_TIP_SIDES).value);
+    const int shape = indentation_key_enum(t, INDENTATION_KEY_TIP_SHAPE);
+    if (shape < 0 || shape >= TIP_SHAPE_UNKNOWN || !(sides <= most_sides))
+        return false;
+    *tip = (wt_tip){.shape = (wt_tip_shape)shape, .sides = (unsigned)sides};
+    for (size_t i = 0; i < COUNT_OF(tip_keys); i++) /* a missing key is NaN */
+        *(double *)((char *)tip + tip_keys[i].offset) =
+            fmax(0, indentation_value(t, tip_keys[i].key).value);
+    return wt_tip_check(tip, NULL) == WT_OK;
 }
 
 wt_status indent_contact_table(const wt_tip *tip, wt_contact_table **table, wt_error *err)

@@ -62,7 +62,8 @@ typedef struct indent_task {
     wt_status status;
     wt_error *err;
     table_writer rows;
-    size_t n_curves, n_accepted, n_doubtful, n_failed; /* n_accepted includes doubtful curves */
+    size_t n_curves, n_failed;
+    size_t n_accepted, n_wide, n_doubtful; /* n_accepted includes wide and doubtful curves */
     /* Equal failures of one file make one row. */
     wt_error failure;
     size_t n_equal, first_equal;
@@ -73,7 +74,7 @@ typedef struct indent_task {
     calibration_errors calibration;
     indent_depths depths;
     /* Range of the spring constants [N/m] and sensitivities [m/V] of the accepted curves, and their
-     * tips with different descriptions. */
+     * different tips. */
     double k_low, k_high, s_low, s_high;
     const wt_tip **tips;
     size_t n_tips;

@@ -264,8 +264,8 @@ void manual_overrides_apply_fit(const curve_choice *choice, wt_indent_fit *fit)
         return;
     }
     const char *note = choice->exclude->note;
-    /* The reason of a usable fit begins with its verdict. */
-    const bool has_verdict_prefix = wt_curve_verdict_is_usable(fit->verdict) && !has_manual_contact;
+    /* The reason of an accepted fit begins with its verdict. */
+    const bool has_verdict_prefix = fit->verdict == WT_CURVE_ACCEPTED && !has_manual_contact;
     snprintf(text, sizeof text, "left out by hand%s%.*s; the fit: %s%s%s",
              note[0] != '\0' ? ": " : "", (int)utf8_truncated_length(note, strlen(note), NOTE),
              note, has_verdict_prefix ? "" : verdict,

@@ -161,19 +161,6 @@ static wt_status read_sensitivity_file(void *user, flow_file *file, size_t unit,
     return status;
 }
 
-static wt_status read_sensitivity_files(sensitivity_task *task, const flow_files *files,
-                                        wt_error *err)
-{
-    size_t n_failed;
-    wt_status status =
-        flow_files_process(files, task->work, read_sensitivity_file, task, &n_failed, err);
-    if (status == WT_OK && task->n == 0) {
-        status = wt_fail(err, WT_E_EMPTY, "no force curve could be read");
-        flow_error_add_files(files, n_failed, err);
-    }
-    return status;
-}
-
 /* ---- curves ---------------------------------------------------------------------------------- */
 
 static bool has_found_slope(const curve_slopes *it, size_t direction)
@@ -193,8 +180,7 @@ static double curve_sensitivity(const curve_slopes *it, size_t direction)
 
 static double sensitivity_factor(const curve_slopes *it, size_t direction)
 {
-    return it->volts ? travel_per_signal(it, direction) / it->file_sensitivity
-                     : travel_per_signal(it, direction);
+    return travel_per_signal(it, direction) / (it->volts ? it->file_sensitivity : 1);
 }
 
 /* Marks curves of one file whose slope in one direction is an outlier. */
@@ -309,14 +295,17 @@ static bool is_usable_curve(const curve_slopes *it, size_t row)
                                              : has_found_slope(it, 0) && has_found_slope(it, 1));
 }
 
-/* Interval of the slope change of one curve, with the error of the scatter within it. */
-static wt_interval single_curve_change(const curve_slopes *it, size_t row, double value)
+/* Sets the interval of the slope change and the error of the sensitivity of one curve from the
+ * scatter within it. */
+static void use_scatter_within(direction_group *g, const curve_slopes *it, size_t row)
 {
     const bool both = row == DIRECTIONS;
     const wt_contact_slope *const a = &it->direction[both ? 0 : row], *const b = &it->direction[1];
-    const double error = both ? hypot(a->change_error, b->change_error) / 2 : a->change_error;
-    const double half = wt_student_quantile(both ? fmin(a->df, b->df) : a->df) * error;
-    return (wt_interval){value, error, value - half, value + half};
+    const double error = both ? hypot(a->change_error, b->change_error) / 2 : a->change_error,
+                 half = wt_student_quantile(both ? fmin(a->df, b->df) : a->df) * error,
+                 value = g->change.value, of_a = a->slope_error / a->slope;
+    g->change = (wt_interval){value, error, value - half, value + half};
+    g->curve_error = both ? hypot(of_a, b->slope_error / b->slope) / 2 : of_a;
 }
 
 static void assess_linearity(direction_group *g, double most)
@@ -328,13 +317,6 @@ static void assess_linearity(direction_group *g, double most)
                  : falls                              ? SLOPE_FALLS
                  : c->low >= -most && c->high <= most ? SLOPE_STRAIGHT
                                                       : SLOPE_INCONCLUSIVE;
-}
-
-/* Returns the mean of `of` over the directions of a row. */
-static double direction_mean(const curve_slopes *it, size_t row,
-                             double (*of)(const curve_slopes *it, size_t direction))
-{
-    return row < DIRECTIONS ? of(it, row) : 0.5 * (of(it, 0) + of(it, 1));
 }
 
 static double slope_change(const curve_slopes *it, size_t direction)
@@ -353,6 +335,7 @@ static double retract_over_approach_ratio(const curve_slopes *it, size_t directi
     return travel_per_signal(it, 1) / travel_per_signal(it, 0);
 }
 
+/* Returns the mean over the curves of the mean of `of` over the directions of a row. */
 static wt_interval curve_mean(const sensitivity_task *task, size_t row, collected_values *c,
                               size_t *n_units,
                               double (*of)(const curve_slopes *it, size_t direction))
@@ -360,7 +343,9 @@ static wt_interval curve_mean(const sensitivity_task *task, size_t row, collecte
     c->n = 0;
     for (size_t i = 0; i < task->n; i++) {
         const curve_slopes *it = &task->items[i];
-        const double value = is_usable_curve(it, row) ? direction_mean(it, row, of) : (double)NAN;
+        const double value = !is_usable_curve(it, row) ? (double)NAN
+                             : row < DIRECTIONS        ? of(it, row)
+                                                       : 0.5 * (of(it, 0) + of(it, 1));
         if (isnan(value))
             continue;
         c->values[c->n] = value;
@@ -420,14 +405,8 @@ static void compute_groups(const sensitivity_task *task, direction_group groups[
         g->n = c.n;
         if (g->n == 0)
             continue;
-        if (g->n == 1) {
-            const curve_slopes *it = c.last;
-            const double slope_errors[] = {it->direction[0].slope_error / it->direction[0].slope,
-                                           it->direction[1].slope_error / it->direction[1].slope};
-            g->change = single_curve_change(it, row, g->change.value);
-            g->curve_error =
-                row < DIRECTIONS ? slope_errors[row] : hypot(slope_errors[0], slope_errors[1]) / 2;
-        }
+        if (g->n == 1)
+            use_scatter_within(g, c.last, row);
         if (row == DIRECTIONS)
             g->difference = curve_mean(task, row, &c, &ignored, retract_over_approach_ratio);
         assess_linearity(g, task->job->max_slope_change);
@@ -462,27 +441,20 @@ static void set_interval_columns(table_writer *t, sensitivity_column first, wt_i
     sensitivity_put(t, first + 3, i.high);
 }
 
-typedef struct verdict_text {
-    char text[96];
-} verdict_text;
-
-static verdict_text format_verdict(slope_verdict verdict)
-{
-    static const char *const reasons[] = {
-        [SLOPE_STRAIGHT] = "",
-        [SLOPE_RISES] = ": the slope rises with the deflection",
-        [SLOPE_FALLS] = ": the slope falls with the deflection",
-        [SLOPE_INCONCLUSIVE] = ": the slope scatters too much to show if the surface is hard"};
-    verdict_text words;
-    snprintf(words.text, sizeof words.text, "%s%s", slope_verdict_text(verdict), reasons[verdict]);
-    return words;
-}
+/* Continues the text of a verdict. */
+static const char *const verdict_reasons[] = {
+    [SLOPE_STRAIGHT] = "",
+    [SLOPE_RISES] = ": the slope rises with the deflection",
+    [SLOPE_FALLS] = ": the slope falls with the deflection",
+    [SLOPE_INCONCLUSIVE] = ": the slope scatters too much to show if the surface is hard"};
 
 /* The first two rows are the directions. */
 static void add_group_row(table_writer *t, slope_direction row, const direction_group *g,
                           double share)
 {
-    char note[160] = "";
+    char note[160] = "", verdict[96];
+    snprintf(verdict, sizeof verdict, "%s%s", slope_verdict_text(g->verdict),
+             verdict_reasons[g->verdict]);
     if (g->n == 1)
         snprintf(note, sizeof note,
                  "one curve: the scatter between curves is not known; standard error within the "
@@ -492,7 +464,7 @@ static void add_group_row(table_writer *t, slope_direction row, const direction_
     sensitivity_put_text(t, SENSITIVITY_DIRECTION, slope_direction_text((slope_direction)row));
     sensitivity_put(t, SENSITIVITY_N, (double)g->n);
     sensitivity_put(t, SENSITIVITY_UNITS, (double)g->n_units);
-    sensitivity_put_text(t, SENSITIVITY_VERDICT, format_verdict(g->verdict).text);
+    sensitivity_put_text(t, SENSITIVITY_VERDICT, verdict);
     sensitivity_put_text(t, SENSITIVITY_NOTE, note);
     sensitivity_put(t, SENSITIVITY_TILT, g->tilt);
     set_interval_columns(t, SENSITIVITY_CHANGE, g->change);
@@ -519,11 +491,6 @@ static void set_option_keys(table_writer *t, const direction_group *g)
                               1 / (g->factor.value * g->factor.value));
 }
 
-static void set_interval_key(table_writer *t, sensitivity_key key, wt_interval i)
-{
-    sensitivity_set_value(t, key, i.value, i.standard_error, 0);
-}
-
 static void set_sensitivity_keys(table_writer *t, const sensitivity_task *task, size_t row,
                                  const direction_group *g)
 {
@@ -532,17 +499,21 @@ static void set_sensitivity_keys(table_writer *t, const sensitivity_task *task, 
         n_excluded += task->items[i].outlier ||
                       !(has_found_slope(&task->items[i], 0) || has_found_slope(&task->items[i], 1));
     sensitivity_set_text(t, SENSITIVITY_KEY_DIRECTION, slope_direction_text((slope_direction)row));
-    sensitivity_set_text(t, SENSITIVITY_KEY_VERDICT, format_verdict(g->verdict).text);
+    sensitivity_set_print(t, SENSITIVITY_KEY_VERDICT, "%s%s", slope_verdict_text(g->verdict),
+                          verdict_reasons[g->verdict]);
     sensitivity_set_print(t, SENSITIVITY_KEY_N_CURVES, "%zu", task->n);
     sensitivity_set_print(t, SENSITIVITY_KEY_N_LEFT_OUT, "%zu", n_excluded);
     if (row == DIRECTIONS)
-        set_interval_key(t, SENSITIVITY_KEY_DIFFERENCE, g->difference);
+        sensitivity_set_value(t, SENSITIVITY_KEY_DIFFERENCE, g->difference.value,
+                              g->difference.standard_error, 0);
     if (g->refused)
         return;
     if (!isnan(g->sensitivity.value))
-        set_interval_key(t, SENSITIVITY_KEY_SENSITIVITY, g->sensitivity);
+        sensitivity_set_value(t, SENSITIVITY_KEY_SENSITIVITY, g->sensitivity.value,
+                              g->sensitivity.standard_error, 0);
     if (!isnan(g->factor.value))
-        set_interval_key(t, SENSITIVITY_KEY_FACTOR, g->factor);
+        sensitivity_set_value(t, SENSITIVITY_KEY_FACTOR, g->factor.value, g->factor.standard_error,
+                              0);
     set_option_keys(t, g);
 }
 
@@ -590,13 +561,18 @@ wt_status wt_sensitivity_compute(const wt_sensitivity_job *job, const wt_job *wo
     sensitivity_task task = {.job = job, .work = work};
     wt_sensitivity_tables result = {0};
     flow_files files = {NULL, 0};
+    size_t n_failed = 0;
     wt_status status = param_check(wt_sensitivity_job_params(), job, err);
     if (status == WT_OK && !(job->options.from < job->options.to))
         status = range_error("contact-to", job->options.to, "more than contact-from", err);
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     if (status == WT_OK)
-        status = read_sensitivity_files(&task, &files, err);
+        status = flow_files_process(&files, work, read_sensitivity_file, &task, &n_failed, err);
+    if (status == WT_OK && task.n == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no force curve could be read");
+        flow_error_add_files(&files, n_failed, err);
+    }
     if (status == WT_OK)
         status = check_signals(&task, err);
     if (status == WT_OK)

@@ -25,7 +25,7 @@
       TEXT, LABEL("Spot"), OPTIONAL)                                                               \
     X(INDENTATION_X, AS(x), "lateral position x", SI(POSITION_X), OPTIONAL)                        \
     X(INDENTATION_Y, AS(y), "lateral position y", SI(POSITION_Y), OPTIONAL)                        \
-    X(INDENTATION_VERDICT, AS(verdict), "accepted, doubtful, or why there is no modulus",          \
+    X(INDENTATION_VERDICT, AS(verdict), "accepted, wide, doubtful, or why there is no modulus",    \
       ENUM(curve_verdict))                                                                         \
     X(INDENTATION_REASON, IN(fit, reason), "the verdict with its numbers", TEXT, LABEL("Reason"),  \
       OPTIONAL)                                                                                    \
@@ -175,8 +175,26 @@
     X(SEVERAL_TIPS, "several")                                                                     \
     X(SEVERAL_BLUNTED_PYRAMIDS, "several: blunted pyramid")
 
+/* In the order of wt_tip_shape. */
+#define TIP_SHAPES(X)                                                                              \
+    X(TIP_SHAPE_PYRAMID, "pyramid or cone with a cap")                                             \
+    X(TIP_SHAPE_PARABOLOID, "paraboloid")                                                          \
+    X(TIP_SHAPE_CONE, "cone")                                                                      \
+    X(TIP_SHAPE_SPHERE, "sphere")                                                                  \
+    X(TIP_SHAPE_PUNCH, "flat punch")
+
+/* Dimensions of the tip, if the group has one tip; code reads these and not the description. */
+#define INDENTATION_TIP_KEYS(X)                                                                    \
+    X(INDENTATION_KEY_TIP_SHAPE, "tip_shape", ENUM(tip_shape), OPTIONAL)                           \
+    X(INDENTATION_KEY_TIP_SIDES, "tip_sides", NUMBER, OPTIONAL)                                    \
+    X(INDENTATION_KEY_TIP_HALF_ANGLE, "tip_half_angle", SI(ANGLE), OPTIONAL)                       \
+    X(INDENTATION_KEY_TIP_RADIUS, "tip_radius", SI(LENGTH), OPTIONAL)                              \
+    X(INDENTATION_KEY_TIP_TRANSITION, "tip_transition_radius", SI(LENGTH), OPTIONAL)               \
+    X(INDENTATION_KEY_SAMPLE_THICKNESS, "sample_thickness", SI(LENGTH), OPTIONAL)
+
 #define INDENTATION_KEYS(X)                                                                        \
     X(INDENTATION_KEY_TIP, "tip", ENUM(tip_form), OPTIONAL)                                        \
+    INDENTATION_TIP_KEYS(X)                                                                        \
     X(INDENTATION_KEY_POISSON_RATIO, "poisson_ratio", PLAIN, OPTIONAL)                             \
     X(INDENTATION_KEY_FIT_RANGE, "fit_range", TEXT, LABEL("Range of the fit"), OPTIONAL)           \
     X(INDENTATION_KEY_SPRING_CONSTANT, "spring_constant", SI(SPRING_CONSTANT), OPTIONAL)           \
@@ -195,6 +213,7 @@
       OPTIONAL)                                                                                    \
     X(INDENTATION_KEY_NOT_SHOWN, "not_shown", TEXT, LABEL("What no curve shows"), OPTIONAL)        \
     X(INDENTATION_KEY_N_ACCEPTED, "n_accepted", PLAIN, LABEL("Curves with a modulus"), OPTIONAL)   \
+    X(INDENTATION_KEY_N_WIDE, "n_wide", PLAIN, LABEL("Of them with a wide interval"), OPTIONAL)    \
     X(INDENTATION_KEY_N_DOUBTFUL, "n_doubtful", PLAIN, LABEL("Of them doubtful"), OPTIONAL)        \
     X(INDENTATION_KEY_N_REJECTED, "n_rejected", PLAIN, LABEL("Curves rejected"), OPTIONAL)
 

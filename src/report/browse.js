@@ -13,7 +13,7 @@
   /* ---- data ---------------------------------------------------------------------------------- */
 
   const data = JSON.parse($('data').textContent);
-  const usable = (curve) => curve.verdict === 'accepted' || curve.verdict === 'doubtful';
+  const usable = (curve) => ['accepted', 'wide', 'doubtful'].includes(curve.verdict);
   const groups = data.groups.map((group) => ({
     name: group.name,
     curves: group.curves.map((row, index) => ({
@@ -141,7 +141,7 @@
   let group = groups[0], shown = [], current = null;
   const entries = new Map();
   const kindOf = (curve) => curve.verdict === 'accepted' ? '' :
-    curve.verdict === 'doubtful' ? 'doubtful' : 'refused';
+    usable(curve) ? 'doubtful' : 'refused';
   const relative = (curve) => curve.modulus > 0 && curve.error !== null ?
     curve.error / curve.modulus : -1;
   const orders = {

@@ -16,6 +16,7 @@ curve_kind row_curve_kind(const table_view *rows, size_t row)
     const wt_curve_verdict verdict =
         (wt_curve_verdict)indentation_enum(rows, row, INDENTATION_VERDICT);
     return verdict == WT_CURVE_ACCEPTED   ? CURVE_ACCEPTED
+           : verdict == WT_CURVE_WIDE     ? CURVE_WIDE
            : verdict == WT_CURVE_DOUBTFUL ? CURVE_DOUBTFUL
                                           : CURVE_REFUSED;
 }

@@ -19,7 +19,13 @@ typedef struct curve_finder {
 } curve_finder;
 
 /* Kinds of curves in their order on the sheets. */
-typedef enum curve_kind { CURVE_REFUSED, CURVE_DOUBTFUL, CURVE_ACCEPTED, CURVE_KINDS } curve_kind;
+typedef enum curve_kind {
+    CURVE_REFUSED,
+    CURVE_DOUBTFUL,
+    CURVE_WIDE,
+    CURVE_ACCEPTED,
+    CURVE_KINDS
+} curve_kind;
 
 /* Returns the kind of a row from its verdict. */
 curve_kind row_curve_kind(const table_view *rows, size_t row);

@@ -21,8 +21,8 @@ typedef struct curve_list {
     size_t n_rows; /* number of all curves, also without samples */
 } curve_list;
 
-/* Lists all curves with samples: rejected ones first, then doubtful ones, each kind in the order of
- * the table. Call curve_list_clear also after a failure. */
+/* Lists all curves with samples: rejected ones first, then doubtful and wide ones, each kind in the
+ * order of the table. Call curve_list_clear also after a failure. */
 void curve_list_init(const figure_tables *tables, curve_list *list);
 void curve_list_clear(curve_list *list);
 

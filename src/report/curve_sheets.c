@@ -65,7 +65,7 @@ static wt_status write_sheet_file(const sheets *s, const char *name, const char 
 /* Adds the title above the panels. */
 static void add_sheet_title(sheets *s, size_t sheet)
 {
-    static const char *const kinds[] = {"refused", "doubtful", "accepted"};
+    static const char *const kinds[] = {"refused", "doubtful", "wide", "accepted"};
     text_buffer words = {0};
     text_format(&words, "Force curves, sheet %zu of %zu:", sheet + 1, s->n);
     for (int k = 0; k < CURVE_KINDS; k++)

@@ -28,10 +28,10 @@ int drawing_group_style(const figure_drawing *d, size_t i)
 static bool row_matches(const table_view *table, size_t row, const row_filter *rows)
 {
     for (int i = 0; rows != NULL && i < 2; i++)
-        if (rows->text[i] != NULL && (strcmp(view_text(table, table->schema, row, rows->column[i]),
-                                             rows->text[i]) == 0) == rows->other)
+        if (rows->text[i] != NULL &&
+            strcmp(view_text(table, table->schema, row, rows->column[i]), rows->text[i]) != 0)
             return false;
-    return true;
+    return rows == NULL || rows->accepts == NULL || rows->accepts(table, row);
 }
 
 /* Creates a section table with the name of the figure and a number. */

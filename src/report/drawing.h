@@ -93,12 +93,12 @@ void drawing_curves(figure_drawing *d, size_t panel);
 
 /* ---- data ----------------------------------------------------------------------------------- */
 
-/* Selects rows where each of up to two text columns equals a text (differs from it if `other`);
- * text NULL = no condition. */
+/* Selects rows where each of up to two text columns equals a text (NULL: any) and that `accepts`
+ * accepts (NULL: all). */
 typedef struct row_filter {
     unsigned column[2];
     const char *text[2];
-    bool other;
+    bool (*accepts)(const table_view *table, size_t row);
 } row_filter;
 
 /* Copies number columns of the rows to a new section and returns its index; NO_SECTION if no row

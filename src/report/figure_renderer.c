@@ -87,7 +87,7 @@ bool drawing_build_data(figure_drawing *d)
 {
     const figure_description *figure = d->figure;
     for (size_t i = 0; i < d->n_groups; i++) {
-        const row_filter rows = {{figure->group}, {figure->by_group ? d->groups[i] : NULL}, false};
+        const row_filter rows = {{figure->group}, {figure->by_group ? d->groups[i] : NULL}, NULL};
         d->data[i] = drawing_section(d, d->table, d->groups[i], &rows, d->columns, d->n_columns,
                                      figure->by_group ? 2 : 1);
         span_add_described(&d->x, d, i, figure->x.column, &figure->x);

@@ -12,8 +12,6 @@ typedef struct figure_list {
 } figure_list;
 
 static const figure_list lists[] = {{figures_indentation, SECTION_INDENTATION},
-                                    {figures_curves, SECTION_INDENTATION},
-                                    {figures_spot, SECTION_INDENTATION},
                                     {figures_surface, SECTION_SURFACE},
                                     {figures_materials, SECTION_MATERIAL},
                                     {figures_master, SECTION_MATERIAL},

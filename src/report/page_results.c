@@ -185,25 +185,26 @@ void page_results(page_writer *page)
     page_fold_end(page);
 }
 
-/* ---- curves without a modulus, or with a doubtful one --------------------------------------- */
+/* ---- curves without a modulus, or with a wide or doubtful one ------------------------------- */
 
 static void write_rejected_curves(page_writer *page, const table_view *table)
 {
     enum { SHOWN = 200 };
-    size_t rows[SHOWN], n = 0, others = 0, doubtful = 0;
+    size_t rows[SHOWN], n = 0, others = 0, wide = 0, doubtful = 0;
     for (size_t row = 0; row < table->n_rows; row++) {
         const wt_curve_verdict verdict =
             (wt_curve_verdict)indentation_enum(table, row, INDENTATION_VERDICT);
         if (verdict == WT_CURVE_ACCEPTED)
             continue;
+        wide += verdict == WT_CURVE_WIDE;
         doubtful += verdict == WT_CURVE_DOUBTFUL;
         if (n < SHOWN)
             rows[n++] = row;
         others++;
     }
     text_buffer caption = {0};
-    text_format(&caption, "%s: %zu of %zu curves doubtful, %zu rejected", table->suffix, doubtful,
-                table->n_rows, others - doubtful);
+    text_format(&caption, "%s: %zu curves, %zu wide, %zu doubtful, %zu rejected", table->suffix,
+                table->n_rows, wide, doubtful, others - wide - doubtful);
     if (others > n)
         text_format(&caption, ", the first %zu; the result file holds all", n);
     if (n == 0)

@@ -5,6 +5,7 @@
 #include "core/base/array.h"
 #include "core/math/splitmix64.h"
 #include "core/table/registry.h"
+#include "indentation/indent.h"
 #include "study/compare.h"
 #include "weartrack/study.h"
 
@@ -13,7 +14,7 @@
 #include <string.h>
 
 /* Width of a rate bin [decade]. Rates of one nominal piezo rate differ by less, because the softer
- * group indents slightly faster; see indentation/numerics/group_units.c. */
+ * group indents slightly faster; see indentation/numerics/group_statistics.c. */
 #define BIN_DECADES 0.5
 
 const char *const compare_group_name[2] = {"bulk", "track"};
@@ -382,7 +383,7 @@ static double plain_key_number(const table_view *t, indentation_key key)
 static void read_shared_inputs(const table_view *t, wt_group_data *d)
 {
     d->sensitivity = indentation_value(t, INDENTATION_KEY_SENSITIVITY);
-    d->tip = indentation_key_text(t, INDENTATION_KEY_TIP);
+    d->has_tip = indent_tip_from_table(t, &d->tip);
     d->has_several_cantilevers = indentation_key_text(t, INDENTATION_KEY_SPRING_CONSTANTS) != NULL;
     d->has_several_sensitivities = indentation_key_text(t, INDENTATION_KEY_SENSITIVITIES) != NULL;
     const tip_form form = (tip_form)indentation_key_enum(t, INDENTATION_KEY_TIP);

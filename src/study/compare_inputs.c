@@ -2,6 +2,7 @@
  * both groups cancel; separate errors enter the interval.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/rubber.h"
+#include "indentation/law/tip.h"
 #include "study/compare.h"
 
 #include "core/base/clocale.h"
@@ -43,8 +44,7 @@ static bool has_two_cantilevers(const compare_pair *p, wt_cantilever_sharing lev
     const double bulk = p->data[0].spring_constant.value, track = p->data[1].spring_constant.value;
     if (levers != WT_CANTILEVERS_AUTO)
         return levers == WT_CANTILEVERS_SEPARATE;
-    const char *const tip[2] = {p->data[0].tip, p->data[1].tip};
-    if (tip[0] != NULL && tip[1] != NULL && strcmp(tip[0], tip[1]) != 0)
+    if (p->data[0].has_tip && p->data[1].has_tip && tips_differ(&p->data[0].tip, &p->data[1].tip))
         return true;
     if (p->data[0].has_several_tips ||
         p->data[1].has_several_tips) /* even if both lists are equal */

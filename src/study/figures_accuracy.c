@@ -64,7 +64,7 @@ static void draw_part(figure_drawing *d, const char *part)
     value_span time = EMPTY_SPAN, error = EMPTY_SPAN;
     for (size_t i = 0; i < n; i++) {
         const row_filter rows = {
-            {WORK_PRECISION_PART, WORK_PRECISION_METHOD}, {part, methods[i]}, false};
+            {WORK_PRECISION_PART, WORK_PRECISION_METHOD}, {part, methods[i]}, NULL};
         section[i] = drawing_section(d, d->table, methods[i], &rows, columns, 4, 2);
         if (section[i] == NO_SECTION)
             continue;
@@ -158,7 +158,7 @@ static void draw_bars(figure_drawing *d, const number_panel *p, size_t from, err
 {
     static const unsigned columns[] = {ERROR_BUDGET_RELATIVE_ERROR, ERROR_BUDGET_SHARE};
     const row_filter rows = {
-        {ERROR_BUDGET_NUMBER, ERROR_BUDGET_KIND}, {p->number, error_kind_text(kind)}, false};
+        {ERROR_BUDGET_NUMBER, ERROR_BUDGET_KIND}, {p->number, error_kind_text(kind)}, NULL};
     const size_t top = p->first + p->n - 1 - from;
     plot_item(d, drawing_section(d, d->table, error_kind_text(kind), &rows, columns, 2, 1),
               "($1>%s ? %s*x_unit : NaN):(%zu-$0):(%s*x_unit):($1*x_unit):(%zu.7-$0-1):(%zu.3-$0) "
@@ -284,7 +284,7 @@ static void draw_cost(figure_drawing *d)
     static const unsigned columns[] = {COST_CPU_TIME, COST_RUNS, COST_STANDARD_ERROR,
                                        COST_ERROR_ESTIMATED};
     const table_view *t = d->table;
-    const row_filter all = {{0, 0}, {NULL, NULL}, false};
+    const row_filter all = {{0, 0}, {NULL, NULL}, NULL};
     value_span time = EMPTY_SPAN, error = EMPTY_SPAN;
     span_add_column(&time, t, COST_CPU_TIME, true);
     span_add_column(&error, t, COST_STANDARD_ERROR, true);

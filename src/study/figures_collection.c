@@ -62,7 +62,7 @@ static bool find_panel_sections(figure_drawing *d, panel_grid *g)
     d->x = d->y[0] = EMPTY_SPAN;
     for (size_t i = 0; i < g->of.n; i++)
         for (size_t k = 0; k < d->n_groups; k++) {
-            const row_filter rows = {{g->panel, g->group}, {g->of.name[i], d->groups[k]}, false};
+            const row_filter rows = {{g->panel, g->group}, {g->of.name[i], d->groups[k]}, NULL};
             g->section[i][k] =
                 drawing_section(d, d->table, d->groups[k], &rows, g->data, g->n_data, 2);
             span_add_section(&d->x, d, g->section[i][k], 0, !g->signed_x);
@@ -188,7 +188,7 @@ static size_t find_constants(figure_drawing *d, constant_panel shown[PANELS], bo
         if (seen || n == PANELS)
             continue;
         const row_filter rows = {
-            {SHARED_MEMBERS_CONSTANT, SHARED_MEMBERS_OF}, {constant, of}, false};
+            {SHARED_MEMBERS_CONSTANT, SHARED_MEMBERS_OF}, {constant, of}, NULL};
         shown[n] = (constant_panel){constant, of,
                                     drawing_section(d, d->table, constant, &rows, data, 4, 2)};
         for (size_t c = 1; c < 4; c++)

@@ -8,7 +8,7 @@
 #include "core/table/result_value.h"
 #include "core/table/table_rows.h"
 #include "indentation/indent.h"
-#include "indentation/law/thin_layer.h"
+#include "indentation/law/contact_law.h"
 #include "indentation/law/tip.h"
 #include "study/compare.h"
 #include "weartrack/indentation.h"
@@ -348,7 +348,7 @@ static const double least_poisson_ratio = 0.45;
 
 /* Finds the reason why the curves cannot be used. tip: its description; NULL if it is not
  * understood. */
-static track_obstacle find_obstacle(const depth_group *g, const char *tip, double k)
+static track_obstacle find_obstacle(const depth_group *g, bool has_tip, double k)
 {
     if (!g->there)
         return (track_obstacle){"the tables of bulk and track say nothing of depth",
@@ -357,7 +357,7 @@ static track_obstacle find_obstacle(const depth_group *g, const char *tip, doubl
     if (!(k > 0))
         return (track_obstacle){"curves of one group have several levers, or none is stated",
                                 "one lever in a group, its spring constant stated"};
-    if (tip == NULL)
+    if (!has_tip)
         return (track_obstacle){"curves of one group have several tips, or none is stated",
                                 "one tip in bulk and track, its shape stated"};
     if (!(g->poisson_ratio >= least_poisson_ratio && g->poisson_ratio <= 0.5))
@@ -365,7 +365,7 @@ static track_obstacle find_obstacle(const depth_group *g, const char *tip, doubl
                                 "Poisson's ratio below 0.45, or one that is not stated, is not",
                                 "a Poisson's ratio of rubber (0.5) in weartrack indent, if the "
                                 "sample is rubber"};
-    if (tip_description_has_sample(tip))
+    if (g->tip.sample_thickness > 0)
         return (track_obstacle){"a layer on a thin sample is none of which the law is known",
                                 "curves on a thick piece of the sample"};
     return (track_obstacle){NULL, NULL};
@@ -377,13 +377,12 @@ static wt_status read_depth_group(const wt_table *table, depth_group *g, wt_erro
     wt_status status = table_bind(table, &indentation_schema, "", &t, err);
     if (status != WT_OK)
         return status;
-    const char *tip = indentation_key_text(&t, INDENTATION_KEY_TIP),
-               *poisson = indentation_key_text(&t, INDENTATION_KEY_POISSON_RATIO);
+    const char *poisson = indentation_key_text(&t, INDENTATION_KEY_POISSON_RATIO);
     const double k = indentation_value(&t, INDENTATION_KEY_SPRING_CONSTANT).value;
-    const bool known = tip != NULL && tip_from_any_description(tip, &g->tip);
+    const bool has_tip = indent_tip_from_table(&t, &g->tip);
     g->there = indentation_has(&t, INDENTATION_MISFIT_WAVE_1);
     g->poisson_ratio = parse_number_or_nan(poisson);
-    g->obstacle = find_obstacle(g, known ? tip : NULL, k);
+    g->obstacle = find_obstacle(g, has_tip, k);
     if (g->obstacle.reason != NULL)
         return WT_OK;
     read_depth_curves(&t, k, g);
@@ -548,10 +547,7 @@ static wt_status find_profile(const depth_group group[2], const wt_compare_job *
             "what the comparison says of that ratio"};
         return WT_OK;
     }
-    char words[2][256];
-    for (int g = 0; g < 2; g++)
-        wt_tip_describe(&group[g].tip, words[g], sizeof words[g]);
-    if (strcmp(words[0], words[1]) != 0) {
+    if (tips_differ(&group[0].tip, &group[1].tip)) {
         f->obstacle = (track_obstacle){
             "bulk and track were indented with different tips, so that the bulk does not "
             "show what of the change with depth is the tip's",

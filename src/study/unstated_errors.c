@@ -131,6 +131,12 @@ static void misfit_p_values(const compare_pair *p, double chance[2])
         chance[g] = wt_combined_p_value(lack.larger_p[g], p->data[g].pooled_misfit_p);
 }
 
+/* True for a pyramid or cone with a cap. */
+static bool is_blunted_tip(const wt_group_data *d)
+{
+    return d->has_tip && d->tip.shape == WT_TIP_BLUNTED_PYRAMID && d->tip.transition_radius > 0;
+}
+
 /* Returns the largest plausible tip radius. */
 static double largest_radius(const wt_group_data *d, const wt_compare_job *job, const wt_tip *tip)
 {
@@ -155,14 +161,13 @@ static bool shows_wear(const wt_group_data *d, const wt_compare_job *job, double
 static wt_status add_tip_cause(const compare_pair *p, const wt_compare_job *job, bool within,
                                unstated_errors *u, wt_error *err)
 {
-    wt_tip tip;
     double chance[2], needed, least, misfit, ignored;
     misfit_p_values(p, chance);
     const int worn = within ? chance[1] < chance[0] : u->log_ratio > 0;
     const wt_group_data *d = &p->data[worn];
     const pressed_curve at = mean_pressed_curve(d);
-    if (d->tip == NULL || !(at.depth > 0) || !tip_from_description(d->tip, &tip) ||
-        !(tip.radius < worn_radius))
+    const wt_tip tip = d->tip;
+    if (!is_blunted_tip(d) || !(at.depth > 0) || !(tip.radius < worn_radius))
         return WT_OK;
     wt_status status = required_radius(
         &tip, &at, within ? u->smallest_to_explain : fabs(u->log_ratio), &needed, &misfit, err);
@@ -251,14 +256,13 @@ static void add_pull_cause(const compare_pair *p, bool within, unstated_errors *
     const long *const spots[2] = {p->data[0].group.spot, p->data[1].group.spot};
     const size_t n[2] = {p->data[0].group.n, p->data[1].group.n};
     const wt_mean_comparison pulls = wt_compare_means(values, spots, n);
-    wt_tip tip;
     const int more = pulls.mean[1] > pulls.mean[0];
     const wt_group_data *d = &p->data[more];
     const pressed_curve at = mean_pressed_curve(d);
     const double there = pulls.mean[more] - pulls.mean[!more];
     if (!(pulls.larger_p[more] < level) || !(at.depth > 0) || !(at.force > 0))
         return;
-    const wt_tip *const known = d->tip != NULL && tip_from_description(d->tip, &tip) ? &tip : NULL;
+    const wt_tip *const known = is_blunted_tip(d) ? &d->tip : NULL;
     const double needed = required_pull(known, at.depth, at.force,
                                         within ? u->smallest_to_explain : fabs(u->log_ratio)),
                  least = required_pull(known, at.depth, at.force, u->smallest_to_explain);

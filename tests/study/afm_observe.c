@@ -87,7 +87,8 @@ static void read_curves(const char *path, const afm_scene *s, const afm_sample *
             const char *table = place_modulus.table;
             const int good = stream_is(found, table, PLACE_CURVE, i, PLACE_ACCEPTED);
             accepted += good;
-            if (!good && !stream_is(found, table, PLACE_CURVE, i, PLACE_DOUBTFUL))
+            if (!good && !stream_is(found, table, PLACE_CURVE, i, PLACE_WIDE) &&
+                !stream_is(found, table, PLACE_CURVE, i, PLACE_DOUBTFUL))
                 e.value = e.low = e.high = (double)NAN;
             trial_add(t, Q_MODULUS, from->sample[i * from->n / CURVES]->modulus, e);
             if (s->dma > 0)

@@ -82,6 +82,7 @@ extern const place place_needed_wear, place_needed_energy;
 #define PLACE_CURVE "verdict" /* in `place_modulus.table`, of a curve: */
 #define PLACE_ACCEPTED "accepted"
 #define PLACE_DOUBTFUL "doubtful"
+#define PLACE_WIDE "wide"
 #define PLACE_POOLED_CHANCE "pooled_misfit_p" /* in `place_modulus.table` */
 #define PLACE_DEPTH "modulus_depth"
 #define PLACE_DEPTH_CHANGES "changes_bulk" /* begins with yes, no or inconclusive */

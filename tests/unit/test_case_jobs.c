@@ -108,10 +108,9 @@ static void test_bad_files(void **state)
     assert_int_equal(wt_table_n_rows(tables.indentation), 24);
     assert_int_equal(tables.n_accepted, 24);
     assert_int_equal(tables.n_failed, 1); /* read and failed; the other one is not there */
-    static const char *const said[] = {"taken once", "24 of 24 accepted curves lose work",
-                                       "the mean residual of 24 accepted curves"};
-    assert_int_equal(wt_log_count(common.log), 3);
-    for (size_t i = 0; i < 3; i++)
+    static const char *const said[] = {"taken once", "24 of 24 accepted curves lose work"};
+    assert_int_equal(wt_log_count(common.log), 2);
+    for (size_t i = 0; i < 2; i++)
         assert_non_null(strstr(wt_log_get(common.log, i).text, said[i]));
     assert_int_equal(wt_provenance_n_inputs(common.provenance), 2);
     assert_string_equal(wt_provenance_get_input(common.provenance, 1)->path,

@@ -6,7 +6,7 @@
 #include "fitted_curve.h"
 
 #include "indentation/curve_tables.h"
-#include "indentation/law/thin_layer.h"
+#include "indentation/law/contact_law.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -5,6 +5,7 @@
 #include "near.h"
 
 #include "core/base/quantity.h"
+#include "indentation/indent.h"
 #include "indentation/law/tip.h"
 #include "status_name.h"
 
@@ -164,6 +165,45 @@ static void described_with_all_numbers(void **state)
     }
 }
 
+/* The keys of a table hold each tip exactly; without them, or out of limits, there is none. */
+static void kept_in_a_table(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"pyramid:half-angle=35deg,radius=20nm,sides=3",
+                                        "cone:half-angle=20deg,radius=10nm",
+                                        "cone:half-angle=20deg",
+                                        "pyramid:half-angle=35deg,radius=0nm",
+                                        "sphere:radius=5.00001um",
+                                        "paraboloid:radius=5um",
+                                        "punch:radius=2um"};
+    for (size_t i = 0; i <= sizeof texts / sizeof texts[0]; i++) {
+        const bool has_tip = i < sizeof texts / sizeof texts[0];
+        wt_tip tip = parsed(texts[has_tip ? i : 0]), read = {.radius = 0};
+        wt_table *table = NULL;
+        table_view view;
+        tip.sample_thickness = i == 4 ? 3e-6 : 0;
+        table_writer t =
+            table_begin_variant(&indentation_schema,
+                                (table_variant){.suffix = "bulk",
+                                                .left_out = ~(SCHEMA_BIT(INDENTATION_VERDICT) |
+                                                              SCHEMA_BIT(INDENTATION_MODULUS))},
+                                NULL);
+        if (has_tip)
+            indent_set_tip_keys(&tip, &t);
+        assert_int_equal(table_end(&t, &table), WT_OK);
+        assert_int_equal(table_bind(table, &indentation_schema, "", &view, NULL), WT_OK);
+        assert_int_equal(indent_tip_from_table(&view, &read), has_tip);
+        if (has_tip) {
+            assert_false(tips_differ(&tip, &read));
+            assert_near(read.sample_thickness, tip.sample_thickness, 1e-15);
+            read.radius *= 1 + 1e-6;
+            read.half_angle *= 1 + 1e-6;
+            assert_true(tips_differ(&tip, &read));
+        }
+        wt_table_free(table);
+    }
+}
+
 /* What the pages say of the dimensions is what a tip is checked by. */
 static void within_declared_limits(void **state)
 {
@@ -233,7 +273,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_default_transition),    cmocka_unit_test(understood),
         cmocka_unit_test(refused_in_clear_words),     cmocka_unit_test(errors_of_angle_and_radius),
-        cmocka_unit_test(described_with_all_numbers), cmocka_unit_test(within_declared_limits),
+        cmocka_unit_test(described_with_all_numbers), cmocka_unit_test(kept_in_a_table),
+        cmocka_unit_test(within_declared_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

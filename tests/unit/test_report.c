@@ -149,7 +149,7 @@ static void test_page(void **state)
         ">3.16 µm</td><td class=\"n\" data-label=\"Statistical error\">± 0.80 µm</td>"
         "<td class=\"n\" data-label=\"Numerical error\">± ", /* and of rounding */
         "; 1.0 % from frequencies outside the measured ones</td>",
-        "bulk: 0 of 12 curves doubtful, 1 rejected",
+        "bulk: 12 curves, 0 wide, 0 doubtful, 1 rejected",
         "R^2 0.71 below 0.90 &lt;i&gt;",
         "&lt;b&gt;&#39;`touch fixture_was_run`&quot;&amp;;$(rm -r x)\\",
         "left out: nothing asked for it",

@@ -217,6 +217,7 @@
     X(finding_basis, FINDING_BASES, FINDING_BASIS_UNKNOWN)                                         \
     X(limit_subject, LIMIT_SUBJECTS, LIMIT_SUBJECT_UNKNOWN)                                        \
     X(tip_form, TIP_FORMS, TIP_FORM_UNKNOWN)                                                       \
+    X(tip_shape, TIP_SHAPES, TIP_SHAPE_UNKNOWN)                                                    \
     X(error_source, ERROR_SOURCES, ERROR_SOURCE_UNKNOWN)                                           \
     X(spot_naming, SPOT_NAMINGS, SPOT_NAMING_UNKNOWN)                                              \
     X(slope_direction, SLOPE_DIRECTIONS, SLOPE_DIRECTION_UNKNOWN)                                  \

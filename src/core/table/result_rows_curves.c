@@ -18,7 +18,7 @@ static verdict_counts count_verdicts(const table_view *curves)
         const int verdict = indentation_enum(curves, i, INDENTATION_VERDICT);
         if (verdict >= 0 && verdict <= WT_CURVE_UNREADABLE)
             counts.of[verdict]++;
-        counts.used += verdict == WT_CURVE_ACCEPTED || verdict == WT_CURVE_DOUBTFUL ? 1 : 0;
+        counts.used += verdict >= WT_CURVE_ACCEPTED && verdict <= WT_CURVE_DOUBTFUL ? 1 : 0;
     }
     return counts;
 }
@@ -33,15 +33,15 @@ static const char *verdict_text(int verdict)
     return texts[verdict];
 }
 
-/* Numbers of accepted and doubtful curves, and why the others are rejected. */
+/* Numbers of accepted, wide and doubtful curves, and why the others are rejected. */
 static void add_counts(rows_source *s, const table_view *curves)
 {
     const verdict_counts counts = count_verdicts(curves);
     char text[64];
     snprintf(text, sizeof text, "%zu of %zu", counts.used, counts.all);
     result_row *row = rows_add_text(s, 1, text, "curves used");
-    rows_note(row, "%zu accepted, %zu doubtful", counts.of[WT_CURVE_ACCEPTED],
-              counts.of[WT_CURVE_DOUBTFUL]);
+    rows_note(row, "%zu accepted, %zu wide, %zu doubtful", counts.of[WT_CURVE_ACCEPTED],
+              counts.of[WT_CURVE_WIDE], counts.of[WT_CURVE_DOUBTFUL]);
     if (counts.used == counts.all)
         return;
     snprintf(text, sizeof text, "%zu", counts.all - counts.used);

@@ -47,8 +47,7 @@ static inline double hereditary_force(const hereditary *m, double faded, double 
 }
 
 /* Computes the forces of a tip at n times. The base rises from contact (the first position) to one
- * maximum and falls again. With a compliance of 0 the base is the depth. Returns WT_E_MEMORY on
- * failure. */
+ * maximum and falls again. With a compliance of 0 the base is the depth. */
 wt_status hereditary_loop(hereditary *law, const wt_contact_table *table, double compliance,
                           const double *time, const double *base, size_t n, double *force,
                           wt_error *err) WT_NODISCARD;

@@ -8,8 +8,8 @@
 #include "core/base/param.h"
 #include "weartrack/indentation.h"
 
-/* Dimensions of the short text form with their limits. tip_text.c defines the dimensions of each
- * shape, and wt_tip_check their combinations. */
+/* Dimensions of the short text form with their limits. tip.c defines the dimensions of each shape,
+ * and wt_tip_check their combinations. */
 typedef enum tip_dimension {
     TIP_HALF_ANGLE,
     TIP_RADIUS,
@@ -56,13 +56,8 @@ const wt_tip *contact_table_tip(const wt_contact_table *table);
 void contact_table_values(const wt_contact_table *table, const double *delta, size_t n, double *g,
                           double *slope, double *curvature);
 
-/* Parses a pyramid or cone with a cap from the text of wt_tip_describe. Returns false for other
- * tips and texts. */
-bool tip_from_description(const char *description, wt_tip *tip);
-/* True if a text of wt_tip_describe has the thickness of a sample. */
-bool tip_description_has_sample(const char *description);
-/* Parses a tip of any shape from the text of wt_tip_describe. */
-bool tip_from_any_description(const char *description, wt_tip *tip);
+/* True if two tips differ by more than the rounding of a file. */
+bool tips_differ(const wt_tip *a, const wt_tip *b);
 
 /* Returns the depth b^2/R below which a blunted tip is a paraboloid. It is infinite for a
  * paraboloid and 0 for other tips. */

@@ -1,5 +1,5 @@
 /* Fit of adhesive contact to one force curve. The fit is tried if the approach has a snap-in
- * (snap_in.c) or the retract a pull-off (retract.c).
+ * or the retract a pull-off (retract.c).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */

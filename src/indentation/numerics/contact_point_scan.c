@@ -17,7 +17,7 @@
  */
 #include "core/data/force_curve.h"
 #include "core/math/simd.h"
-#include "indentation/numerics/curve.h"
+#include "indentation/numerics/curve_model.h"
 
 #include <gsl/gsl_errno.h>
 #include <math.h>
@@ -450,6 +450,44 @@ static size_t refine_minima(projection *p, const cost_profile *points, double ac
     return n;
 }
 
+/* Computes the weights 1/h^2, h = 1 + S/k, of all samples for a scan from those of a minimum.
+ * Returns the largest h. */
+static double compute_weights(const wt_contact_table *table, const curve_samples *samples,
+                              const curve_minimum *minimum, wt_indent_workspace *workspace)
+{
+    enum { MOST = 64 }; /* nodes with linear interpolation; weights need no precision */
+    const size_t n = samples->n < MOST ? samples->n : MOST;
+    const double c = minimum->contact_point;
+    const double last = fmax(c, curve_find_span(samples->position, samples->n).high);
+    double position[MOST], force[MOST] = {0.0}, weight[MOST + 1], largest = 1.0;
+    const double step = (last - c) / (double)(n - 1);
+    for (size_t i = 0; i < n; i++)
+        position[i] = c + (double)i * step;
+    const curve_samples nodes = {
+        .n = n, .position = position, .force = force, .spring_constant = samples->spring_constant};
+    curve_law m = {.table = table, .samples = &nodes, .workspace = workspace};
+    const double p[CURVE_N_PARAMETERS] = {minimum->reduced_modulus, c, 0.0, 0.0, 0.0};
+    curve_model_start(&m, p);
+    curve_model_cost(&m, p);
+    for (size_t i = 0; i < n; i++) {
+        const double h = curve_model_factor(&m, p, i);
+        weight[i] = 1.0 / (h * h);
+        largest = h > largest ? h : largest;
+    }
+    weight[n] = weight[n - 1];
+    const double scale = step > 0.0 ? 1.0 / step : 0.0;
+    for (size_t i = 0; i < samples->n; i++) {
+        const double at = (samples->position[i] - c) * scale;
+        workspace->weight[i] = 1.0;
+        if (!(at > 0.0))
+            continue;
+        const size_t node = at < (double)(n - 1) ? (size_t)at : n - 1;
+        workspace->weight[i] =
+            weight[node] + (at - (double)node) * (weight[node + 1] - weight[node]);
+    }
+    return largest;
+}
+
 size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, bool tilt,
                   bool weighted, wt_indent_workspace *w, curve_minimum minima[CURVE_MAX_MINIMA])
 {
@@ -473,7 +511,7 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, b
     if (weighted) { /* an approximate solution is sufficient for the weights */
         if (refine_minima(&p, &points, coarse_tolerance, minima) == 0)
             return 0;
-        const bool has_weights = curve_weights(table, samples, &minima[0], w) > min_weight_ratio;
+        const bool has_weights = compute_weights(table, samples, &minima[0], w) > min_weight_ratio;
         sum_weighted_samples(&p, has_weights);
         if (has_weights) {
             distribute_samples(&p);

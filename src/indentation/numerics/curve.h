@@ -71,7 +71,7 @@ struct wt_indent_workspace {
     double *retract_position, *retract_force;         /* retract, set by curve_read_retract */
     double *start_position, *start_force;             /* samples of starting fits */
     double *without_wave; /* forces minus the wave; `force` includes it */
-    double *wave_column[WAVE_PARAMETERS], *wave_response; /* derivatives: interference_model.c */
+    double *wave_column[WAVE_PARAMETERS], *wave_response; /* derivatives: least_squares.c */
     scan_octave octave[SCAN_OCTAVES];
     double before_start[2][SCAN_EXTENT * SCAN_NODES + 1]; /* contact function and its square */
     gsl_min_fminimizer *minimizer;
@@ -277,10 +277,6 @@ typedef struct curve_score_result {
 void curve_score(const wt_contact_table *table, const curve_samples *samples,
                  const curve_kind *kind, const curve_solution *at, double *const *difference,
                  size_t n, wt_indent_workspace *workspace, curve_score_result *to);
-/* Computes the weights 1/h^2, h = 1 + S/k, of all samples for a scan from those of a minimum.
- * Returns the largest h. */
-double curve_weights(const wt_contact_table *table, const curve_samples *samples,
-                     const curve_minimum *minimum, wt_indent_workspace *workspace);
 
 /* Returns the pull of a snap-in that the fit left out, because no law of adhesion describes it, or
  * the pull-off if that is larger [N]. 0 if there is none or if it is small. */

@@ -56,8 +56,8 @@ static const wt_param rows[] = {
     {PARAM("warn-relative-error", wt_indent_options, doubtful_error, WT_Q_NONE, ABOVE(0)),
      .former = "doubtful-error", .value = "X",
      .help =
-         "mark a modulus with a larger standard error, as a share of it, as doubtful; it stays in "
-         "all means; larger marks fewer"},
+         "mark a modulus with a larger standard error, as a share of it, as wide; it stays in all "
+         "means; larger marks fewer"},
     {PARAM("max-relative-error", wt_indent_options, largest_error, WT_Q_NONE, ABOVE(0)),
      .former = "largest-error", .value = "X",
      .help = "leave a modulus with a larger standard error, as a share of it, out of all means; at "

@@ -10,8 +10,10 @@
 /* Smallest significant pull over the noise of the baseline. White noise reaches it once in 1e9
  * samples; maps have 1e8. */
 #define CURVE_PULL_NOISE 6.0
+
 /* Smallest ratio to the deepest pull elsewhere. Two oscillations of one drift differ by less. */
 #define CURVE_PULL_RATIO 1.5
+
 enum { CURVE_BASELINE_SAMPLES = 10, CURVE_CONTACT_SAMPLES = 8 }; /* smallest numbers */
 
 typedef struct curve_snap {
@@ -80,7 +82,6 @@ bool curve_scan_and_refine(curve_fitting *f);
 bool curve_prepare_relaxation(curve_fitting *f, const wt_prony *series, bool in_loading_times);
 /* True if noise alone explains the residual, or if the baseline is too short for the test. */
 bool curve_passes_misfit_test(const curve_fitting *f);
-
 /* Adds the error by the misfit of the law to the errors of the parameters. */
 void curve_add_misfit(curve_fitting *f);
 
@@ -100,9 +101,8 @@ void curve_subtract_wave(curve_fitting *f, const curve_wave *wave);
 bool curve_fit_range(curve_fitting *f);
 /* Number of samples in contact that are compared with the law. */
 size_t curve_count_in_range(const curve_fitting *f);
-
 /* Computes contact points by other estimators relative to that of the fit of all samples:
- * contact_point_estimators.c. */
+ * contact_point.c. */
 void curve_estimate_contact(curve_fitting *f, double contact[WT_CONTACT_ESTIMATORS]);
 
 /* ---- retract: retract.c ---- */
@@ -110,25 +110,21 @@ void curve_estimate_contact(curve_fitting *f, double contact[WT_CONTACT_ESTIMATO
 /* Computes pull_off and loss if the retract leaves the sample. height, force: as measured. */
 void curve_read_retract(curve_fitting *f, const double *height, const double *force, size_t n);
 
-/* ---- fit of the retract: retract_fit.c ---- */
+/* ---- fit of the retract: retract.c ---- */
 
 /* Fits a contact law of this kind, with separate parameters, to the retract. Returns false if there
  * is none. The workspace is that of this fit afterwards. */
 bool curve_fit_unloading(const curve_fitting *f, const curve_kind *kind, const curve_solution *in,
                          curve_solution *out);
-
 /* Reports the fit of the retract alone. If no work is lost and its modulus differs, the reason of a
  * usable curve mentions it. The function destroys the fit. */
 void curve_report_unloading(curve_fitting *f, wt_indent_fit *fit);
 
-/* ---- snap-in: snap_in.c ---- */
+/* ---- snap-in: retract.c ---- */
 
 /* Finds a significant pull just before the force rises. The baseline of the solution becomes a line
  * through the samples before it. */
 bool curve_find_snap_in(curve_fitting *f, curve_snap *found);
-/* Returns the sample at which a pull begins that lasts to sample `at`. The first half of the forces
- * above the baseline must be free of it. noise: of successive samples. */
-size_t curve_tail_start(const double *above, size_t at, double noise);
 /* Excludes the samples from start to before end. */
 void curve_exclude_samples(curve_fitting *f, size_t start, size_t end);
 

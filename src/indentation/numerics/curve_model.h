@@ -111,25 +111,6 @@ static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_
     return plain;
 }
 
-/* ---- optical interference: interference_model.c ---------------------------------------------- */
-
-/* Subtracts the wave from the forces after an evaluation at p, and returns the sum of squares. */
-double curve_wave_cost(const curve_law *model, const double p[CURVE_N_PARAMETERS],
-                       const curve_wave *wave);
-/* Projection of the derivatives on the wave and the step of the wave. */
-typedef struct wave_step {
-    double step[WAVE_PARAMETERS]; /* step to the minimum with the other parameters fixed */
-    double gain;                  /* decrease of the sum of squares by that step */
-} wave_step;
-/* Computes the projection at the latest evaluation and wave. Returns false if the wave is not
- * determined. */
-bool curve_wave_project(curve_law *model, const double p[CURVE_N_PARAMETERS], wave_step *to);
-
-/* Computes the equilibrium of cantilever and viscoelastic rubber (hereditary_fit.c) for the samples
- * from `first` on; earlier samples are out of contact. The results are depth, force over modulus
- * with its instantaneous slope, and the derivatives by modulus and contact point times h. */
-void curve_balance_hereditary(const curve_law *model, const double p[CURVE_N_PARAMETERS],
-                              size_t first);
 /* Solves k (z - x) = E (past + now G(x)) for the depth x if k z > E past, and returns G and its
  * slope there. `start` is an initial value or 0. The left side minus the right side falls and is
  * concave. */

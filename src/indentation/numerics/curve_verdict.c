@@ -6,6 +6,7 @@
 
 #include "core/base/clocale.h"
 #include "core/base/number.h"
+#include "core/math/students_t.h"
 #include "indentation/law/tip.h"
 
 #include <math.h>
@@ -57,7 +58,7 @@ const char *wt_curve_verdict_text(wt_curve_verdict verdict)
 
 bool wt_curve_verdict_is_usable(wt_curve_verdict verdict)
 {
-    return verdict == WT_CURVE_ACCEPTED || verdict == WT_CURVE_DOUBTFUL;
+    return verdict == WT_CURVE_ACCEPTED || verdict == WT_CURVE_WIDE || verdict == WT_CURVE_DOUBTFUL;
 }
 
 /* Peak-to-peak departure of the baseline residual from a line: that of a sine with the variance of
@@ -77,6 +78,24 @@ static double baseline_departure(const curve_fitting *f)
     }
     square -= f->input.step_noise * f->input.step_noise / (double)length;
     return square > 0.0 ? 2.0 * M_SQRT2 * sqrt(square) : 0.0;
+}
+
+/* Smallest pull over the largest force that changes a fit without it. */
+static const double small_pull = 0.1;
+
+double curve_left_out_pull(const wt_indent_fit *fit)
+{
+    const bool is_described =
+        !isnan(fit->work_of_adhesion.value) || !isnan(fit->contact_pull.value);
+    const double pull = fmax(fit->adhesion_force, fit->pull_off_force); /* fmax ignores NaN */
+    return fit->adhesion_force > 0.0 && !is_described && pull > small_pull * fit->max_force ? pull
+                                                                                            : 0.0;
+}
+
+double curve_left_out_error(const wt_indent_fit *fit)
+{
+    const double pull = curve_left_out_pull(fit);
+    return pull > 0.0 ? pull / fit->max_force / NORMAL_95 : 0.0;
 }
 
 /* ---- verdict --------------------------------------------------------------------------------- */
@@ -200,16 +219,15 @@ static bool exceeds_contact_law(const curve_fitting *f, char reason[160])
     const wt_tip *tip = contact_table_tip(f->table);
     const double reach = thin_sample_radius_ratio(tip, depth);
     if (!contact_law_is_valid(tip, depth) && !(reach > THIN_SAMPLE_MAX_RATIO)) {
-        curve_set_reason(
-            reason, "doubtful: %s deep, %.1f radii of the tip; the contact law holds to %g",
-            curve_format_si(depth, "m").buffer, depth / tip->radius, ROUND_TIP_MAX_DEPTH_RATIO);
+        curve_set_reason(reason, "%s deep, %.1f radii of the tip; the contact law holds to %g",
+                         curve_format_si(depth, "m").buffer, depth / tip->radius,
+                         ROUND_TIP_MAX_DEPTH_RATIO);
         return true;
     }
     if (reach > THIN_SAMPLE_MAX_RATIO)
-        curve_set_reason(
-            reason,
-            "doubtful: contact radius %.2f of the thickness of the sample; its law holds to %g",
-            reach, THIN_SAMPLE_MAX_RATIO);
+        curve_set_reason(reason,
+                         "contact radius %.2f of the thickness of the sample; its law holds to %g",
+                         reach, THIN_SAMPLE_MAX_RATIO);
     return reach > THIN_SAMPLE_MAX_RATIO;
 }
 
@@ -285,33 +303,31 @@ static wt_curve_verdict law_verdict(curve_fitting *f, const wt_indent_fit *fit, 
     if (exceeds_contact_law(f, reason))
         return WT_CURVE_DOUBTFUL;
     if (curve_has_unknown_loss(f)) {
-        curve_set_reason(
-            reason,
-            "doubtful: %.0f %% of the work lost; what loss does under a punch is known with "
-            "the DMA only",
-            100.0 * f->loss);
+        curve_set_reason(reason,
+                         "%.0f %% of the work lost; what loss does under a punch is known with "
+                         "the DMA only",
+                         100.0 * f->loss);
         return WT_CURVE_DOUBTFUL;
     }
     const double error = fit->modulus.standard_error / fit->modulus.value;
     if (error > f->options->doubtful_error) {
         const bool by_misfit = fit->misfit_error > 0.5 * fit->modulus.standard_error;
-        curve_set_reason(reason, "doubtful: the 95 %% interval is wide: %s; %s",
-                         misfit_text(fit).buffer,
+        curve_set_reason(reason, "the 95 %% interval is wide: %s, above %g %%; %s",
+                         misfit_text(fit).buffer, 100.0 * f->options->doubtful_error,
                          by_misfit ? misfit_cause(f) : "noise, baseline or loss");
         f->misfit_is_named = true;
-        return WT_CURVE_DOUBTFUL;
+        return WT_CURVE_WIDE;
     }
     if (isnan(fit->misfit_error) && f->options->misfit_p_threshold > 0.0 && !f->kind.plain) {
-        curve_set_reason(reason,
-                         "doubtful: what a misfit makes of the modulus is not known: too few "
-                         "samples in contact for other ranges of the fit");
+        curve_set_reason(reason, "what a misfit makes of the modulus is not known: too few "
+                                 "samples in contact for other ranges of the fit");
         f->misfit_is_named = true;
         return WT_CURVE_DOUBTFUL;
     }
     const double left_out = f->kind.plain ? 0.0 : curve_left_out_pull(fit);
     if (left_out > 0.0) {
         curve_set_reason(reason,
-                         "doubtful: adhesion: no law describes the pull of %s, %.0f %% of the "
+                         "adhesion: no law describes the pull of %s, %.0f %% of the "
                          "largest force: %s",
                          curve_format_si(left_out, "N").buffer, 100.0 * left_out / fit->max_force,
                          misfit_text(fit).buffer);
@@ -320,13 +336,13 @@ static wt_curve_verdict law_verdict(curve_fitting *f, const wt_indent_fit *fit, 
     }
     const double pull = fmax(f->snap_in_pull, f->pull_off > 0.0 ? f->pull_off : 0.0);
     if (departure > baseline_bend * fit->max_force && pull > 0.0) {
-        curve_set_reason(reason, "doubtful: adhesion: a pull of %s, and %s before contact; %s",
+        curve_set_reason(reason, "adhesion: a pull of %s, and %s before contact; %s",
                          curve_format_si(pull, "N").buffer, curve_format_si(departure, "N").buffer,
                          "a longer baseline would tell them apart");
         return WT_CURVE_DOUBTFUL;
     }
     if (departure > baseline_bend * fit->max_force) {
-        curve_set_reason(reason, "doubtful: baseline departs from a line by %s, %.0f %% of %s",
+        curve_set_reason(reason, "baseline departs from a line by %s, %.0f %% of %s",
                          curve_format_si(departure, "N").buffer, 100.0 * departure / fit->max_force,
                          curve_format_si(fit->max_force, "N").buffer);
         return WT_CURVE_DOUBTFUL;
@@ -415,20 +431,19 @@ static void append_notes(const curve_fitting *f, const wt_indent_fit *fit, char 
         curve_append_note(reason, "; the range of the fit did not settle");
 }
 
-/* Changes the verdict of a usable fit to doubtful, because it only covers forces below a limit. */
+/* Changes the verdict of a usable fit to doubtful, because it only covers forces below a limit. The
+ * reason keeps that of the fit. */
 static wt_curve_verdict verdict_below_limit(curve_fitting *f, wt_curve_verdict verdict,
                                             char reason[160])
 {
-    static const char doubtful[] = "doubtful: ";
     char all[160], text[160];
     memcpy(all, reason, sizeof all);
-    curve_set_reason(
-        reason,
-        "doubtful: fitted up to %s, above which the force flattens: detector, or the sample "
-        "gives way",
-        curve_format_si(f->options->fit_force, "N").buffer);
-    if (verdict == WT_CURVE_DOUBTFUL) {
-        curve_set_reason(text, "; %s", all + strlen(doubtful));
+    curve_set_reason(reason,
+                     "fitted up to %s, above which the force flattens: detector, or the sample "
+                     "gives way",
+                     curve_format_si(f->options->fit_force, "N").buffer);
+    if (verdict != WT_CURVE_ACCEPTED) {
+        curve_set_reason(text, "; %s", all);
         f->misfit_is_named = curve_append_note(reason, text) && f->misfit_is_named;
     }
     return WT_CURVE_DOUBTFUL;

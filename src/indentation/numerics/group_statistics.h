@@ -20,11 +20,9 @@ typedef struct compare_units {
     double interaction_p;             /* p value of equal slopes in both groups; NaN if not known */
 } compare_units;
 
-void compare_units_create(const wt_group *const groups[2], bool by_spot, arena *memory,
-                          compare_units *units);
-
 /* Smallest number of spots that determine their scatter, for a comparison with a single spot. */
 enum { COMPARE_MIN_SPOTS = 3 };
+
 /* Standard error of the difference of two means, one of which has two units or more. `shift` adds
  * an error and `known` a normal variance. */
 t_error compare_welch(moments a, moments b, t_error shift, double known);

@@ -5,11 +5,12 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "indentation/numerics/curve_fitting.h"
-
 #include "core/math/root.h"
+#include "indentation/numerics/curve_fitting.h"
+#include "indentation/numerics/curve_model.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double min_loss = CURVE_MIN_LOSS;
 /* Largest loss with adhesion; beyond it the loss replaces the effect of the work of adhesion. */

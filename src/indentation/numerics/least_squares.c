@@ -24,6 +24,108 @@ enum { N = CURVE_N_PARAMETERS, MAX_ITERATIONS = 60, MAX_ADHESIVE = 25 };
  * include it. */
 static const double bent_chance = 0.01, possible_bend_chance = 0.05;
 
+/* ---- model of the sine ----------------------------------------------------------------------- */
+
+/* Model of a sine in the force that is fitted together with the other parameters.
+ *
+ * Interference adds to the detector signal a sine of the optical path between cantilever and
+ * sample. Out of contact the path is that of the piezo. In contact it changes by the indentation
+ * alone, and the period is longer for a stiffer sample. The phase is taken as that of the tip, z -
+ * P/k with the contact force P. Amplitude and period are constant; the motion of the laser spot on
+ * the detector and the rotation of the cantilever are neglected. A disturbance with another origin
+ * depends on the height; curve_refine tests both.
+ *
+ * The derivatives by the other parameters exclude their projection on the wave. Steps, errors and
+ * gains then follow as without a wave (Frisch and Waugh). */
+
+enum { M = WAVE_PARAMETERS };
+
+/* Subtracts the wave from the forces after an evaluation at p, and returns the sum of squares. */
+static double wave_cost(const curve_law *m, const double p[N], const curve_wave *wave)
+{
+    const curve_samples *s = m->samples;
+    wt_indent_workspace *w = m->workspace;
+    const double a = wave->p[WAVE_COSINE], b = wave->p[WAVE_SINE], number = wave->p[WAVE_NUMBER];
+    double sum = 0.0;
+    for (size_t i = 0; i < s->n; i++) {
+        const bool with_tip = !wave->by_height && fabs(w->g[i]) > 0.0;
+        const double path = with_tip ? p[CURVE_C] + w->delta[i] : s->position[i];
+        const double cosine = cos(number * path), sine = sin(number * path);
+        const double phase_derivative = b * cosine - a * sine;
+        const double baseline = p[CURVE_F0] + p[CURVE_T] * (s->position[i] - p[CURVE_C]);
+        w->wave_column[WAVE_COSINE][i] = cosine;
+        w->wave_column[WAVE_SINE][i] = sine;
+        w->wave_column[WAVE_NUMBER][i] = path * phase_derivative;
+        w->wave_response[i] = with_tip ? 1.0 - number * phase_derivative / s->spring_constant : 1.0;
+        s->force[i] = w->force[i] - a * cosine - b * sine;
+        w->residual[i] =
+            curve_is_in_gap(s, i) ? 0.0 : s->force[i] - baseline - p[CURVE_E] * w->g[i];
+        sum += w->residual[i] * w->residual[i];
+    }
+    return sum;
+}
+
+/* Projection of the derivatives on the wave and the step of the wave. */
+typedef struct wave_step {
+    double step[WAVE_PARAMETERS]; /* step to the minimum with the other parameters fixed */
+    double gain;                  /* decrease of the sum of squares by that step */
+} wave_step;
+
+/* Computes the projection at the latest evaluation and wave. Returns false if the wave is not
+ * determined. */
+static bool project_wave(curve_law *m, const double p[N], wave_step *to)
+{
+    const curve_samples *s = m->samples;
+    double *const *column = m->workspace->wave_column;
+    double ww[M][M] = {{0.0}}, wj[M][N] = {{0.0}}, wr[M] = {0.0}, scale[M], scaled[M * M];
+    memset(m->wave_projection, 0, sizeof m->wave_projection);
+    for (size_t i = 0; i < s->n; i++) {
+        if (curve_is_in_gap(s, i))
+            continue;
+        double row[N];
+        curve_model_row(m, p, i, row);
+        for (size_t j = 0; j < M; j++) {
+            for (size_t l = 0; l < M; l++)
+                ww[j][l] += column[j][i] * column[l][i];
+            for (size_t a = 0; a < N; a++)
+                wj[j][a] += column[j][i] * row[a];
+            wr[j] += column[j][i] * m->workspace->residual[i];
+        }
+    }
+    for (size_t j = 0; j < M; j++) {
+        if (!(ww[j][j] > 0.0))
+            return false;
+        scale[j] = 1.0 / sqrt(ww[j][j]);
+    }
+    for (size_t j = 0; j < M; j++)
+        for (size_t l = 0; l < M; l++)
+            scaled[j * M + l] = ww[j][l] * scale[j] * scale[l];
+    gsl_matrix_view matrix = gsl_matrix_view_array(scaled, M, M);
+    if (gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS)
+        return false;
+    to->gain = 0.0;
+    for (size_t a = 0; a <= N; a++) { /* the last column is the step */
+        double x[M];
+        for (size_t j = 0; j < M; j++)
+            x[j] = scale[j] * (a < N ? wj[j][a] : wr[j]);
+        gsl_vector_view vector = gsl_vector_view_array(x, M);
+        if (gsl_linalg_cholesky_svx(&matrix.matrix, &vector.vector) != GSL_SUCCESS)
+            return false;
+        for (size_t j = 0; j < M; j++) {
+            x[j] *= scale[j];
+            if (a < N)
+                m->wave_projection[j][a] = x[j];
+            else
+                to->gain += x[j] * wr[j];
+        }
+        if (a == N)
+            memcpy(to->step, x, sizeof x);
+    }
+    return true;
+}
+
+/* ---- minimum --------------------------------------------------------------------------------- */
+
 /* Solves (J'J + damping diag) x = y for several y with columns scaled to 1. */
 static bool solve_normal_equations(const normal_equations *e, double damping, double (*y)[N],
                                    size_t n_y)
@@ -86,7 +188,7 @@ WIDE_REGISTERS static double rounding_cost(const curve_samples *s)
 static double evaluate_cost(curve_law *m, const double p[N], const curve_wave *wave)
 {
     const double cost = curve_model_cost(m, p);
-    return m->wave ? curve_wave_cost(m, p, wave) : cost;
+    return m->wave ? wave_cost(m, p, wave) : cost;
 }
 
 /* Parameters of the wave after a step of the other parameters. */
@@ -112,7 +214,7 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
     for (int iteration = 0; iteration < (m->adhesive ? MAX_ADHESIVE : MAX_ITERATIONS);
          iteration++) {
         normal_equations e;
-        if (m->wave && !curve_wave_project(m, p, &wave_only))
+        if (m->wave && !project_wave(m, p, &wave_only))
             return false;
         curve_model_normal(m, p, &e);
         bool moved = false;
@@ -359,7 +461,7 @@ void curve_law_evaluate(curve_law *m, const double p[N], const curve_wave *wave)
     curve_model_resume(m, p);
     (void)evaluate_cost(m, p, wave);
     if (m->wave)
-        (void)curve_wave_project(m, p, &ignored);
+        (void)project_wave(m, p, &ignored);
     curve_model_complete(m, p);
 }
 
@@ -375,7 +477,7 @@ static void refine_single_kind(const wt_contact_table *table, const curve_sample
     wave_step ignored;
     s.converged = minimise(&m, s.p, &s.wave, &s.cost);
     if (m.wave)
-        s.converged = curve_wave_project(&m, s.p, &ignored) && s.converged;
+        s.converged = project_wave(&m, s.p, &ignored) && s.converged;
     s.first_contact = first_contact(&m, s.p);
     if (!m.is_approximate && !kind->no_errors) {
         curve_model_complete(&m, s.p);
@@ -464,40 +566,4 @@ void curve_refine(const wt_contact_table *table, const curve_samples *samples, c
         solution->standard_error[a] =
             hypot(solution->standard_error[a],
                   sqrt(share) * (solution_by_kind[0].p[a] - solution_by_kind[1].p[a]));
-}
-
-double curve_weights(const wt_contact_table *table, const curve_samples *samples,
-                     const curve_minimum *minimum, wt_indent_workspace *workspace)
-{
-    enum { MOST = 64 }; /* nodes with linear interpolation; weights need no precision */
-    const size_t n = samples->n < MOST ? samples->n : MOST;
-    const double c = minimum->contact_point;
-    const double last = fmax(c, curve_find_span(samples->position, samples->n).high);
-    double position[MOST], force[MOST] = {0.0}, weight[MOST + 1], largest = 1.0;
-    const double step = (last - c) / (double)(n - 1);
-    for (size_t i = 0; i < n; i++)
-        position[i] = c + (double)i * step;
-    const curve_samples nodes = {
-        .n = n, .position = position, .force = force, .spring_constant = samples->spring_constant};
-    curve_law m = {.table = table, .samples = &nodes, .workspace = workspace};
-    const double p[N] = {minimum->reduced_modulus, c, 0.0, 0.0, 0.0};
-    curve_model_start(&m, p);
-    curve_model_cost(&m, p);
-    for (size_t i = 0; i < n; i++) {
-        const double h = curve_model_factor(&m, p, i);
-        weight[i] = 1.0 / (h * h);
-        largest = h > largest ? h : largest;
-    }
-    weight[n] = weight[n - 1];
-    const double scale = step > 0.0 ? 1.0 / step : 0.0;
-    for (size_t i = 0; i < samples->n; i++) {
-        const double at = (samples->position[i] - c) * scale;
-        workspace->weight[i] = 1.0;
-        if (!(at > 0.0))
-            continue;
-        const size_t node = at < (double)(n - 1) ? (size_t)at : n - 1;
-        workspace->weight[i] =
-            weight[node] + (at - (double)node) * (weight[node + 1] - weight[node]);
-    }
-    return largest;
 }

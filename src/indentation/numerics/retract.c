@@ -1,12 +1,242 @@
-/* Analysis of the retract of one force curve: pull-off force and lost work.
+/* Pulls and losses of one force curve: snap-in of the approach, pull-off force and lost work of the
+ * retract, and the fit of a contact law to the retract.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "core/math/students_t.h"
+#include "indentation/law/adhesion.h"
+#include "indentation/law/tip.h"
 #include "indentation/numerics/curve_fitting.h"
 
+#include <gsl/gsl_fit.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <string.h>
+
+/* ---- snap-in of the approach ----------------------------------------------------------------- */
+
+/* Largest distance of a snap-in from the contact point of a fit without adhesion, over the
+ * indentation. A more distant pull is an event of the baseline. */
+static const double gap_tolerance = 0.5;
+
+/* Smallest pull over the largest force that may displace the baseline so much that the pull is
+ * hidden. For a smaller pull the extrapolation error of the line exceeds it. */
+static const double large_pull = 0.25;
+
+/* Samples of the tail of a pull. Their mean is below the baseline by the standard deviation of one
+ * sample; white noise does so at one of 400 positions. */
+enum { TAIL_SAMPLES = 8 };
+
+/* Returns the sample at which a pull begins that lasts to sample `at`. The first half of the forces
+ * above the baseline must be free of it. noise: of successive samples. */
+static size_t curve_tail_start(const double *above, size_t at, double noise)
+{
+    const size_t half = at / 2;
+    const double scatter = half > 0 ? sqrt(curve_dot(above, above, half) / (double)half) : noise;
+    while (at > 0 && above[at - 1] < -2.0 * noise && above[at - 1] < 0.0)
+        at--;
+    while (at >= TAIL_SAMPLES &&
+           curve_sum(above + at - TAIL_SAMPLES, TAIL_SAMPLES) < -TAIL_SAMPLES * scatter)
+        at--;
+    return at;
+}
+
+/* Finds a pull relative to the baseline of p. Returns true if it exceeds everything before it
+ * significantly. */
+WIDE_REGISTERS static bool
+find_prominent_pull(const curve_fitting *f, const double p[CURVE_N_PARAMETERS], curve_snap *found)
+{
+    const curve_samples *s = &f->input.samples;
+    const curve_solution line = {
+        .p = {[CURVE_C] = p[CURVE_C], [CURVE_F0] = p[CURVE_F0], [CURVE_T] = p[CURVE_T]}};
+    double *restrict above = f->workspace->scratch;
+    size_t deepest = 0;
+    for (size_t i = 0; i < s->n; i++)
+        above[i] = s->force[i] - curve_baseline(&line, s->position[i]);
+    const double pull = -curve_find_span(above, s->n).low;
+    while (-above[deepest] < pull)
+        deepest++;
+    const size_t start = curve_tail_start(above, deepest, f->input.step_noise);
+    size_t end = deepest;
+    while (end < s->n && above[end] < 0.0)
+        end++;
+    if (start < CURVE_BASELINE_SAMPLES)
+        return false;
+    double elsewhere = 0.0, noise = 0.0;
+    for (size_t i = 0; i < start; i++) {
+        elsewhere = -above[i] > elsewhere ? -above[i] : elsewhere;
+        noise += above[i] * above[i];
+    }
+    noise = sqrt(noise / (double)start);
+    const double after_contact = s->position[start] - p[CURVE_C];
+    const double max_travel = s->position[s->n - 1] - p[CURVE_C];
+    *found = (curve_snap){start, deepest, end, pull};
+    return pull > CURVE_PULL_NOISE * noise && pull > CURVE_PULL_RATIO * elsewhere &&
+           fabs(after_contact) < gap_tolerance * max_travel && end < s->n &&
+           s->n - (end - start) >= CURVE_MIN_SAMPLES;
+}
+
+/* Sets the baseline of p to the line through the first n samples. Returns its standard error at the
+ * contact point. */
+static double fit_baseline_line(const curve_fitting *f, size_t n, double p[CURVE_N_PARAMETERS])
+{
+    const curve_samples *s = &f->input.samples;
+    double offset, tilt, cov00, cov01, cov11, rest, baseline_force, error;
+    (void)gsl_fit_linear(s->position, 1, s->force, 1, n, &offset, &tilt, &cov00, &cov01, &cov11,
+                         &rest);
+    if (!f->kind.tilt) {
+        offset = curve_sum(s->force, n) / (double)n;
+        cov00 = rest / (double)(n * n);
+        tilt = cov01 = cov11 = 0.0;
+    }
+    (void)gsl_fit_linear_est(p[CURVE_C], offset, tilt, cov00, cov01, cov11, &baseline_force,
+                             &error);
+    p[CURVE_F0] = baseline_force;
+    p[CURVE_T] = tilt;
+    return error;
+}
+
+/* Finds a pull as large as the force, which displaces the baseline of a fit without it. The
+ * reference is a line through the far half of the samples before the lowest force, at which contact
+ * begins. */
+static bool find_large_pull(const curve_fitting *f, double p[CURVE_N_PARAMETERS], curve_snap *found)
+{
+    const curve_samples *s = &f->input.samples;
+    const double low = curve_find_span(s->force, s->n).low;
+    size_t deepest = 0;
+    while (s->force[deepest] > low)
+        deepest++;
+    const size_t half = deepest / 2;
+    if (half < CURVE_BASELINE_SAMPLES || f->kind.contact_fixed)
+        return false;
+    p[CURVE_C] = s->position[deepest];
+    const double error = fit_baseline_line(f, half, p);
+    if (!find_prominent_pull(f, p, found))
+        return false;
+    const double top = curve_find_span(f->workspace->scratch, s->n).high;
+    return found->deepest == deepest && found->pull > CURVE_PULL_NOISE * error &&
+           found->pull > large_pull * top;
+}
+
+bool curve_find_snap_in(curve_fitting *f, curve_snap *found)
+{
+    double p[CURVE_N_PARAMETERS];
+    memcpy(p, f->solution.p, sizeof p);
+    if (!find_prominent_pull(f, p, found) && !find_large_pull(f, p, found)) {
+        *found = (curve_snap){.pull = 0.0};
+        return false;
+    }
+    (void)fit_baseline_line(f, found->start, p);
+    memcpy(f->solution.p, p, sizeof p);
+    return true;
+}
+
+void curve_exclude_samples(curve_fitting *f, size_t start, size_t end)
+{
+    curve_samples *s = &f->input.samples;
+    const wt_indent_workspace *w = f->workspace;
+    const size_t n_after = f->input.n_all - f->n_snap - end;
+    memmove(s->position + start, s->position + end, n_after * sizeof *s->position);
+    memmove(s->force + start, s->force + end, n_after * sizeof *s->force);
+    if (s->force != w->force) /* the forces exclude a wave */
+        memmove(w->force + start, w->force + end, n_after * sizeof *w->force);
+    s->n -= end - start;
+    f->n_snap += end - start;
+}
+
+/* ---- fit of the retract ---------------------------------------------------------------------- */
+
+/* Parameter of a law for the pull-off force; NaN if the law does not apply. */
+static double pull_off_parameter(const curve_fitting *f, const curve_kind *kind, double reduced)
+{
+    if (kind->constant_pull)
+        return f->pull_off;
+    return sqrt(
+        adhesion_work(f->table, reduced, f->unloading.samples.spring_constant, f->pull_off));
+}
+
+bool curve_fit_unloading(const curve_fitting *f, const curve_kind *kind, const curve_solution *in,
+                         curve_solution *out)
+{
+    const curve_samples *s = &f->unloading.samples;
+    const size_t jump = f->unloading.jump;
+    const bool adhesive = jump > 0;
+    const curve_kind fitted = {.tilt = kind->tilt,
+                               .adhesive = adhesive,
+                               .constant_pull = adhesive && kind->constant_pull,
+                               .jump = jump};
+    double p[CURVE_N_PARAMETERS] = {[CURVE_E] = in->p[CURVE_E], [CURVE_C] = in->p[CURVE_C]};
+    if (s->n < CURVE_MIN_SAMPLES ||
+        (adhesive && (jump < CURVE_BASELINE_SAMPLES || s->n - jump < CURVE_CONTACT_SAMPLES)))
+        return false;
+    if (fitted.adhesive && !fitted.constant_pull && !adhesion_applies(contact_table_tip(f->table)))
+        return false;
+    if (adhesive)
+        p[CURVE_W] = pull_off_parameter(f, kind, p[CURVE_E]);
+    if (isnan(p[CURVE_W]))
+        return false;
+    curve_refine(f->table, s, fitted, p, f->workspace, out);
+    return out->effective_n > 0.0;
+}
+
+/* Fits the laws and returns the best. Returns false if none fits. */
+static bool fit_best_law(const curve_fitting *f, curve_solution *best, curve_kind *kind)
+{
+    const bool adhesive = f->unloading.jump > 0;
+    bool found = false;
+    for (int pull = 0; pull <= adhesive; pull++) {
+        const curve_kind law = {.tilt = f->kind.tilt,
+                                .adhesive = adhesive,
+                                .constant_pull = pull,
+                                .jump = f->unloading.jump};
+        curve_solution out;
+        if (!curve_fit_unloading(f, &law, &f->solution, &out) || !out.converged ||
+            (found && !(out.cost < best->cost)))
+            continue;
+        found = true;
+        *best = out;
+        *kind = law;
+    }
+    return found;
+}
+
+static void append_retract_modulus(const curve_fitting *f, wt_indent_fit *fit)
+{
+    const double error = hypot(fit->modulus.standard_error, fit->retract_modulus.standard_error);
+    char text[160];
+    if (!wt_curve_verdict_is_usable(fit->verdict) || !(fabs(f->loss) < CURVE_MIN_LOSS) ||
+        !(fabs(fit->retract_modulus.value - fit->modulus.value) > NORMAL_95 * error))
+        return;
+    curve_set_reason(text, "; the retract gives %s +- %s",
+                     curve_format_si(fit->retract_modulus.value, "Pa").buffer,
+                     curve_format_si(fit->retract_modulus.standard_error, "Pa").buffer);
+    curve_append_note(fit->reason, text);
+}
+
+void curve_report_unloading(curve_fitting *f, wt_indent_fit *fit)
+{
+    const double reduced = 1.0 - f->options->poisson_ratio * f->options->poisson_ratio;
+    curve_fitting out = *f;
+    if (!fit_best_law(f, &out.solution, &out.kind))
+        return;
+    out.input.samples = f->unloading.samples;
+    out.snap_in_pull = 0.0;
+    curve_add_misfit(&out);
+    const curve_solution *s = &out.solution;
+    fit->retract_modulus.value = reduced * s->p[CURVE_E];
+    fit->retract_modulus.standard_error = reduced * s->standard_error[CURVE_E];
+    const double root = s->p[CURVE_W], error = s->standard_error[CURVE_W];
+    if (out.kind.constant_pull) {
+        fit->retract_pull.value = root;
+        fit->retract_pull.standard_error = error;
+    } else if (out.kind.adhesive) {
+        fit->retract_work.value = root * root;
+        fit->retract_work.standard_error = 2.0 * root * error;
+    }
+    append_retract_modulus(f, fit);
+}
+
+/* ---- analysis of the retract ----------------------------------------------------------------- */
 
 /* Duration of half a pull-off over the retract. A pull-off is a jump except for a few samples. */
 static const double pull_off_share = 0.02;

@@ -4,7 +4,7 @@
 'use strict';
 (() => {
   const {element} = View, inUnit = Plot.inUnit;
-  const usable = (verdict) => verdict === 'accepted' || verdict === 'doubtful';
+  const usable = (verdict) => ['accepted', 'wide', 'doubtful'].includes(verdict);
   const AUTOMATIC = 1000; /* larger groups are refitted by a button */
   let ui = null, groups = {}, group = 'bulk', rows = [], shown = [], at = -1, fit = null, origin = 0;
   let live = null;

@@ -3,8 +3,8 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#ifndef WT_INDENTATION_LAW_THIN_LAYER_H
-#define WT_INDENTATION_LAW_THIN_LAYER_H
+#ifndef WT_INDENTATION_LAW_CONTACT_LAW_H
+#define WT_INDENTATION_LAW_CONTACT_LAW_H
 
 #include <stdbool.h>
 
