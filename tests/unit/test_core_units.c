@@ -174,48 +174,13 @@ static void known_as_udunits_says(void **state)
 {
     (void)state;
     /* the units of the table in unit.c */
-    static const char *const known[] = {"mm",
-                                        "um",
-                                        "\xC2\xB5m",
-                                        "\xCE\xBCm",
-                                        "nm",
-                                        "pm",
-                                        "mN",
-                                        "uN",
-                                        "\xC2\xB5N",
-                                        "nN",
-                                        "pN",
-                                        "mN/m",
-                                        "nN/nm",
-                                        "mV",
-                                        "nm/V",
-                                        "um/V",
-                                        "ms",
-                                        "us",
-                                        "min",
-                                        "kHz",
-                                        "Hz",
-                                        "1/s",
-                                        "kPa",
-                                        "MPa",
-                                        "GPa",
-                                        "Pa",
-                                        "J/m^3",
-                                        "1/MPa",
-                                        "1/Pa",
-                                        "m^2/N",
-                                        "mm^3/(N m)",
-                                        "degC",
-                                        "\xC2\xB0"
-                                        "C",
-                                        "%",
-                                        "percent",
-                                        "deg",
-                                        "\xC2\xB0",
-                                        "mm/s",
-                                        "um/s",
-                                        "nm/s",
-                                        "1/m"};
+    static const char *const known[] = {
+        "mm",   "um",        "\xC2\xB5m",  "\xCE\xBCm", "nm",           "pm",    "mN",
+        "uN",   "\xC2\xB5N", "nN",         "pN",        "mN/m",         "nN/nm", "mV",
+        "nm/V", "um/V",      "ms",         "us",        "min",          "kHz",   "Hz",
+        "1/s",  "kPa",       "MPa",        "GPa",       "Pa",           "J/m^3", "1/MPa",
+        "1/Pa", "m^2/N",     "mm^3/(N m)", "degC",      "\xC2\xB0\x43", "%",     "percent",
+        "deg",  "\xC2\xB0",  "mm/s",       "um/s",      "nm/s",         "1/m"};
     for (size_t q = 0; q < (size_t)WT_Q_COUNT; q++) {
         for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
             check_known(known[i], (wt_quantity)q);
