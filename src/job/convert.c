@@ -1,14 +1,202 @@
 /* Converts an instrument file to tables in SI units. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "job/aligned_curves.h"
+#include "core/base/array.h"
+#include "core/data/force_curve.h"
+#include "core/table/registry.h"
 #include "job/conditioning.h"
 #include "job/inputs.h"
-
-#include "core/base/array.h"
-#include "core/table/registry.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Largest relative difference of the maximum force from that of the result. The fit may exclude
+ * samples at the end of the curve; a larger difference means another calibration. */
+static const double force_tolerance = 0.02;
+
+/* Indentation tables of a result. */
+typedef struct contact_points {
+    const char *path;
+    wt_result *tables;
+} contact_points;
+
+/* Contact point of a curve, and its baseline at this point. */
+typedef struct curve_contact {
+    double point, offset, tilt, max_force;
+} curve_contact;
+
+/* Search for the row of a curve. A row with the exact name of the file takes precedence over rows
+ * whose paths have the same end. */
+typedef struct row_search {
+    const flow_file *file;
+    size_t curve;
+    flow_name_match best;
+    bool is_ambiguous; /* another row matches equally well */
+    curve_contact contact;
+    char verdict[64];
+} row_search;
+
+static void search_indentation_table(row_search *s, const table_view *view)
+{
+    for (size_t row = 0; row < view->n_rows; row++) {
+        const double number = indentation_get(view, row, INDENTATION_CURVE);
+        if (!(number >= 0 && (size_t)number == s->curve))
+            continue;
+        const char *name = indentation_text(view, row, INDENTATION_FILE);
+        const flow_name_match as = flow_file_match(s->file, name, strlen(name));
+        if (as == FLOW_NAME_DIFFERENT || as < s->best)
+            continue;
+        s->is_ambiguous = as == s->best;
+        s->best = as;
+        s->contact = (curve_contact){indentation_get(view, row, INDENTATION_CONTACT_POINT),
+                                     indentation_get(view, row, INDENTATION_BASELINE_OFFSET),
+                                     indentation_get(view, row, INDENTATION_BASELINE_TILT),
+                                     indentation_get(view, row, INDENTATION_MAX_FORCE)};
+        snprintf(s->verdict, sizeof s->verdict, "%s",
+                 indentation_text(view, row, INDENTATION_VERDICT));
+    }
+}
+
+static wt_status find_contact(const contact_points *points, const flow_file *file, size_t curve,
+                              curve_contact *to, wt_error *err)
+{
+    const char *const prefix = indentation_schema.name;
+    row_search s = {.file = file, .curve = curve, .best = FLOW_NAME_DIFFERENT};
+    for (size_t i = 0; i < wt_result_n_tables(points->tables); i++) {
+        const wt_table *table = wt_result_table(points->tables, i);
+        table_view view;
+        if (strncmp(wt_table_name(table), prefix, strlen(prefix)) != 0)
+            continue;
+        const wt_status status = table_bind(table, &indentation_schema,
+                                            wt_table_name(table) + strlen(prefix), &view, err);
+        if (status != WT_OK)
+            return status;
+        search_indentation_table(&s, &view);
+    }
+    if (s.best == FLOW_NAME_DIFFERENT) {
+        wt_fail(err, WT_E_NOT_FOUND, "the curve is not in %s", points->path);
+        wt_error_advice(err, "give the result that weartrack indent made of this file");
+        return WT_E_NOT_FOUND;
+    }
+    if (s.is_ambiguous) {
+        wt_fail(err, WT_E_AMBIGUOUS, "two files of %s are called so", points->path);
+        wt_error_advice(err, "name the file by the path that it has there");
+        return WT_E_AMBIGUOUS;
+    }
+    *to = s.contact;
+    if (isfinite(to->point) && isfinite(to->offset) && isfinite(to->tilt))
+        return WT_OK;
+    return wt_fail(err, WT_E_NOT_FOUND, "no contact point in %s: %s", points->path, s.verdict);
+}
+
+static void set_channel_label(wt_channel *channel, wt_quantity quantity, const char *name)
+{
+    channel->quantity = quantity;
+    snprintf(channel->name, sizeof channel->name, "%s", name);
+    snprintf(channel->unit, sizeof channel->unit, "%s", wt_quantity_unit(quantity));
+}
+
+/* Adds one segment; a segment without height or force is skipped. force: scratch [n_points]. */
+static wt_status add_aligned_segment(const wt_segment *from, const wt_cantilever *cantilever,
+                                     double direction, const curve_contact *contact, double *force,
+                                     wt_force_curve *to, wt_error *err)
+{
+    enum { HEIGHT, FORCE, INDENTATION, TIME };
+    const double *height = segment_height(from);
+    const double *measured = segment_force(from, cantilever, force);
+    const wt_channel *time = wt_segment_channel(from, WT_Q_TIME);
+    if (height == NULL || measured == NULL)
+        return WT_OK;
+    wt_segment *s =
+        wt_force_curve_add_segment(to, from->kind, from->n_points, time != NULL ? TIME + 1 : TIME);
+    if (s == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    s->index = from->index;
+    s->duration = from->duration;
+    s->setpoint = from->setpoint;
+    s->velocity = from->velocity;
+    s->frequency = from->frequency;
+    set_channel_label(&s->channels[HEIGHT], WT_Q_HEIGHT, "height from the contact point");
+    set_channel_label(&s->channels[FORCE], WT_Q_FORCE, "force above the baseline");
+    set_channel_label(&s->channels[INDENTATION], WT_Q_INDENTATION, "indentation");
+    for (size_t i = 0; i < from->n_points; i++) {
+        const double z = direction * height[i] - contact->point;
+        const double f = measured[i] - contact->offset - contact->tilt * z;
+        s->channels[HEIGHT].values[i] = z;
+        s->channels[FORCE].values[i] = f;
+        s->channels[INDENTATION].values[i] = tip_position(z, f, cantilever->spring_constant);
+    }
+    if (time != NULL) {
+        set_channel_label(&s->channels[TIME], WT_Q_TIME, time->name);
+        memcpy(s->channels[TIME].values, time->values, from->n_points * sizeof *time->values);
+    }
+    return WT_OK;
+}
+
+/* Returns +1 if the height increases into the sample, else -1, like the fit. */
+static double height_direction(const wt_segment *approach)
+{
+    const double *height = approach != NULL ? segment_height(approach) : NULL;
+    size_t first = 0, last = height != NULL ? approach->n_points : 0;
+    while (first < last && !isfinite(height[first]))
+        first++;
+    while (last > first && !isfinite(height[last - 1]))
+        last--;
+    if (first == last)
+        return (double)NAN;
+    return height[last - 1] < height[first] ? -1 : 1;
+}
+
+static double largest_approach_force(const wt_force_curve *curve)
+{
+    const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
+    const wt_channel *force = approach != NULL ? wt_segment_channel(approach, WT_Q_FORCE) : NULL;
+    double largest = 0;
+    for (size_t i = 0; force != NULL && i < approach->n_points; i++)
+        largest = fmax(largest, force->values[i]);
+    return largest;
+}
+
+/* Aligns a curve. The new curve has three channels, and time if it is known: the height from the
+ * contact point, increasing into the sample; the force above the baseline; the indentation. `to` is
+ * reused. WT_E_NOT_FOUND if the result lacks the curve or its contact point. */
+static wt_status align_with_contact(const contact_points *points, const flow_file *file,
+                                    const wt_force_curve *curve, const wt_job *work,
+                                    wt_force_curve *to, wt_error *err)
+{
+    curve_contact contact;
+    size_t longest = 1;
+    const double direction = height_direction(wt_force_curve_segment(curve, WT_SEGMENT_APPROACH));
+    wt_status status = find_contact(points, file, curve->index, &contact, err);
+    if (status == WT_OK && (isnan(direction) || isnan(curve->cantilever.spring_constant)))
+        status = wt_fail(err, WT_E_MISSING, "no height or no spring constant");
+    if (status != WT_OK)
+        return status;
+    for (size_t i = 0; i < curve->n_segments; i++)
+        if (curve->segments[i].n_points > longest)
+            longest = curve->segments[i].n_points;
+    double *force = wt_alloc(longest, sizeof *force);
+    wt_force_curve_reset(to);
+    to->index = curve->index;
+    to->x = curve->x;
+    to->y = curve->y;
+    to->grid_x = curve->grid_x;
+    to->grid_y = curve->grid_y;
+    to->cantilever = curve->cantilever;
+    for (size_t i = 0; status == WT_OK && i < curve->n_segments; i++)
+        status = add_aligned_segment(&curve->segments[i], &curve->cantilever, direction, &contact,
+                                     force, to, err);
+    free(force);
+    const double ratio = largest_approach_force(to) / contact.max_force;
+    if (status == WT_OK && !(ratio > 1 - force_tolerance && ratio < 1 + force_tolerance) &&
+        isfinite(ratio))
+        wt_log_add(work->log, WT_WARNING, file->name, NULL,
+                   "curve %zu: the largest force is %.3g times that of the result: give the "
+                   "spring constant and sensitivity that it was made with",
+                   curve->index, ratio);
+    return status;
+}
+
+/* ---- conversion ------------------------------------------------------------------------------ */
 
 typedef struct conversion {
     const wt_job *work;
@@ -43,17 +231,10 @@ static size_t curve_columns(const wt_force_curve *curve, const wt_channel *colum
     return n;
 }
 
-static void set_curve_key(table_writer *t, force_curve_key key, double value)
-{
-    if (!isnan(value))
-        force_curve_set_value(t, key, value, 0, 0);
-}
-
-/* Ends a table and passes it to the caller. */
 static wt_status send_table(const conversion *c, table_writer *t, wt_error *err)
 {
     wt_table *table = NULL;
-    wt_status status = table_end(t, &table);
+    const wt_status status = table_end(t, &table);
     return status == WT_OK ? c->sink(c->user, table, err) : status;
 }
 
@@ -65,10 +246,16 @@ static wt_status send_curve(const conversion *c, const wt_force_curve *curve, wt
     snprintf(number, sizeof number, "%zu", curve->index);
     table_writer t =
         table_begin_variant(&force_curve_schema, (table_variant){.suffix = number}, err);
-    set_curve_key(&t, FORCE_CURVE_KEY_POSITION_X, curve->x);
-    set_curve_key(&t, FORCE_CURVE_KEY_POSITION_Y, curve->y);
-    set_curve_key(&t, FORCE_CURVE_KEY_SPRING_CONSTANT, curve->cantilever.spring_constant);
-    set_curve_key(&t, FORCE_CURVE_KEY_SENSITIVITY, curve->cantilever.sensitivity);
+    const struct {
+        force_curve_key key;
+        double value;
+    } keys[] = {{FORCE_CURVE_KEY_POSITION_X, curve->x},
+                {FORCE_CURVE_KEY_POSITION_Y, curve->y},
+                {FORCE_CURVE_KEY_SPRING_CONSTANT, curve->cantilever.spring_constant},
+                {FORCE_CURVE_KEY_SENSITIVITY, curve->cantilever.sensitivity}};
+    for (size_t i = 0; i < COUNT_OF(keys); i++)
+        if (!isnan(keys[i].value))
+            force_curve_set_value(&t, keys[i].key, keys[i].value, 0, 0);
     force_curve_set_text(&t, FORCE_CURVE_KEY_CURVE, number);
     for (size_t k = 0; k < n && t.status == WT_OK; k++)
         t.status =
@@ -137,7 +324,6 @@ static double value_or_nan(const double *values, size_t i)
     return values != NULL ? values[i] : (double)NAN;
 }
 
-/* State of the table of a sweep. */
 typedef struct dma_table {
     table_writer writer;
     sweep_column storage, loss;
@@ -176,17 +362,12 @@ static void write_dma_point(dma_table *t, const dma_point *p)
         sweep_put_text(&t->writer, SWEEP_SAMPLE, p->sample);
 }
 
-static void begin_sweep_block(dma_table *t)
-{
-    if (!t->counting)
-        table_block(&t->writer);
-}
-
 static void write_sweep_points(dma_table *t, const wt_sweep *sweep)
 {
     for (size_t k = 0; k < sweep->n_isotherms; k++) {
         const wt_isotherm *s = &sweep->isotherms[k];
-        begin_sweep_block(t);
+        if (!t->counting)
+            table_block(&t->writer);
         for (size_t row = 0; row < s->n; row++) {
             const size_t i = t->loading == WT_OSCILLATION ? row : s->n - 1 - row; /* rising time */
             write_dma_point(t, &(dma_point){s->temperature, s->angular_frequency[i],
@@ -197,7 +378,8 @@ static void write_sweep_points(dma_table *t, const wt_sweep *sweep)
     }
     for (size_t k = 0; k < sweep->n_ramps; k++) {
         const wt_ramp *s = &sweep->ramps[k];
-        begin_sweep_block(t);
+        if (!t->counting)
+            table_block(&t->writer);
         for (size_t i = 0; i < s->n; i++)
             write_dma_point(t, &(dma_point){s->temperature[i], s->angular_frequency,
                                             s->storage_modulus[i], s->loss_modulus[i],
@@ -206,7 +388,8 @@ static void write_sweep_points(dma_table *t, const wt_sweep *sweep)
     }
     for (size_t k = 0; k < sweep->n_strain_sweeps; k++) {
         const wt_strain_sweep *s = &sweep->strain_sweeps[k];
-        begin_sweep_block(t);
+        if (!t->counting)
+            table_block(&t->writer);
         for (size_t i = 0; i < s->n; i++)
             write_dma_point(t, &(dma_point){s->temperature, s->angular_frequency,
                                             s->storage_modulus[i], s->loss_modulus[i], s->strain[i],
@@ -277,12 +460,11 @@ static wt_status send_image(const conversion *c, const wt_image *image, size_t n
     columns[IMAGE_X].unit = image->x_unit;
     columns[IMAGE_VALUE].unit = image->unit;
     columns[IMAGE_VALUE].long_name = image->name;
-    table_writer t = table_begin_variant(&image_schema,
-                                         (table_variant){.suffix = suffix,
-                                                         .title = image->name,
-                                                         .left_out = flat ? SCHEMA_BIT(IMAGE_Y) : 0,
-                                                         .columns = columns},
-                                         err);
+    const table_variant variant = {.suffix = suffix,
+                                   .title = image->name,
+                                   .left_out = flat ? SCHEMA_BIT(IMAGE_Y) : 0,
+                                   .columns = columns};
+    table_writer t = table_begin_variant(&image_schema, variant, err);
     for (size_t row = 0; row < image->n_rows; row++) {
         table_block(&t);
         for (size_t column = 0; column < image->n_columns; column++) {
@@ -310,29 +492,25 @@ static wt_status convert_images(const conversion *c, wt_error *err)
     return status;
 }
 
-static wt_status send_spectrum(const conversion *c, const wt_power_spectrum *s, wt_error *err)
-{
-    const bool surface = s->kind == WT_SPECTRUM_2D;
-    const spectrum_column density = surface ? SPECTRUM_DENSITY_2D : SPECTRUM_DENSITY_1D;
-    const spectrum_column other = surface ? SPECTRUM_DENSITY_1D : SPECTRUM_DENSITY_2D;
-    table_writer t =
-        table_begin_variant(&spectrum_schema, (table_variant){.left_out = SCHEMA_BIT(other)}, err);
-    for (size_t i = 0; i < s->n; i++) {
-        table_row(&t);
-        spectrum_put(&t, SPECTRUM_WAVENUMBER, s->wavenumber[i]);
-        spectrum_put(&t, density, s->density[i]);
-    }
-    return send_table(c, &t, err);
-}
-
 static wt_status convert_spectrum(const conversion *c, wt_error *err)
 {
-    wt_power_spectrum spectrum = {0};
+    wt_power_spectrum s = {0};
     wt_status status =
-        wt_power_spectrum_read(c->work->formats, c->input, &c->read, c->work->log, &spectrum, err);
-    if (status == WT_OK)
-        status = send_spectrum(c, &spectrum, err);
-    wt_power_spectrum_clear(&spectrum);
+        wt_power_spectrum_read(c->work->formats, c->input, &c->read, c->work->log, &s, err);
+    const bool surface = s.kind == WT_SPECTRUM_2D;
+    const spectrum_column density = surface ? SPECTRUM_DENSITY_2D : SPECTRUM_DENSITY_1D,
+                          other = surface ? SPECTRUM_DENSITY_1D : SPECTRUM_DENSITY_2D;
+    if (status == WT_OK) {
+        table_writer t = table_begin_variant(&spectrum_schema,
+                                             (table_variant){.left_out = SCHEMA_BIT(other)}, err);
+        for (size_t i = 0; i < s.n; i++) {
+            table_row(&t);
+            spectrum_put(&t, SPECTRUM_WAVENUMBER, s.wavenumber[i]);
+            spectrum_put(&t, density, s.density[i]);
+        }
+        status = send_table(c, &t, err);
+    }
+    wt_power_spectrum_clear(&s);
     return status;
 }
 
@@ -356,6 +534,11 @@ static wt_status parse_kind(const char *text, void *member, wt_error *err)
         }
     return wt_fail(err, WT_E_ARG, "'%s' is none of %s", text, KIND_NAMES);
 }
+
+static const wt_tables_role contact_role = {
+    .curve_role = "contact points",
+    .other_role = "contact points",
+    .instead = "what weartrack indent or weartrack run wrote of these curves"};
 
 static const wt_param rows[] = {
     {PARAM_OTHER_OF("kind", wt_convert_job, kind, parse_kind), .value = KIND_NAMES,
@@ -383,10 +566,12 @@ wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_
     if (status != WT_OK)
         return status;
     c.read = flow_read_options(&c.file);
-    if (job->contact != NULL)
-        status = contact_points_read(job->contact, work, &c.contact, err);
+    if (job->contact != NULL) {
+        c.contact.path = job->contact;
+        status =
+            wt_tables_read(job->contact, job->contact, work, contact_role, &c.contact.tables, err);
+    }
     if (status != WT_OK) {
-        contact_points_clear(&c.contact);
         wt_input_close(c.input);
         return status;
     }
@@ -409,7 +594,7 @@ wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_
         if (err != NULL)
             *err = failure;
     }
-    contact_points_clear(&c.contact);
+    wt_result_free(c.contact.tables);
     wt_input_close(c.input);
     return status;
 }

@@ -77,13 +77,10 @@ static wt_status add_library_descriptions(wt_formats *f, wt_error *err)
 {
     wt_status status = WT_OK;
     for (const embedded_text *e = embedded_formats; e->name != NULL && status == WT_OK; e++) {
-        text_description *d = NULL;
         const size_t n = strlen(e->name);
         if (n < 4 || strcmp(e->name + n - 4, ".xml") != 0)
             continue;
-        status = description_from_library(e, &d, err);
-        if (status == WT_OK)
-            status = formats_add_description(f, d, NULL, e->name, err);
+        status = formats_add_description(f, description_from_library(e), NULL, e->name, err);
     }
     return status;
 }

@@ -205,20 +205,6 @@ static void write_advice(const validation *v, const model_variant *t, const sour
 
 /* ---- table ----------------------------------------------------------------------------------- */
 
-static wt_status write_sources_table(const source_list *list, const source_advice *advice,
-                                     wt_table **table, wt_error *err)
-{
-    table_writer w = table_begin(&validation_sources_schema, err);
-    for (size_t i = 0; i < list->n; i++) {
-        const source *const s = &list->of[i];
-        TABLE_ADD(
-            validation_sources, &w, s->words, s->remedy, sqrt(s->variance), s->variance / list->all,
-            list->all_needed > 0 ? s->needed / list->all_needed : (double)NAN, s->pull, s->left);
-    }
-    validation_sources_set_text(&w, VALIDATION_SOURCES_KEY_ADVICE, advice->narrows);
-    return table_end(&w, table);
-}
-
 wt_status error_sources_tabulate(const validation *v, source_advice *advice, wt_table **table,
                                  wt_error *err)
 {
@@ -238,5 +224,13 @@ wt_status error_sources_tabulate(const validation *v, source_advice *advice, wt_
         find_source_pulls(v, t, &list);
     qsort(list.of, list.n, sizeof *list.of, compare_variances);
     write_advice(v, t, &list, advice);
-    return write_sources_table(&list, advice, table, err);
+    table_writer w = table_begin(&validation_sources_schema, err);
+    for (size_t i = 0; i < list.n; i++) {
+        const source *const s = &list.of[i];
+        TABLE_ADD(
+            validation_sources, &w, s->words, s->remedy, sqrt(s->variance), s->variance / list.all,
+            list.all_needed > 0 ? s->needed / list.all_needed : (double)NAN, s->pull, s->left);
+    }
+    validation_sources_set_text(&w, VALIDATION_SOURCES_KEY_ADVICE, advice->narrows);
+    return table_end(&w, table);
 }

@@ -237,20 +237,6 @@ static void find_curves(growth *g)
     }
 }
 
-static growth_inputs growth_inputs_read(const wt_sliding *sliding, const wt_layer_job *layer,
-                                        const wt_layer_observation *observation,
-                                        const measured_step *at, const wt_job *work)
-{
-    growth_inputs g = {.sliding = *sliding,
-                       .velocity = at->velocity,
-                       .stated = sliding,
-                       .job = *layer,
-                       .observation = observation,
-                       .work = work};
-    measured_step_conditions(at, &g.sliding);
-    return g;
-}
-
 wt_status growth_compute(const wt_sliding *sliding, const wt_layer_job *layer,
                          const wt_layer_observation *observation, const measured_step *at,
                          const wt_job *work, growth *out, wt_error *err)
@@ -258,8 +244,14 @@ wt_status growth_compute(const wt_sliding *sliding, const wt_layer_job *layer,
     wt_job own = *work;
     own.drawn = NULL; /* the stored draws are for another temperature */
     own.left_out = WT_EXTRA_ALL;
-    growth_inputs g = growth_inputs_read(sliding, layer, observation, at, &own);
-    g.n = layer->incubation ? TIMES_TRANSPORT : TIMES_RATES;
+    growth_inputs g = {.sliding = *sliding,
+                       .velocity = at->velocity,
+                       .stated = sliding,
+                       .job = *layer,
+                       .observation = observation,
+                       .work = &own,
+                       .n = layer->incubation ? TIMES_TRANSPORT : TIMES_RATES};
+    measured_step_conditions(at, &g.sliding);
     *out = (growth){.n = g.n, .stride = GROWTH_QUANTITIES + g.n};
     g.sliding.velocity = &g.velocity;
     g.sliding.n_velocity = 1;

@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/measured_friction.h"
+#include "core/base/clocale.h"
 #include "friction/sliding_contact.h"
 #include "record/numerics/running_in_curve.h"
 
@@ -74,8 +75,7 @@ static void merge_fluctuations(measured *m)
 
 static void append_remark(char *remarks, size_t size, const char *words)
 {
-    const size_t used = strlen(remarks);
-    snprintf(remarks + used, size - used, "%s%s", used > 0 ? "; " : "", words);
+    clocale_append(remarks, size, "%s%s", remarks[0] != '\0' ? "; " : "", words);
 }
 
 void measured_steps_add_remark(measured *m, const char *words)
@@ -229,18 +229,6 @@ static bool convert_midpoints_to_ends(recorded_run *r, double lost, bool from_st
     return true;
 }
 
-static double cycle_time(const table_view *cycles, size_t row, double velocity)
-{
-    const double time = record_cycles_get(cycles, row, RECORD_CYCLES_TIME);
-    return isnan(time) ? record_cycles_get(cycles, row, RECORD_CYCLES_DISTANCE) / velocity : time;
-}
-
-static bool is_cycle_of_step(const table_view *cycles, size_t row, const recorded_run *r)
-{
-    return record_cycles_get(cycles, row, RECORD_CYCLES_STEP) == (double)r->step &&
-           strcmp(record_cycles_text(cycles, row, RECORD_CYCLES_FILE), r->at.file) == 0;
-}
-
 /* Number of cycles before the first of two, by a counter that starts at 0. It is 0 below one cycle,
  * because counters also start at 1. */
 static double cycles_before(const double count[2])
@@ -255,13 +243,17 @@ static void read_cycles(const table_view *cycles, recorded_run *r)
     double laps[2] = {(double)NAN, (double)NAN}, slid[2] = {(double)NAN, (double)NAN};
     for (size_t i = 0; i < cycles->n_rows; i++) {
         const double friction = record_cycles_get(cycles, i, RECORD_CYCLES_FRICTION);
-        if (!is_cycle_of_step(cycles, i, r) || !isfinite(friction))
+        const double time = record_cycles_get(cycles, i, RECORD_CYCLES_TIME),
+                     distance = record_cycles_get(cycles, i, RECORD_CYCLES_DISTANCE);
+        if (record_cycles_get(cycles, i, RECORD_CYCLES_STEP) != (double)r->step ||
+            strcmp(record_cycles_text(cycles, i, RECORD_CYCLES_FILE), r->at.file) != 0 ||
+            !isfinite(friction))
             continue;
         if (r->n < 2) {
             laps[r->n] = record_cycles_get(cycles, i, RECORD_CYCLES_LAPS);
-            slid[r->n] = record_cycles_get(cycles, i, RECORD_CYCLES_DISTANCE);
+            slid[r->n] = distance;
         }
-        r->end[r->n] = cycle_time(cycles, i, r->at.velocity);
+        r->end[r->n] = isnan(time) ? distance / r->at.velocity : time;
         timed = timed && isfinite(r->end[r->n]);
         r->friction[r->n++] = friction;
     }

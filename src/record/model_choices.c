@@ -25,12 +25,6 @@ typedef struct cutoff_scan {
     double log_q1[TRIED], likelihood[TRIED];
 } cutoff_scan;
 
-static double lowest_cutoff(const case_variant *s)
-{
-    const double roll_off = s->surface.self_affine ? s->surface.qr : 0;
-    return fmax(2 * s->surface.q0, roll_off);
-}
-
 static double highest_cutoff(const case_variant *s)
 {
     const wt_power_spectrum *const p = &s->surface.spectrum;
@@ -66,7 +60,9 @@ static wt_status cutoff_likelihood(const validation *v, double q1, double *value
 
 static wt_status scan_cutoffs(const validation *v, cutoff_scan *s, wt_error *err)
 {
-    const double used = log10(v->used.surface.q1), low = log10(lowest_cutoff(&v->used)),
+    const wt_surface *const surface = &v->used.surface;
+    const double used = log10(surface->q1),
+                 low = log10(fmax(2 * surface->q0, surface->self_affine ? surface->qr : 0)),
                  high = log10(highest_cutoff(&v->used));
     double *const value = wt_alloc(v->steps.n, sizeof *value);
     wt_status status = WT_OK;
@@ -337,21 +333,6 @@ static void write_narrowed_range(const choice_row *rows, size_t n, choice_ranges
                   explained > 0 ? "" : "; but none of them agrees with the record");
 }
 
-/* ---- table ----------------------------------------------------------------------------------- */
-
-static wt_status write_choices_table(const validation *v, const choice_row *rows, size_t n,
-                                     const choice_ranges *ranges, wt_table **table, wt_error *err)
-{
-    table_writer t = table_begin(&validation_choices_schema, err);
-    for (size_t i = 0; i < n; i++)
-        validation_choices_add_row(&t, &rows[i]);
-    validation_choices_set_text(&t, VALIDATION_CHOICES_KEY_JUDGED,
-                                v->layered ? "friction with the layer"
-                                           : "friction without a layer");
-    validation_choices_set_text(&t, VALIDATION_CHOICES_KEY_NARROWS, ranges->narrows);
-    return table_end(&t, table);
-}
-
 wt_status model_choices_tabulate(const validation *v, const table_view *what_if,
                                  choice_ranges *ranges, wt_table **table, wt_error *err)
 {
@@ -371,7 +352,14 @@ wt_status model_choices_tabulate(const validation *v, const table_view *what_if,
         select_rows(rows, n);
         find_choice_ranges(what_if, rows, n, ranges);
         write_narrowed_range(rows, n, ranges);
-        status = write_choices_table(v, rows, n, ranges, table, err);
+        table_writer t = table_begin(&validation_choices_schema, err);
+        for (size_t i = 0; i < n; i++)
+            validation_choices_add_row(&t, &rows[i]);
+        validation_choices_set_text(&t, VALIDATION_CHOICES_KEY_JUDGED,
+                                    v->layered ? "friction with the layer"
+                                               : "friction without a layer");
+        validation_choices_set_text(&t, VALIDATION_CHOICES_KEY_NARROWS, ranges->narrows);
+        status = table_end(&t, table);
     }
     free(settings);
     free(rows);

@@ -197,13 +197,10 @@ static wt_status find_draw_covariance(const prediction *p, model_variant_value *
                                       wt_error *err)
 {
     draw_regression s = {.p = p, .t = t, .columns = p->n_lines + 1};
-    s.z = wt_alloc((p->n_draws + 1) * s.columns, sizeof *s.z);
-    s.value = wt_alloc((p->n_draws + 1) * t->n, sizeof *s.value);
+    s.z = arena_numbers(&t->memory, (p->n_draws + 1) * s.columns);
+    s.value = arena_numbers(&t->memory, (p->n_draws + 1) * t->n);
     collect_draws(&s, of, user, seed);
-    const wt_status status = find_variant_covariance(&s, err);
-    free(s.z);
-    free(s.value);
-    return status;
+    return find_variant_covariance(&s, err);
 }
 
 /* ---- model variant --------------------------------------------------------------------------- */
@@ -219,15 +216,17 @@ wt_status model_variant_fit(const prediction *p, const measured *steps, model_va
                             size_t most_terms, model_variant *t, wt_error *err)
 {
     const size_t n = steps->n;
+    arena memory = {0};
     wt_status status = WT_OK;
     *t = (model_variant){.n = n,
                          .n_lines = p->n_lines,
-                         .log_velocity = wt_alloc(n, sizeof(double)),
-                         .value = wt_alloc(n, sizeof(double)),
-                         .measurement_variance = wt_alloc(n, sizeof(double)),
-                         .prediction_covariance = wt_alloc(n * n, sizeof(double)),
-                         .rest = wt_alloc(n * n, sizeof(double)),
-                         .slope = wt_alloc(n * (p->n_lines + 1), sizeof(double))};
+                         .log_velocity = arena_numbers(&memory, n),
+                         .value = arena_numbers(&memory, n),
+                         .measurement_variance = arena_numbers(&memory, n),
+                         .prediction_covariance = arena_numbers(&memory, n * n),
+                         .rest = arena_numbers(&memory, n * n),
+                         .slope = arena_numbers(&memory, n * (p->n_lines + 1))};
+    t->memory = memory;
     for (size_t i = 0; status == WT_OK && i < t->n; i++) {
         t->log_velocity[i] = log10(steps->step[i].velocity);
         t->value[i] = of(user, 0, i);
@@ -244,12 +243,7 @@ wt_status model_variant_fit(const prediction *p, const measured *steps, model_va
 
 void model_variant_clear(model_variant *t)
 {
-    free(t->log_velocity);
-    free(t->value);
-    free(t->measurement_variance);
-    free(t->prediction_covariance);
-    free(t->slope);
-    free(t->rest);
+    arena_free(&t->memory);
     agreement_clear(&t->fit);
     *t = (model_variant){.n = 0};
 }

@@ -15,7 +15,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Copies all columns of all rows. */
+typedef void stored_row_callback(void *user, const table_view *view, size_t row);
+
+/* Copies the rows of a table of the result, if it exists, to the table that is written. `each` is
+ * called with every row. */
 static wt_status stored_record_copy_rows(const wt_result *result, const table_schema *schema,
                                          table_writer *t, stored_row_callback *each, void *user,
                                          wt_error *err)
@@ -121,12 +124,6 @@ static wt_interval interval_in_units(const wt_cycle *c, size_t n, wt_interval cy
     return (wt_interval){value, cycles.standard_error * per_cycle, low, high};
 }
 
-static wt_interval scale_interval(wt_interval i, double factor)
-{
-    return (wt_interval){i.value * factor, i.standard_error * factor, i.low * factor,
-                         i.high * factor};
-}
-
 static const char *cycle_kind_name(wt_cycle_kind kind)
 {
     static const char *const words[] = {"", "double stroke", "lap", "span of time", "sample"};
@@ -135,9 +132,8 @@ static const char *cycle_kind_name(wt_cycle_kind kind)
 
 static void append_note(char *note, size_t size, const char *words)
 {
-    const size_t used = strlen(note);
     if (words[0] != '\0')
-        snprintf(note + used, size - used, "%s%s", used > 0 ? "; " : "", words);
+        clocale_append(note, size, "%s%s", note[0] != '\0' ? "; " : "", words);
 }
 
 /* Counts the pauses within a step. A record without time does not determine them. */
@@ -246,7 +242,10 @@ static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, co
                                         last->first + last->n - steady->first);
     free(y);
     r->at = conditions_mean(steady, n - from);
-    r->drift = scale_interval(r->steady.drift, (double)(n - from) - 1);
+    const double cycles = (double)(n - from) - 1; /* the drift is that of a cycle */
+    r->drift =
+        (wt_interval){r->steady.drift.value * cycles, r->steady.drift.standard_error * cycles,
+                      r->steady.drift.low * cycles, r->steady.drift.high * cycles};
     r->end = end.cycles;
     r->end_time = interval_in_units(cycle, n, end.cycles, false);
     r->end_distance = interval_in_units(cycle, n, end.cycles, true);

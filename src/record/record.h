@@ -51,8 +51,4 @@ wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_c
                    wt_estimate radius, const char *file, table_writer *t, wear_rates *rates,
                    wt_error *err);
 
-/* Copies the rows of a table of the result, if it exists, to the table that is written. `each` is
- * called with every row. */
-typedef void stored_row_callback(void *user, const table_view *view, size_t row);
-
 #endif

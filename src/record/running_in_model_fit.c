@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/running_in_validation.h"
 
+#include "core/base/array.h"
 #include "core/math/students_t.h"
 
 #include <math.h>
@@ -221,15 +222,17 @@ typedef struct run_arrays {
     const run_fit **of; /* [n] */
     size_t n;
     double *place, *value, *record_variance, *common;
+    arena memory;
 } run_arrays;
 
 static run_arrays run_arrays_collect(const run_fit *runs, size_t n, run_quantity number)
 {
-    run_arrays a = {.of = wt_alloc(n, sizeof *a.of),
-                    .place = wt_alloc(n, sizeof *a.place),
-                    .value = wt_alloc(n, sizeof *a.value),
-                    .record_variance = wt_alloc(n, sizeof *a.record_variance),
-                    .common = wt_alloc(n * n, sizeof *a.common)};
+    run_arrays a = {.n = 0};
+    a.of = arena_alloc(&a.memory, n, sizeof *a.of);
+    a.place = arena_numbers(&a.memory, n);
+    a.value = arena_numbers(&a.memory, n);
+    a.record_variance = arena_numbers(&a.memory, n);
+    a.common = arena_numbers(&a.memory, n * n);
     for (size_t i = 0; i < n; i++) {
         if (!run_fit_determines(&runs[i], number))
             continue;
@@ -242,15 +245,6 @@ static run_arrays run_arrays_collect(const run_fit *runs, size_t n, run_quantity
         for (size_t k = 0; k < a.n; k++)
             (void)draw_covariance(a.of[i], a.of[k], number, &a.common[i * a.n + k]);
     return a;
-}
-
-static void run_arrays_clear(run_arrays *a)
-{
-    free((void *)a->of);
-    free(a->place);
-    free(a->value);
-    free(a->record_variance);
-    free(a->common);
 }
 
 wt_status run_level_compute(const run_fit *runs, size_t n, run_quantity number, run_level *level,
@@ -268,7 +262,7 @@ wt_status run_level_compute(const run_fit *runs, size_t n, run_quantity number, 
         for (size_t k = 0; k < a.n; k++)
             level->common += w * a.common[i * a.n + k] * level->fit.weight[k];
     }
-    run_arrays_clear(&a);
+    arena_free(&a.memory);
     return status;
 }
 
@@ -298,22 +292,12 @@ typedef struct joint_fit {
     double log_odds; /* with a separate time and change for each run */
 } joint_fit;
 
-static void joint_clear(joint_fit *j)
+static joint_fit joint_make(const run_fit *runs, size_t n, arena *memory)
 {
-    for (size_t i = 0; i < j->n; i++)
-        running_in_series_clear(&j->series[i]);
-    free((void *)j->of);
-    free(j->series);
-    free(j->running_in_curve);
-    free(j->pair);
-}
-
-static joint_fit joint_make(const run_fit *runs, size_t n)
-{
-    joint_fit j = {.of = wt_alloc(n, sizeof *j.of),
-                   .series = wt_alloc(n, sizeof *j.series),
-                   .running_in_curve = wt_alloc(n, sizeof *j.running_in_curve),
-                   .pair = wt_alloc(n, sizeof *j.pair)};
+    joint_fit j = {.of = arena_alloc(memory, n, sizeof *j.of),
+                   .series = arena_alloc(memory, n, sizeof *j.series),
+                   .running_in_curve = arena_alloc(memory, n, sizeof *j.running_in_curve),
+                   .pair = arena_alloc(memory, n, sizeof *j.pair)};
     for (size_t i = 0; i < n; i++) {
         if (runs[i].value == NULL)
             continue;
@@ -359,7 +343,8 @@ static void joint_set_values(const joint_fit *j, double margin, run_fit *joined)
 static wt_status fit_joint_run(const run_fit *runs, size_t n, double margin, run_fit *joined,
                                wt_error *err)
 {
-    joint_fit j = joint_make(runs, n);
+    arena memory = {0};
+    const joint_fit j = joint_make(runs, n, &memory);
     wt_status status = WT_OK;
     *joined = (run_fit){.value = NULL};
     if (j.n > 1) {
@@ -370,7 +355,9 @@ static wt_status fit_joint_run(const run_fit *runs, size_t n, double margin, run
         if (status == WT_OK && joined->fit.log_odds > j.log_odds - log(RUNNING_IN_CURVE_MIN_ODDS))
             joint_set_values(&j, margin, joined);
     }
-    joint_clear(&j);
+    for (size_t i = 0; i < j.n; i++)
+        running_in_series_clear(&j.series[i]);
+    arena_free(&memory);
     return status;
 }
 
@@ -381,8 +368,7 @@ static wt_status fit_joint_levels(run_set *all, wt_error *err)
 {
     run_fit joined;
     wt_status status = fit_joint_run(all->runs, all->n, all->margin, &joined, err);
-    for (size_t k = 0; status == WT_OK && k < sizeof time_quantities / sizeof *time_quantities;
-         k++) {
+    for (size_t k = 0; status == WT_OK && k < COUNT_OF(time_quantities); k++) {
         run_level *const level = &all->level[time_quantities[k]];
         run_level_clear(level);
         status = run_level_compute(&joined, joined.value != NULL, time_quantities[k], level, err);

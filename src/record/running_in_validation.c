@@ -120,23 +120,22 @@ static bool is_within_tolerance(double a, double b, double off)
     return (isnan(a) && isnan(b)) || fabs(a - b) <= off;
 }
 
-static bool steps_are_equal(const measured_step *a, const measured_step *b)
-{
-    return is_within_tolerance(a->velocity, b->velocity, same_velocity * b->velocity) &&
-           is_within_tolerance(a->pressure, b->pressure, same_pressure * b->pressure) &&
-           is_within_tolerance(a->temperature, b->temperature, same_temperature);
-}
-
 /* Assigns the prediction of an earlier run with the same conditions, or computes one. */
 static wt_status predict_run(running_in_task *task, size_t i, wt_error *err)
 {
     run_fit *const run = &task->run[i];
     wt_error failure = WT_ERROR_INIT;
-    for (size_t k = 0; k < i; k++)
-        if (task->has_growth[k] && steps_are_equal(&task->rec[k].at, &task->rec[i].at)) {
+    const measured_step *const b = &task->rec[i].at;
+    for (size_t k = 0; k < i; k++) {
+        const measured_step *const a = &task->rec[k].at;
+        if (task->has_growth[k] &&
+            is_within_tolerance(a->velocity, b->velocity, same_velocity * b->velocity) &&
+            is_within_tolerance(a->pressure, b->pressure, same_pressure * b->pressure) &&
+            is_within_tolerance(a->temperature, b->temperature, same_temperature)) {
             run->growth = &task->growth[k];
             return WT_OK;
         }
+    }
     const wt_status status =
         growth_compute(task->job->sliding, task->job->layer, task->job->layer_observation,
                        &task->rec[i].at, task->work, &task->growth[i], &failure);
@@ -241,13 +240,6 @@ static double largest_change(const growth *g, size_t k, double time)
     return k == 0 || isfinite(growth_quantity_value(g, k, GROWTH_END)) ? most : (double)NAN;
 }
 
-static wt_estimate predicted_change(const growth *g)
-{
-    const double none = (double)NAN;
-    return (wt_estimate){-largest_change(g, 0, none),
-                         growth_standard_deviation(g, largest_change, none), none, NULL};
-}
-
 static void add_run_row(const run_fit *run, const wt_sliding *sliding, table_writer *t)
 {
     validation_running_in_row row = {.at = run->rec->at,
@@ -258,13 +250,16 @@ static void add_run_row(const run_fit *run, const wt_sliding *sliding, table_wri
                                      .change = unknown_estimate,
                                      .note = run->note,
                                      .file = run->rec->at.file};
+    const double none = (double)NAN;
     if (isnan(row.at.temperature))
         row.at.temperature = sliding->rubber->prony.reference_temperature;
     if (run->value != NULL) {
         const double predicted = exp(run_fit_value(run, 0, RUN_PREDICTED));
         row.predicted.value = predicted;
         row.predicted.standard_error = predicted * run_fit_prediction_deviation(run, RUN_PREDICTED);
-        row.change = predicted_change(run->growth);
+        row.change =
+            (wt_estimate){-largest_change(run->growth, 0, none),
+                          growth_standard_deviation(run->growth, largest_change, none), none, NULL};
         row.change_ratio = run_ratio_interval(run);
         if (run->fit.seen) {
             row.settled = run_factor_interval(run, RUN_MEASURED);
@@ -416,39 +411,28 @@ static const char *missing_errors_reason(const running_in_task *task)
     return NULL;
 }
 
-static wt_status find_run_levels(const running_in_task *task, run_set *all, wt_error *err)
-{
-    *all = (run_set){.runs = task->run,
-                     .n = task->n,
-                     .margin = task->job->running_in_margin,
-                     .seed = task->work->seed,
-                     .has_shear = !isnan(task->job->sliding->shear_stress.value),
-                     .skip_numerical_errors = missing_errors_reason(task)};
-    return run_set_compute_levels(all, err);
-}
-
-static wt_status check_running_in_job(const wt_validation_job *job, const wt_job *work,
-                                      const wt_running_in_tables *tables, wt_error *err)
+wt_status wt_running_in_validation_compute(const wt_validation_job *job, const wt_job *work,
+                                           wt_running_in_tables *tables, wt_error *err)
 {
     if (job == NULL || work == NULL || tables == NULL || job->record == NULL ||
         job->cycles == NULL || job->layer == NULL || job->layer_observation == NULL)
         return wt_fail(err, WT_E_ARG, "no running-in to hold against a layer");
-    const wt_status status = param_check(wt_validation_job_params(), job, err);
-    return status == WT_OK ? flow_sliding_check(job->sliding, work, err) : status;
-}
-
-wt_status wt_running_in_validation_compute(const wt_validation_job *job, const wt_job *work,
-                                           wt_running_in_tables *tables, wt_error *err)
-{
     running_in_task task = {.job = job, .work = work};
     wt_running_in_tables made = {0};
-    run_set all = {.n = 0};
-    wt_status status = check_running_in_job(job, work, tables, err);
+    wt_status status = param_check(wt_validation_job_params(), job, err);
+    if (status == WT_OK)
+        status = flow_sliding_check(job->sliding, work, err);
     if (status != WT_OK)
         return status;
     status = compare_runs(&task, err);
+    run_set all = {.runs = task.run,
+                   .n = task.n,
+                   .margin = job->running_in_margin,
+                   .seed = work->seed,
+                   .has_shear = !isnan(job->sliding->shear_stress.value),
+                   .skip_numerical_errors = missing_errors_reason(&task)};
     if (status == WT_OK)
-        status = find_run_levels(&task, &all, err);
+        status = run_set_compute_levels(&all, err);
     if (status == WT_OK) {
         const run_verdict result = run_set_assess(&all);
         status = tabulate_runs(&task, &all, &result, &made.running_in, err);

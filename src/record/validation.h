@@ -3,6 +3,7 @@
 #ifndef WT_RECORD_VALIDATION_H
 #define WT_RECORD_VALIDATION_H
 
+#include "core/base/array.h"
 #include "core/base/number.h"
 #include "friction/replicates.h"
 #include "record/measured_friction.h"
@@ -60,6 +61,7 @@ typedef struct model_variant {
     bool split;    /* true if the draws suffice for the slopes; else the slopes are
                       0 */
     agreement fit;
+    arena memory; /* of the arrays */
 } model_variant;
 
 /* Evaluates and fits a model variant. The argument before the seed holds [n] variances of the
@@ -94,7 +96,7 @@ typedef struct variance_components {
 } variance_components;
 variance_components model_variant_components(const model_variant *t, const double *row);
 
-/* ---- job ---------------------------------------------------------------------------------------
+/* ---- job --------------------------------------------------------------------------------------
  */
 
 /* Mean of the fit over all steps. */

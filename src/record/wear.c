@@ -187,23 +187,9 @@ static wt_estimate track_length(const wt_record_job *job, const wt_cycles *cycle
     return (wt_estimate){path / (2 * (double)cycles->n), 0, 0, "m"};
 }
 
-static wt_estimate mean_load(const wt_record_job *job, const wt_cycles *cycles)
-{
-    const double load = conditions_mean(cycles->cycle, cycles->n).normal_force;
-    const double error = is_stated(job->load) ? relative_error(job->load) : 0;
-    return (wt_estimate){load, load * error, 0, "N"};
-}
-
-/* Share of the depth between the means of the first and of the last cycles, each over `part` of all
- * cycles. By Archard's law the volume of a ball cap grows with the distance, and its depth with the
- * power 2/3. */
-static double depth_share_between_means(double part)
-{
-    return 0.6 * ((1 - pow(1 - part, 5.0 / 3)) / part - pow(part, 2.0 / 3));
-}
-
 /* Depth at the end less depth at the beginning, by means over cycles. The correction for the finite
- * length of the means depends on the law of wear. Half of it is taken as an error. */
+ * length of the means depends on the law of wear. Half of it is taken as an error. By Archard's law
+ * the volume of a ball cap grows with the distance, and its depth with the power 2/3. */
 static wt_status worn_depth(const wt_cycles *cycles, wt_estimate *depth, wt_error *err)
 {
     const size_t n = cycles->n / END_SHARE > END_LEAST ? cycles->n / END_SHARE : END_LEAST;
@@ -221,7 +207,8 @@ static wt_status worn_depth(const wt_cycles *cycles, wt_estimate *depth, wt_erro
     free(y);
     if (status == WT_OK) {
         const double seen = end[1].mean.value - end[0].mean.value,
-                     share = depth_share_between_means((double)n / (double)cycles->n),
+                     part = (double)n / (double)cycles->n,
+                     share = 0.6 * ((1 - pow(1 - part, 5.0 / 3)) / part - pow(part, 2.0 / 3)),
                      scatter =
                          hypot(end[0].mean.standard_error, end[1].mean.standard_error) / share;
         *depth = (wt_estimate){seen / share, hypot(scatter, 0.5 * seen * (1 / share - 1)), 0, "m"};
@@ -313,22 +300,17 @@ static void add_wear_volume(wear_rows *rows, const char *of, wt_estimate volume)
                          (wt_estimate){r->rate.value, r->rate.standard_error, 0, "m^2/N"});
 }
 
-static wt_estimate volume_from_depth(wt_estimate depth, double ball_radius, wt_estimate length)
-{
-    const wt_estimate none = {(double)NAN, (double)NAN, 0, "m^3"};
-    return depth.value > 0 && depth.value < ball_radius
-               ? estimate_product(cap_area(depth, ball_radius), length, "m^3")
-               : none;
-}
-
 wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_cycles *cycles,
                    wt_estimate radius, const char *file, table_writer *t, wear_rates *rates,
                    wt_error *err)
 {
     const double none = (double)NAN;
-    const wt_estimate length = track_length(job, cycles, radius);
+    const wt_estimate length = track_length(job, cycles, radius),
+                      no_volume = {none, none, 0, "m^3"};
+    const double load = conditions_mean(cycles->cycle, cycles->n).normal_force,
+                 load_error = is_stated(job->load) ? relative_error(job->load) : 0;
     wear_rows rows = {.job = job,
-                      .load = mean_load(job, cycles),
+                      .load = {load, load * load_error, 0, "N"},
                       .strokes = cycles->kind == WT_CYCLE_STROKE,
                       .t = t,
                       .rates = rates};
@@ -351,10 +333,13 @@ wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_c
     if (is_stated(job->ball_radius) && record->channel[WT_RECORD_WEAR_DEPTH] != NULL)
         status = worn_depth(cycles, &r->depth, err);
     if (status == WT_OK && !isnan(r->depth.value))
-        add_wear_volume(&rows, "depth of the record",
-                        volume_from_depth(r->depth, job->ball_radius.value, length));
+        add_wear_volume(
+            &rows, "depth of the record",
+            r->depth.value > 0 && r->depth.value < job->ball_radius.value
+                ? estimate_product(cap_area(r->depth, job->ball_radius.value), length, "m^3")
+                : no_volume);
     else if (status == WT_OK && !is_stated(job->mass_loss) && !is_stated(job->track_area))
-        add_wear_volume(&rows, "nothing", (wt_estimate){none, none, 0, "m^3"});
+        add_wear_volume(&rows, "nothing", no_volume);
     wear_rates_close_run(rates);
     return status;
 }

@@ -180,24 +180,18 @@ static void set_cell(precision_problem *o, unsigned k, precision_sweep by, size_
         o->cells[k][by][i] = c;
 }
 
-/* Returns |value / truth - 1|; 0 for two zeros. */
-static double relative_difference(double value, double truth)
-{
-    const double difference = fabs(value - truth);
-    return difference > 0 ? difference / fabs(truth) : difference;
-}
-
 static void set_cells(precision_problem *o, precision_sweep by, size_t i, double value,
                       const wt_estimate *reference, accuracy_timing time)
 {
     for (unsigned k = o->first; k < o->last; k++) {
         const wt_estimate e = o->number[k];
-        const double stated = by == BY_ISOTHERMS ? e.standard_error : e.numerical_error;
-        set_cell(o, k, by, i,
-                 (sweep_point){
-                     value,
-                     {relative_difference(e.value, reference[k].value), stated / fabs(e.value)},
-                     time});
+        const double stated = by == BY_ISOTHERMS ? e.standard_error : e.numerical_error,
+                     off = fabs(e.value - reference[k].value); /* two zeros differ by 0 */
+        set_cell(
+            o, k, by, i,
+            (sweep_point){value,
+                          {off > 0 ? off / fabs(reference[k].value) : off, stated / fabs(e.value)},
+                          time});
     }
 }
 

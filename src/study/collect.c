@@ -22,13 +22,19 @@ static const char *collected_group_name(const collected_case *c, const char *gro
     return strcmp(group, "bulk") == 0 ? group : c->condition[0] != '\0' ? c->condition : "track";
 }
 
-static wt_status bind_force(const wt_result *result, const char *file, table_view *force,
-                            wt_error *err)
+wt_status collected_bind(const collected_case *c, const table_schema *schema, const char *suffix,
+                         table_view *view, wt_error *err)
 {
-    const wt_status status = table_bind_result(result, &force_indentation_schema, "", force, err);
+    const wt_status status = table_bind_result(c->result, schema, suffix, view, err);
     if (status != WT_OK)
-        wt_error_file(err, file);
+        wt_error_file(err, c->file);
     return status;
+}
+
+const char *collected_shared_name(const collected_case *c, sharing_level common)
+{
+    const char *name = common == OF_SAMPLE ? c->sample : common == OF_CONDITION ? c->condition : "";
+    return common != OF_ALL && name[0] == '\0' ? NULL : name;
 }
 
 /* Groups that belong to no case, with the index of the group that is added. */
@@ -94,9 +100,10 @@ static wt_status add_paired_groups(table_writer *w, paired_force paired, const c
                                    wt_error *err)
 {
     for (paired.at = 0; paired.at < paired.n; paired.at++) {
-        const wt_collected_result *of = &paired.of[paired.at];
+        const collected_case of = {.result = paired.of[paired.at].result,
+                                   .file = paired.of[paired.at].file};
         table_view force;
-        const wt_status status = bind_force(of->result, of->file, &force, err);
+        const wt_status status = collected_bind(&of, &force_indentation_schema, "", &force, err);
         if (status != WT_OK)
             return status;
         add_force_curves(w, c, &force, &paired);
@@ -115,7 +122,7 @@ static wt_status collect_force(const collected_case *cases, size_t n,
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         table_view force;
-        status = bind_force(cases[i].result, cases[i].file, &force, err);
+        status = collected_bind(&cases[i], &force_indentation_schema, "", &force, err);
         if (status == WT_OK)
             add_force_curves(&w, &cases[i], &force, NULL);
         if (status == WT_OK && (i + 1 == n || strcmp(cases[i].sample, cases[i + 1].sample) != 0))
@@ -131,15 +138,13 @@ static wt_status collect_force(const collected_case *cases, size_t n,
     return status;
 }
 
-/* A wear rate is hardly known to better than 20 %. A margin below the usual errors would never give
- * a positive verdict. */
-static const double constant_margin = 0.5;
-
 /* ---- parameters ------------------------------------------------------------------------------ */
 
 wt_collect_job wt_collect_job_defaults(void)
 {
-    return (wt_collect_job){.margin = 0.2, .constant_margin = constant_margin};
+    /* A wear rate is hardly known to better than 20 %. A margin below the usual errors would never
+     * give a positive verdict. */
+    return (wt_collect_job){.margin = 0.2, .constant_margin = 0.5};
 }
 
 static const wt_param rows[] = {
@@ -176,27 +181,23 @@ TABLE_KEYS(collected_friction, COLLECTED_FRICTION, friction_part part;)
 
 /* ---- one case -------------------------------------------------------------------------------- */
 
-static const char *text_or(const char *text, const char *other)
-{
-    return text != NULL && text[0] != '\0' ? text : other;
-}
-
 static wt_status read_collected_case(const wt_collected_result *from, collected_case *c,
                                      wt_error *err)
 {
     table_view answer;
-    wt_status status = table_bind_result(from->result, &answer_schema, "", &answer, err);
+    *c = (collected_case){.result = from->result, .file = from->file};
+    wt_status status = collected_bind(c, &answer_schema, "", &answer, err);
     if (status == WT_OK)
         status = result_values_bind(from->result, &c->tables, err);
     if (status != WT_OK) {
         wt_error_file(err, from->file);
         return status;
     }
+    const char *sample = answer_key_text(&answer, ANSWER_KEY_CASE_SAMPLE),
+               *condition = answer_key_text(&answer, ANSWER_KEY_CASE_CONDITION);
     const wt_estimate ratio = comparison_value(&c->tables.comparison, COMPARISON_KEY_MODULUS_RATIO);
-    c->result = from->result;
-    c->file = from->file;
-    c->sample = text_or(answer_key_text(&answer, ANSWER_KEY_CASE_SAMPLE), wt_path_base(from->file));
-    c->condition = text_or(answer_key_text(&answer, ANSWER_KEY_CASE_CONDITION), "");
+    c->sample = sample != NULL && sample[0] != '\0' ? sample : wt_path_base(from->file);
+    c->condition = condition != NULL ? condition : "";
     c->ratio = (wt_log_ratio){
         log(ratio.value), ratio.standard_error / ratio.value,
         comparison_value(&c->tables.comparison, COMPARISON_KEY_MODULUS_RATIO_DF).value};
@@ -232,12 +233,6 @@ static wt_interval result_interval(const result_value *f)
     return (wt_interval){f->number.value, f->number.standard_error, f->low, f->high};
 }
 
-static stated_verdict short_verdict(const table_view *comparison)
-{
-    const int verdict = comparison_key_enum(comparison, COMPARISON_KEY_DIFFERS);
-    return verdict <= VERDICT_NO ? (stated_verdict)verdict : VERDICT_NOT_ASKED;
-}
-
 static size_t count_different(const collected_case *cases, size_t n, bool condition)
 {
     size_t found = 0;
@@ -259,9 +254,10 @@ static wt_status list_cases(const collected_case *cases, size_t n, wt_table **ta
         const result_value ratio = result_value_ratio(&c->tables),
                            thickness = result_value_thickness(&c->tables),
                            change = result_value_friction(&c->tables, FRICTION_KEY_RELATIVE_CHANGE);
+        const int verdict = comparison_key_enum(&c->tables.comparison, COMPARISON_KEY_DIFFERS);
         TABLE_ADD(collection, &w, c->sample, c->condition, result_interval(&ratio),
-                  short_verdict(&c->tables.comparison), result_interval(&thickness),
-                  result_interval(&change), c->file);
+                  verdict <= VERDICT_NO ? (stated_verdict)verdict : VERDICT_NOT_ASKED,
+                  result_interval(&thickness), result_interval(&change), c->file);
     }
     TABLE_SET(collection, &w, (double)n, (double)count_different(cases, n, false),
               (double)count_different(cases, n, true));

@@ -14,6 +14,12 @@ typedef struct collected_case {
     wt_log_ratio ratio; /* of the moduli; NaN if unknown */
 } collected_case;
 
+/* Binds a table of a case. The error names its file. */
+wt_status collected_bind(const collected_case *c, const table_schema *schema, const char *suffix,
+                         table_view *view, wt_error *err) WT_NODISCARD;
+/* Returns the name that a case shares with others at this level; NULL if it is not stated. */
+const char *collected_shared_name(const collected_case *c, sharing_level common);
+
 /* ---- shared constants ------------------------------------------------------------------------ */
 
 typedef enum shared_constant {

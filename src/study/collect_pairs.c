@@ -200,23 +200,17 @@ static const char *differing_name(const ratio_pair *q, const collected_case *c)
     return q->of_sample ? c->condition : c->sample;
 }
 
-/* Factor by which the interval of a pair must shrink, with the same centre, to lie within the
- * margin or to exclude 0. */
-static double required_narrowing(const ratio_pair *q, double margin)
-{
-    const double half = (q->difference.high - q->difference.low) / 2,
-                 off = fabs(q->difference.value), room = log1p(margin) - off;
-    return fmin(room > 0 ? half / room : (double)INFINITY, half / off);
-}
-
-/* Advises a multiple of the present number of spots. */
+/* Advises a multiple of the present number of spots, for the pair whose interval must shrink least,
+ * with the same centre, to lie within the margin or to exclude 0. */
 static void advise_pair(const pair_list *list, double margin, char *text, size_t size)
 {
     const ratio_pair *nearest = NULL;
     double least = (double)INFINITY;
     for (size_t i = 0; i < list->n; i++) {
         const ratio_pair *q = &list->pairs[i];
-        const double needed = required_narrowing(q, margin);
+        const double half = (q->difference.high - q->difference.low) / 2,
+                     off = fabs(q->difference.value), room = log1p(margin) - off,
+                     needed = fmin(room > 0 ? half / room : (double)INFINITY, half / off);
         if (q->differ == VERDICT_INCONCLUSIVE && needed * needed < least) {
             least = needed * needed;
             nearest = q;
@@ -230,11 +224,6 @@ static void advise_pair(const pair_list *list, double margin, char *text, size_t
                       differing_name(nearest, nearest->b));
 }
 
-static wt_interval difference_ratio(const wt_log_ratio_difference *d)
-{
-    return (wt_interval){exp(d->value), (double)NAN, exp(d->low), exp(d->high)};
-}
-
 static wt_status make_pairs_table(const pair_list *list, double margin, wt_table **table,
                                   wt_error *err)
 {
@@ -246,8 +235,10 @@ static wt_status make_pairs_table(const pair_list *list, double margin, wt_table
         different += q->differ == VERDICT_YES;
         undecided += q->differ == VERDICT_INCONCLUSIVE;
         TABLE_ADD(ratio_pairs, &w, q->of, differing_name(q, q->a), differing_name(q, q->b),
-                  difference_ratio(&q->difference), q->difference.df, q->difference.p, q->holm_p,
-                  q->differ, q->rates, q->interaction_p);
+                  {exp(q->difference.value), (double)NAN, exp(q->difference.low),
+                   exp(q->difference.high)},
+                  q->difference.df, q->difference.p, q->holm_p, q->differ, q->rates,
+                  q->interaction_p);
     }
     advise_pair(list, margin, settled_by, sizeof settled_by);
     TABLE_SET(ratio_pairs, &w, (double)list->n, (double)different, (double)undecided,

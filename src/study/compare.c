@@ -53,12 +53,6 @@ static wt_status add_draw(const wt_rubber *rubber, double temperature, const wt_
     return WT_OK;
 }
 
-static bool is_reached(const wt_rubber *rubber, double temperature)
-{
-    wt_error why = WT_ERROR_INIT;
-    return temperature > 0 && flow_rubber_can_shift(rubber, temperature, &why);
-}
-
 /* Adds half of the difference between the limits of the temperature. Sets *lacks if no shift law
  * reaches a limit. */
 static wt_status add_temperature_variance(const wt_rubber *rubber, wt_estimate at,
@@ -68,7 +62,8 @@ static wt_status add_temperature_variance(const wt_rubber *rubber, wt_estimate a
     const double ends[2] = {at.value - at.standard_error, at.value + at.standard_error};
     if (!(at.standard_error > 0))
         return WT_OK;
-    if (!is_reached(rubber, ends[0]) || !is_reached(rubber, ends[1])) {
+    if (!(ends[0] > 0) || !flow_rubber_can_shift(rubber, ends[0], NULL) ||
+        !flow_rubber_can_shift(rubber, ends[1], NULL)) {
         *lacks = true;
         return WT_OK;
     }
@@ -281,7 +276,7 @@ static wt_status find_rate_points(compare_pair *p, wt_error *err)
 {
     wt_status status = WT_OK;
     for (int g = 0; status == WT_OK && g < 2; g++) {
-        p->point[g] = wt_alloc(p->n_bins, sizeof *p->point[g]);
+        p->point[g] = arena_alloc(&p->memory, p->n_bins, sizeof *p->point[g]);
         for (size_t b = 0; status == WT_OK && b < p->n_bins; b++)
             status = rate_point_mean(p, g, b, &p->point[g][b], err);
     }

@@ -6,6 +6,7 @@
 
 #include "weartrack/study.h"
 
+#include "core/base/array.h"
 #include "core/table/registry.h"
 
 extern const char *const compare_group_name[2];
@@ -34,6 +35,7 @@ typedef struct compare_pair {
     rate_point *point[2];   /* [n_bins] */
     double *modulus, *rate; /* scratch for selected curves, bulk before track */
     long *spot, *rate_class;
+    arena memory; /* of these arrays */
 } compare_pair;
 
 void compare_pair_clear(compare_pair *p);

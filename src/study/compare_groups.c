@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
+#include "core/base/number.h"
 #include "core/math/splitmix64.h"
 #include "core/table/registry.h"
 #include "indentation/indent.h"
@@ -21,17 +22,9 @@ const char *const compare_group_name[2] = {"bulk", "track"};
 
 void compare_pair_clear(compare_pair *p)
 {
-    for (int g = 0; g < 2; g++) {
+    for (int g = 0; g < 2; g++)
         wt_group_data_clear(&p->data[g]);
-        free(p->bin[g]);
-        free(p->point[g]);
-    }
-    free(p->low);
-    free(p->high);
-    free(p->modulus);
-    free(p->rate);
-    free(p->spot);
-    free(p->rate_class);
+    arena_free(&p->memory);
 }
 
 /* A bin starts at the lowest rate outside the previous bin. The border therefore never divides a
@@ -39,15 +32,15 @@ void compare_pair_clear(compare_pair *p)
 static void compare_assign_bins(compare_pair *p)
 {
     size_t total = p->data[0].group.n + p->data[1].group.n, n = 0;
-    double *rates = wt_alloc(total, sizeof *rates);
-    p->low = wt_alloc(total, sizeof *p->low);
-    p->high = wt_alloc(total, sizeof *p->high);
-    p->modulus = wt_alloc(total, sizeof *p->modulus);
-    p->rate = wt_alloc(total, sizeof *p->rate);
-    p->spot = wt_alloc(total, sizeof *p->spot);
-    p->rate_class = wt_alloc(total, sizeof *p->rate_class);
+    double *rates = arena_numbers(&p->memory, total);
+    p->low = arena_numbers(&p->memory, total);
+    p->high = arena_numbers(&p->memory, total);
+    p->modulus = arena_numbers(&p->memory, total);
+    p->rate = arena_numbers(&p->memory, total);
+    p->spot = arena_alloc(&p->memory, total, sizeof *p->spot);
+    p->rate_class = arena_alloc(&p->memory, total, sizeof *p->rate_class);
     for (int g = 0; g < 2; g++)
-        p->bin[g] = wt_alloc(p->data[g].group.n, sizeof *p->bin[g]);
+        p->bin[g] = arena_alloc(&p->memory, p->data[g].group.n, sizeof *p->bin[g]);
     for (int g = 0; g < 2; g++)
         for (size_t i = 0; i < p->data[g].group.n; i++)
             if (p->data[g].indentation_rate[i] > 0)
@@ -70,7 +63,6 @@ static void compare_assign_bins(compare_pair *p)
         }
     }
     p->by_rate = known[0] && known[1];
-    free(rates);
 }
 
 wt_group compare_select_curves(const compare_pair *p, int g, size_t bin, size_t offset,
@@ -177,17 +169,12 @@ typedef struct named_spot {
 
 /* ---- rows of an indentation table ------------------------------------------------------------ */
 
-static int compare_numbers(double a, double b)
-{
-    return (a > b) - (a < b);
-}
-
 static int compare_spots(const named_spot *x, const named_spot *y)
 {
     const int order = strcmp(x->spot, y->spot);
     if (order != 0)
         return order;
-    return x->x != y->x ? compare_numbers(x->x, y->x) : compare_numbers(x->y, y->y);
+    return x->x != y->x ? numbers_compare(&x->x, &y->x) : numbers_compare(&x->y, &y->y);
 }
 
 static int compare_named_spots(const void *a, const void *b)
@@ -314,15 +301,6 @@ static void count_rejected(const table_view *t, wt_group_data *d)
         }
 }
 
-/* Determines if the spots were named, from the text of the table. A table without this text comes
- * from another program. */
-static void find_spot_naming(const table_view *t, wt_group_data *d)
-{
-    d->spots_are_named = indentation_key_text(t, INDENTATION_KEY_SPOTS) != NULL
-                             ? indentation_key_enum(t, INDENTATION_KEY_SPOTS) == SPOTS_NAMED
-                             : indentation_has(t, INDENTATION_SPOT);
-}
-
 /* Returns the spot of an accepted curve. With `spot_per_position` its position is part of the spot,
  * unless the user named the spots. */
 static named_spot spot_name(const table_view *t, size_t row, size_t item, bool spot_per_position,
@@ -360,25 +338,6 @@ static void read_misfits(const table_view *t, bool spot_per_position, named_spot
     number_spots(names, d->n_fitted, d->fitted_spot);
 }
 
-/* Reads adhesion, largest force and largest indentation of a curve. */
-static void read_pull_and_depth(const table_view *t, size_t row, size_t i, wt_group_data *d)
-{
-    d->pull[i] = fmax(indentation_get(t, row, INDENTATION_ADHESION_FORCE),
-                      indentation_get(t, row, INDENTATION_PULL_OFF_FORCE));
-    d->max_force[i] = indentation_get(t, row, INDENTATION_MAX_FORCE);
-    d->max_indentation[i] = indentation_get(t, row, INDENTATION_MAX_INDENTATION);
-}
-
-/* Returns NaN if the key is missing. */
-static double plain_key_number(const table_view *t, indentation_key key)
-{
-    double value = (double)NAN;
-    const char *words = indentation_key_text(t, key);
-    if (words != NULL && !wt_number_parse(words, strlen(words), '.', &value))
-        value = (double)NAN;
-    return value;
-}
-
 /* Reads quantities that all curves of the group share. */
 static void read_shared_inputs(const table_view *t, wt_group_data *d)
 {
@@ -400,8 +359,9 @@ static void read_shared_inputs(const table_view *t, wt_group_data *d)
     d->range_error = shown_key_error(t, INDENTATION_KEY_RANGE_ERROR);
     d->loss_error = shown_key_error(t, INDENTATION_KEY_LOSS_ERROR);
     d->bend_error = shown_key_error(t, INDENTATION_KEY_BEND_ERROR);
-    d->pooled_misfit = plain_key_number(t, INDENTATION_KEY_POOLED_MISFIT);
-    d->pooled_misfit_p = plain_key_number(t, INDENTATION_KEY_POOLED_MISFIT_CHANCE);
+    d->pooled_misfit = parse_number_or_nan(indentation_key_text(t, INDENTATION_KEY_POOLED_MISFIT));
+    d->pooled_misfit_p =
+        parse_number_or_nan(indentation_key_text(t, INDENTATION_KEY_POOLED_MISFIT_CHANCE));
 }
 
 wt_status wt_group_from_table(const wt_table *table, bool spot_per_position, wt_group_data *data,
@@ -416,20 +376,25 @@ wt_status wt_group_from_table(const wt_table *table, bool spot_per_position, wt_
     const size_t n = t.n_rows;
     named_spot *const names = wt_alloc(n, sizeof *names);
     size_t *const row_of = wt_alloc(n, sizeof *row_of);
-    wt_group_data d = {.modulus = wt_alloc(n, sizeof *d.modulus),
-                       .spot = wt_alloc(n, sizeof *d.spot),
-                       .indentation_rate = wt_alloc(n, sizeof *d.indentation_rate),
-                       .equivalent_frequency = wt_alloc(n, sizeof *d.equivalent_frequency),
-                       .spectrum_factor = wt_alloc(n, sizeof *d.spectrum_factor),
-                       .digest = wt_alloc(n, sizeof *d.digest),
-                       .pull = wt_alloc(n, sizeof *d.pull),
-                       .lack_of_fit = wt_alloc(n, sizeof *d.lack_of_fit),
-                       .fitted_spot = wt_alloc(n, sizeof *d.fitted_spot),
-                       .max_force = wt_alloc(n, sizeof *d.max_force),
-                       .max_indentation = wt_alloc(n, sizeof *d.max_indentation)};
+    double *const numbers = wt_alloc(8 * n, sizeof *numbers);
+    long *const spots = wt_alloc(2 * n, sizeof *spots);
+    wt_group_data d = {.modulus = numbers,
+                       .indentation_rate = numbers + n,
+                       .equivalent_frequency = numbers + 2 * n,
+                       .spectrum_factor = numbers + 3 * n,
+                       .pull = numbers + 4 * n,
+                       .lack_of_fit = numbers + 5 * n,
+                       .max_force = numbers + 6 * n,
+                       .max_indentation = numbers + 7 * n,
+                       .spot = spots,
+                       .fitted_spot = spots + n,
+                       .digest = wt_alloc(n, sizeof *d.digest)};
     status = find_accepted_rows(&t, &d, row_of, err);
     if (status == WT_OK) {
-        find_spot_naming(&t, &d);
+        /* a table without this text comes from another program */
+        d.spots_are_named = indentation_key_text(&t, INDENTATION_KEY_SPOTS) != NULL
+                                ? indentation_key_enum(&t, INDENTATION_KEY_SPOTS) == SPOTS_NAMED
+                                : indentation_has(&t, INDENTATION_SPOT);
         count_rejected(&t, &d);
     }
     double gain = 0;
@@ -441,7 +406,10 @@ wt_status wt_group_from_table(const wt_table *table, bool spot_per_position, wt_
             indentation_get(&t, row_of[i], INDENTATION_EQUIVALENT_FREQUENCY);
         d.spectrum_factor[i] = indentation_get(&t, row_of[i], INDENTATION_SPECTRUM_FACTOR);
         gain += indentation_get(&t, row_of[i], INDENTATION_SENSITIVITY_GAIN);
-        read_pull_and_depth(&t, row_of[i], i, &d);
+        d.pull[i] = fmax(indentation_get(&t, row_of[i], INDENTATION_ADHESION_FORCE),
+                         indentation_get(&t, row_of[i], INDENTATION_PULL_OFF_FORCE));
+        d.max_force[i] = indentation_get(&t, row_of[i], INDENTATION_MAX_FORCE);
+        d.max_indentation[i] = indentation_get(&t, row_of[i], INDENTATION_MAX_INDENTATION);
     }
     if (status == WT_OK) {
         number_spots(names, d.group.n, d.spot);
@@ -464,16 +432,8 @@ void wt_group_data_clear(wt_group_data *data)
 {
     if (data == NULL)
         return;
-    free(data->modulus);
+    free(data->modulus); /* begins the array of all numbers, as `spot` that of all spots */
     free(data->spot);
-    free(data->indentation_rate);
-    free(data->equivalent_frequency);
-    free(data->spectrum_factor);
     free(data->digest);
-    free(data->pull);
-    free(data->lack_of_fit);
-    free(data->fitted_spot);
-    free(data->max_force);
-    free(data->max_indentation);
     *data = (wt_group_data){0};
 }

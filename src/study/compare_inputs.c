@@ -14,29 +14,21 @@
  * to 9 %. */
 enum { DRAWS = 64 };
 
-static double squared(double x)
-{
-    return x * x;
-}
-
-static void include_error(comparison_inputs *k, const char *sign, const char *words)
-{
-    const size_t used = strlen(k->includes);
-    snprintf(k->includes + used, sizeof k->includes - used, "%s%s", sign, words);
-}
-
 /* Adds a variance to that of the offset. An unknown error is named. */
 static void add_offset_error(comparison_inputs *k, double error, const char *words)
 {
-    if (isnan(error)) {
-        const size_t used = strlen(k->lacks);
-        include_error(k, ", but not, for it is not known: ", words);
-        snprintf(k->lacks + used, sizeof k->lacks - used, "%s%s", used > 0 ? ", " : "", words);
-    }
-    if (!(error > 0))
-        return;
-    k->offset.standard_error = hypot(k->offset.standard_error, error);
-    include_error(k, ", ", words);
+    if (isnan(error))
+        clocale_append(k->lacks, sizeof k->lacks, "%s%s", k->lacks[0] != '\0' ? ", " : "", words);
+    if (isnan(error) || error > 0)
+        clocale_append(k->includes, sizeof k->includes, "%s%s",
+                       isnan(error) ? ", but not, for it is not known: " : ", ", words);
+    if (error > 0)
+        k->offset.standard_error = hypot(k->offset.standard_error, error);
+}
+
+static void cancel_error(comparison_inputs *k, const char *words)
+{
+    clocale_append(k->cancels, sizeof k->cancels, "%s%s", k->cancels[0] != '\0' ? ", " : "", words);
 }
 
 static bool has_two_cantilevers(const compare_pair *p, wt_cantilever_sharing levers)
@@ -85,16 +77,9 @@ static calibration_error group_calibration(const wt_group_data *d, const wt_comp
 
 static bool has_tip_error(const wt_group_data *d)
 {
-    return d->common_error[WT_SYSTEMATIC_HALF_ANGLE] > 0 ||
-           d->common_error[WT_SYSTEMATIC_RADIUS] > 0 ||
-           d->assumed_error[WT_SYSTEMATIC_HALF_ANGLE] > 0 ||
-           d->assumed_error[WT_SYSTEMATIC_RADIUS] > 0;
-}
-
-static void cancel_error(comparison_inputs *k, const char *words)
-{
-    const size_t used = strlen(k->cancels);
-    snprintf(k->cancels + used, sizeof k->cancels - used, "%s%s", used > 0 ? ", " : "", words);
+    const double *const common = d->common_error, *const assumed = d->assumed_error;
+    return common[WT_SYSTEMATIC_HALF_ANGLE] > 0 || common[WT_SYSTEMATIC_RADIUS] > 0 ||
+           assumed[WT_SYSTEMATIC_HALF_ANGLE] > 0 || assumed[WT_SYSTEMATIC_RADIUS] > 0;
 }
 
 /* With one cantilever and tip their errors apply to both groups, and the difference of the gains
@@ -219,7 +204,7 @@ wt_status compare_material(const wt_rubber *rubber, const material_state *at, in
         if (i == 0) {
             value->value = y;
         } else if (status == WT_OK && isfinite(y)) {
-            sum += squared(y - value->value);
+            sum += (y - value->value) * (y - value->value);
             n++;
         }
     }
@@ -230,7 +215,6 @@ wt_status compare_material(const wt_rubber *rubber, const material_state *at, in
 wt_status compare_temperature_error(const wt_rubber *rubber, material_state at, double error,
                                     const wt_job *work, double *relative, wt_error *err)
 {
-    wt_error why = WT_ERROR_INIT;
     double y[2] = {0, 0};
     wt_status status = WT_OK;
     const double below = at.temperature - error;
@@ -239,7 +223,7 @@ wt_status compare_temperature_error(const wt_rubber *rubber, material_state at, 
         return WT_OK;
     for (int i = 0; status == WT_OK && i < 2; i++) {
         at.temperature = below + 2 * error * i;
-        if (!(at.temperature > 0) || !flow_rubber_can_shift(rubber, at.temperature, &why)) {
+        if (!(at.temperature > 0) || !flow_rubber_can_shift(rubber, at.temperature, NULL)) {
             *relative = (double)NAN;
             return WT_OK;
         }
@@ -294,13 +278,12 @@ wt_status compare_temperature_slope(const compare_pair *p, const wt_compare_job 
                                     const wt_job *work, double *slope, wt_error *err)
 {
     material_state at = {compare_temperature(job, 0).value, mean_frequency(&p->data[0])};
-    wt_error why = WT_ERROR_INIT;
     double y[2] = {0, 0};
     wt_status status = WT_OK;
     *slope = 0;
     at.temperature -= 1;
-    if (!(at.frequency > 0) || !flow_rubber_can_shift(job->rubber, at.temperature, &why) ||
-        !flow_rubber_can_shift(job->rubber, at.temperature + 2, &why))
+    if (!(at.frequency > 0) || !flow_rubber_can_shift(job->rubber, at.temperature, NULL) ||
+        !flow_rubber_can_shift(job->rubber, at.temperature + 2, NULL))
         return WT_OK;
     for (int i = 0; status == WT_OK && i < 2; i++, at.temperature += 2)
         status = log_modulus(job->rubber, at, work->seed, WT_NO_REPLICATE, &y[i], err);

@@ -21,7 +21,26 @@ typedef struct source {
     bool (*applies)(const case_variant *s);
     bool (*stated)(const case_variant *s);
     void (*hold)(case_variant *s); /* removes the error of the source */
+    size_t member; /* offset of the estimate whose error it is, where both functions are NULL */
 } source;
+
+static wt_estimate *source_estimate(const source *of, case_variant *s)
+{
+    return (wt_estimate *)(void *)((char *)s + of->member);
+}
+
+static bool is_stated(const source *of, case_variant *s)
+{
+    return of->stated != NULL ? of->stated(s) : source_estimate(of, s)->standard_error > 0;
+}
+
+static void hold_source(const source *of, case_variant *s)
+{
+    if (of->hold != NULL)
+        of->hold(s);
+    else
+        source_estimate(of, s)->standard_error = 0;
+}
 
 static bool is_always_applicable(const case_variant *s)
 {
@@ -40,24 +59,6 @@ static void fix_rubber(case_variant *s)
     s->rubber.n_draws = 0;
     s->rubber.c1_error = s->rubber.c2_error = 0;
 }
-
-#define ESTIMATE_SOURCE(name, member)                                                              \
-    static bool is_stated_##name(const case_variant *s)                                            \
-    {                                                                                              \
-        return s->member.standard_error > 0;                                                       \
-    }                                                                                              \
-    static void fix_##name(case_variant *s)                                                        \
-    {                                                                                              \
-        s->member.standard_error = 0;                                                              \
-    }
-ESTIMATE_SOURCE(pressure, sliding.pressure)
-ESTIMATE_SOURCE(temperature, sliding.temperature)
-ESTIMATE_SOURCE(shear, sliding.shear_stress)
-ESTIMATE_SOURCE(wear, layer.specific_wear_rate)
-ESTIMATE_SOURCE(energy, layer.critical_energy)
-ESTIMATE_SOURCE(observed, layer.observed_thickness)
-ESTIMATE_SOURCE(thickness, layer_observation.thickness)
-ESTIMATE_SOURCE(slope, layer_observation.ratio_slope)
 
 /* Stated error of the density, or scatter of a measured surface over sites, modes and law. */
 static bool is_stated_roughness(const case_variant *s)
@@ -146,7 +147,8 @@ static bool has_ratio(const case_variant *s)
 /* False if the ratio does not depend on the frequency. */
 static bool has_ratio_slope(const case_variant *s)
 {
-    return has_ratio(s) && (s->layer_observation.ratio_slope.value != 0 || is_stated_slope(s));
+    const wt_estimate slope = s->layer_observation.ratio_slope;
+    return has_ratio(s) && (slope.value != 0 || slope.standard_error > 0);
 }
 
 /* False if there is no calibration error or if it cancels. */
@@ -159,32 +161,35 @@ static const char calibration_remedy[] = "one cantilever for both groups, or spr
                                          "sensitivities, tips and temperatures known "
                                          "better";
 
+#define ERROR_OF(estimate) NULL, NULL, offsetof(case_variant, estimate)
 static const source sources[] = {
     {"material", "a second DMA run; temperatures known better", is_always_applicable,
-     is_stated_rubber, fix_rubber},
+     is_stated_rubber, fix_rubber, 0},
     {"pressure", "the load and the nominal area known better", is_always_applicable,
-     is_stated_pressure, fix_pressure},
+     ERROR_OF(sliding.pressure)},
     {"temperature", "the temperature in sliding measured", is_always_applicable,
-     is_stated_temperature, fix_temperature},
+     ERROR_OF(sliding.temperature)},
     {"roughness", "more scans of the counter surface", is_always_applicable, is_stated_roughness,
-     fix_roughness},
+     fix_roughness, 0},
     {"softening with strain", "more strain sweeps at the temperature of the contact", has_softness,
-     is_stated_softness, fix_strain_softening},
-    {"shear stress", "more friction runs that give it", has_shear_stress, is_stated_shear,
-     fix_shear},
-    {"specific wear rate", "more or longer wear runs", has_layer, is_stated_wear, fix_wear},
-    {"critical energy", "more layers of known thickness", has_critical_energy, is_stated_energy,
-     fix_energy},
-    {"observed thickness", "the layer measured at more places", has_observed, is_stated_observed,
-     fix_observed},
-    {"layer thickness", "the layer measured at more places", has_thickness, is_stated_thickness,
-     fix_thickness},
+     is_stated_softness, fix_strain_softening, 0},
+    {"shear stress", "more friction runs that give it", has_shear_stress,
+     ERROR_OF(sliding.shear_stress)},
+    {"specific wear rate", "more or longer wear runs", has_layer,
+     ERROR_OF(layer.specific_wear_rate)},
+    {"critical energy", "more layers of known thickness", has_critical_energy,
+     ERROR_OF(layer.critical_energy)},
+    {"observed thickness", "the layer measured at more places", has_observed,
+     ERROR_OF(layer.observed_thickness)},
+    {"layer thickness", "the layer measured at more places", has_thickness,
+     ERROR_OF(layer_observation.thickness)},
     {"modulus ratio", "more spots: four times as many halve it", has_ratio, is_stated_ratio,
-     fix_ratio},
+     fix_ratio, 0},
     {"slope of the modulus ratio", "more spots indented at rates further apart", has_ratio_slope,
-     is_stated_slope, fix_slope},
-    {"calibration", calibration_remedy, has_calibration, is_stated_calibration, fix_calibration},
+     ERROR_OF(layer_observation.ratio_slope)},
+    {"calibration", calibration_remedy, has_calibration, is_stated_calibration, fix_calibration, 0},
 };
+#undef ERROR_OF
 enum { SOURCES = COUNT_OF(sources) };
 
 /* ---- computation ----------------------------------------------------------------------------- */
@@ -228,15 +233,14 @@ static wt_status compute_budget(error_budget_run *b, wt_error *err)
         case_variant alone = b->case_variant;
         if (!sources[i].applies(&b->case_variant))
             continue;
-        if (!sources[i].stated(&b->case_variant)) {
-            const size_t length = strlen(b->lacks);
-            snprintf(b->lacks + length, sizeof b->lacks - length, "%s%s", length > 0 ? ", " : "",
-                     sources[i].words);
+        if (!is_stated(&sources[i], &b->case_variant)) {
+            clocale_append(b->lacks, sizeof b->lacks, "%s%s", b->lacks[0] != '\0' ? ", " : "",
+                           sources[i].words);
             continue;
         }
         for (size_t k = 0; k < SOURCES; k++)
             if (k != i)
-                sources[k].hold(&alone);
+                hold_source(&sources[k], &alone);
         status = compute_budget_outcome(b, &alone, b->work.replicates, &b->of[i], err);
     }
     return status;
@@ -293,11 +297,6 @@ static void add_budget_row(const char *number, double value, row r, table_writer
     TABLE_ADD(error_budget, t, number, r);
 }
 
-static void add_number_row(const error_budget_run *b, case_quantity k, row r, table_writer *t)
-{
-    add_budget_row(case_quantity_names[k], b->values.number[k].value, r, t);
-}
-
 /* Dominant contributions to a number. */
 typedef struct number_summary {
     const source *largest; /* NULL if none is known */
@@ -308,6 +307,7 @@ typedef struct number_summary {
 static void add_measured_rows(const error_budget_run *b, case_quantity k, number_summary *v,
                               table_writer *t)
 {
+    const double value = b->values.number[k].value;
     double sum = 0;
     for (size_t i = 0; i < SOURCES; i++) {
         const double error = b->of[i].number[k].standard_error;
@@ -319,7 +319,7 @@ static void add_measured_rows(const error_budget_run *b, case_quantity k, number
         if (!b->of[i].computed || !(error > 0))
             continue;
         const double part = error / sum, share = part * part;
-        add_number_row(b, k,
+        add_budget_row(case_quantity_names[k], value,
                        (row){sources[i].words, ERROR_MEASURED, sources[i].remedy, error, share,
                              b->of[i].seconds},
                        t);
@@ -333,12 +333,13 @@ static void add_measured_rows(const error_budget_run *b, case_quantity k, number
 static void add_model_rows(const error_budget_run *b, case_quantity k, const table_view *what_if,
                            number_summary *v, table_writer *t)
 {
+    const double value = b->values.number[k].value;
     for (size_t r = 1; r < what_if->n_rows;) {
         choice_range range;
         r = find_choice_range(what_if, r, numbers[k].column, &range);
         if (!(range.half > 0))
             continue;
-        add_number_row(b, k,
+        add_budget_row(case_quantity_names[k], value,
                        (row){range.words, ERROR_MODEL, "a measurement that settles the choice",
                              range.half, (double)NAN, cost_part_seconds(b->work.cost, range.words)},
                        t);
@@ -386,22 +387,22 @@ static void set_advice(const error_budget_run *b, case_quantity k, const number_
 static void add_number_rows(const error_budget_run *b, case_quantity k, const table_view *what_if,
                             table_writer *t)
 {
-    const wt_estimate *value = &b->values.number[k];
+    const double value = b->values.number[k].value;
     number_summary v = {.together = b->all.number[k].standard_error,
-                        .numerical = value->numerical_error};
+                        .numerical = b->values.number[k].numerical_error};
     const double n = (double)b->work.replicates;
     add_measured_rows(b, k, &v, t);
     if (isfinite(v.together)) {
-        add_number_row(
-            b, k,
+        add_budget_row(
+            case_quantity_names[k], value,
             (row){"all together", ERROR_TOGETHER, "", v.together, (double)NAN, b->all.seconds}, t);
-        add_number_row(b, k,
+        add_budget_row(case_quantity_names[k], value,
                        (row){"number of replicates", ERROR_DRAWS,
                              "four times the replicates halve it", v.together / sqrt(2 * (n - 1)),
                              (double)NAN, b->all.seconds},
                        t);
     }
-    add_number_row(b, k,
+    add_budget_row(case_quantity_names[k], value,
                    (row){"arithmetic", ERROR_NUMERICAL, "a tighter tolerance", v.numerical,
                          (double)NAN, b->values.seconds},
                    t);

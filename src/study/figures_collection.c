@@ -19,12 +19,11 @@ typedef struct panel_names {
 } panel_names;
 
 /* Collects the distinct texts of a column in the order of the table, which is sorted by sample. */
-static panel_names find_collection_panels(const table_view *table,
-                                          const char *(*text)(const table_view *, size_t))
+static panel_names find_collection_panels(const table_view *table, unsigned column)
 {
     panel_names found = {.n = 0};
     for (size_t row = 0; row < table->n_rows; row++) {
-        const char *name = text(table, row);
+        const char *name = view_text(table, table->schema, row, column);
         bool seen = false;
         for (size_t i = 0; i < found.n && !seen; i++)
             seen = strcmp(found.name[i], name) == 0;
@@ -33,16 +32,6 @@ static panel_names find_collection_panels(const table_view *table,
             found.name[found.n++] = name;
     }
     return found;
-}
-
-static const char *row_sample(const table_view *table, size_t row)
-{
-    return collected_modulus_text(table, row, COLLECTED_MODULUS_SAMPLE);
-}
-
-static const char *row_condition(const table_view *table, size_t row)
-{
-    return collected_friction_text(table, row, COLLECTED_FRICTION_CONDITION);
 }
 
 /* Common layout of all figures: adjacent panels with one scale. */
@@ -72,12 +61,19 @@ static bool find_panel_sections(figure_drawing *d, panel_grid *g)
     return d->status == WT_OK && !span_is_empty(&d->x) && !span_is_empty(&d->y[0]);
 }
 
+/* Sets the size of a figure of n panels. Returns the number of columns. */
+static size_t set_grid_size(figure_drawing *d, size_t n, double height)
+{
+    const size_t columns = n < 3 ? n : n == 4 ? 2 : 3;
+    d->width = columns == 1 ? 1 : columns == 2 ? 1.6 : 2;
+    d->height = height * (double)((n + columns - 1) / columns);
+    return columns;
+}
+
 static void begin_grid(figure_drawing *d, const panel_grid *g)
 {
-    const size_t columns = g->of.n < 3 ? g->of.n : g->of.n == 4 ? 2 : 3;
-    const size_t lines = (g->of.n + columns - 1) / columns;
-    d->width = columns == 1 ? 1 : columns == 2 ? 1.6 : 2;
-    d->height = 0.95 * (double)lines;
+    const size_t columns = set_grid_size(d, g->of.n, 0.95),
+                 lines = (g->of.n + columns - 1) / columns;
     /* margin for the legend above the first panel, two names in a line; the other panels have the
      * same size */
     text_format(&d->script, "set tmargin %zu\nset multiplot layout %zu,%zu\n",
@@ -116,6 +112,7 @@ static void draw_collection_panel(figure_drawing *d, const panel_grid *g, size_t
 
 static void draw_grid(figure_drawing *d, panel_grid *g)
 {
+    g->of = find_collection_panels(d->table, g->panel);
     if (!find_panel_sections(d, g))
         return;
     begin_grid(d, g);
@@ -128,8 +125,7 @@ static void draw_grid(figure_drawing *d, panel_grid *g)
 
 static void draw_moduli(figure_drawing *d)
 {
-    panel_grid g = {.of = find_collection_panels(d->table, row_sample),
-                    .panel = COLLECTED_MODULUS_SAMPLE,
+    panel_grid g = {.panel = COLLECTED_MODULUS_SAMPLE,
                     .group = COLLECTED_MODULUS_PLACE,
                     .data = {COLLECTED_MODULUS_RATE, COLLECTED_MODULUS_MODULUS,
                              COLLECTED_MODULUS_MODULUS_LOW, COLLECTED_MODULUS_MODULUS_HIGH},
@@ -140,23 +136,16 @@ static void draw_moduli(figure_drawing *d)
 
 static void draw_friction(figure_drawing *d)
 {
-    panel_grid g = {.of = find_collection_panels(d->table, row_condition),
-                    .panel = COLLECTED_FRICTION_CONDITION,
+    panel_grid g = {.panel = COLLECTED_FRICTION_CONDITION,
                     .group = COLLECTED_FRICTION_SAMPLE,
                     .data = {COLLECTED_FRICTION_VELOCITY, COLLECTED_FRICTION_FRICTION},
                     .n_data = 2};
     draw_grid(d, &g);
 }
 
-static const char *force_row_sample(const table_view *table, size_t row)
-{
-    return collected_force_text(table, row, COLLECTED_FORCE_SAMPLE);
-}
-
 static void draw_force(figure_drawing *d)
 {
-    panel_grid g = {.of = find_collection_panels(d->table, force_row_sample),
-                    .panel = COLLECTED_FORCE_SAMPLE,
+    panel_grid g = {.panel = COLLECTED_FORCE_SAMPLE,
                     .group = COLLECTED_FORCE_PLACE,
                     .data = {COLLECTED_FORCE_INDENTATION, COLLECTED_FORCE_FORCE},
                     .n_data = 2,
@@ -229,9 +218,7 @@ static void draw_constants(figure_drawing *d)
     const size_t n = find_constants(d, shown, &too_many);
     if (d->status != WT_OK || span_is_empty(&d->y[0]))
         return;
-    const size_t columns = n < 3 ? n : n == 4 ? 2 : 3, lines = (n + columns - 1) / columns;
-    d->width = columns == 1 ? 1 : columns == 2 ? 1.6 : 2;
-    d->height = (double)lines;
+    const size_t columns = set_grid_size(d, n, 1), lines = (n + columns - 1) / columns;
     text_format(&d->script,
                 "set bmargin 7\nset rmargin 6\nset multiplot layout %zu,%zu\n"
                 "unset key\n",

@@ -15,12 +15,17 @@ enum { POINTS = 73, REGIONS = 36, PANELS = 3 };
 /* Number of line styles, and offset of the dashed styles. */
 enum { STYLES = 6, DASHED = 30 };
 
-/* Row of a table of pairs. */
-typedef struct constant_estimates {
-    double energy, energy_error, wear, wear_error, correlation;
-    const char *by, *name;
-    char room[128]; /* storage of the name */
-} constant_estimates;
+/* Columns of a table of pairs. */
+typedef struct estimate_columns {
+    unsigned energy, energy_error, wear, wear_error, correlation, by;
+} estimate_columns;
+static const estimate_columns
+    of_one_layer = {IDENTIFICATION_ENERGY,      IDENTIFICATION_ENERGY_STANDARD_ERROR,
+                    IDENTIFICATION_WEAR,        IDENTIFICATION_WEAR_STANDARD_ERROR,
+                    IDENTIFICATION_CORRELATION, IDENTIFICATION_BY},
+    of_cases = {COLLECTED_CONSTANTS_ENERGY,      COLLECTED_CONSTANTS_ENERGY_STANDARD_ERROR,
+                COLLECTED_CONSTANTS_WEAR,        COLLECTED_CONSTANTS_WEAR_STANDARD_ERROR,
+                COLLECTED_CONSTANTS_CORRELATION, COLLECTED_CONSTANTS_BY};
 
 /* Returns the heading of a method. */
 static const char *panel_heading(const char *by)
@@ -32,60 +37,33 @@ static const char *panel_heading(const char *by)
     return method <= BY_TRANSPORT ? headings[method] : by;
 }
 
-static void read_identification(const table_view *t, size_t row, constant_estimates *p)
-{
-    *p = (constant_estimates){identification_get(t, row, IDENTIFICATION_ENERGY),
-                              identification_get(t, row, IDENTIFICATION_ENERGY_STANDARD_ERROR),
-                              identification_get(t, row, IDENTIFICATION_WEAR),
-                              identification_get(t, row, IDENTIFICATION_WEAR_STANDARD_ERROR),
-                              identification_get(t, row, IDENTIFICATION_CORRELATION),
-                              "",
-                              panel_heading(identification_text(t, row, IDENTIFICATION_BY)),
-                              ""};
-}
-
-static void read_collected_constants(const table_view *t, size_t row, constant_estimates *p)
-{
-    const char *condition = collected_constants_text(t, row, COLLECTED_CONSTANTS_CONDITION);
-    *p = (constant_estimates){
-        collected_constants_get(t, row, COLLECTED_CONSTANTS_ENERGY),
-        collected_constants_get(t, row, COLLECTED_CONSTANTS_ENERGY_STANDARD_ERROR),
-        collected_constants_get(t, row, COLLECTED_CONSTANTS_WEAR),
-        collected_constants_get(t, row, COLLECTED_CONSTANTS_WEAR_STANDARD_ERROR),
-        collected_constants_get(t, row, COLLECTED_CONSTANTS_CORRELATION),
-        collected_constants_text(t, row, COLLECTED_CONSTANTS_BY),
-        NULL,
-        ""};
-    snprintf(p->room, sizeof p->room, "%s%s%s",
-             collected_constants_text(t, row, COLLECTED_CONSTANTS_SAMPLE),
-             condition[0] != '\0' ? ", " : "", condition);
-    p->name = p->room;
-}
-
-typedef void read_estimates(const table_view *t, size_t row, constant_estimates *p);
-
 /* Adds the points of the joint region. NO_SECTION if there is none. */
-static int add_region(figure_drawing *d, const constant_estimates *p)
+static int add_region(figure_drawing *d, size_t row, const estimate_columns *at, const char *name)
 {
     static const char *const columns[] = {"critical_energy", "specific_wear_rate", NULL},
                              *const units[] = {"J/m^3", "m^2/N", NULL};
+    const table_view *const t = d->table;
     double points[2 * POINTS];
-    const double of_energy = radius_95 * p->energy_error / p->energy,
-                 of_wear = radius_95 * p->wear_error / p->wear,
-                 across = sqrt(1 - p->correlation * p->correlation);
+    const double energy = view_number(t, t->schema, row, at->energy),
+                 wear = view_number(t, t->schema, row, at->wear),
+                 of_energy = radius_95 * view_number(t, t->schema, row, at->energy_error) / energy,
+                 of_wear = radius_95 * view_number(t, t->schema, row, at->wear_error) / wear,
+                 correlation = view_number(t, t->schema, row, at->correlation),
+                 across = sqrt(1 - correlation * correlation);
     if (!isfinite(of_energy) || !isfinite(of_wear) || !isfinite(across))
         return NO_SECTION;
     for (size_t i = 0; i < POINTS; i++) {
-        const double at = 2 * M_PI * (double)i / (POINTS - 1);
-        points[2 * i] = p->energy * exp(of_energy * cos(at));
-        points[2 * i + 1] = p->wear * exp(of_wear * (p->correlation * cos(at) + across * sin(at)));
+        const double angle = 2 * M_PI * (double)i / (POINTS - 1);
+        points[2 * i] = energy * exp(of_energy * cos(angle));
+        points[2 * i + 1] = wear * exp(of_wear * (correlation * cos(angle) + across * sin(angle)));
     }
-    return drawing_number_section(d, p->name, columns, units, points, POINTS);
+    return drawing_number_section(d, name, columns, units, points, POINTS);
 }
 
 typedef struct region {
     int section;
-    size_t panel, row;
+    size_t panel;
+    char name[128];
 } region;
 
 typedef struct regions {
@@ -94,26 +72,39 @@ typedef struct regions {
     size_t n, n_panels;
 } regions;
 
-static void find_regions(figure_drawing *d, read_estimates *read, regions *r)
+/* Regions of one layer have a common panel and the names of their methods, those of several cases a
+ * panel for each method and the names of the cases. */
+static void find_regions(figure_drawing *d, const estimate_columns *at, regions *r)
 {
     *r = (regions){.n = 0};
     for (size_t row = 0; row < d->table->n_rows && d->status == WT_OK; row++) {
-        constant_estimates p;
+        const char *by = view_text(d->table, d->table->schema, row, at->by);
+        region new_region;
         size_t panel = 0;
-        read(d->table, row, &p);
-        while (panel < r->n_panels && strcmp(r->by[panel], p.by) != 0)
+        if (at == &of_one_layer) {
+            snprintf(new_region.name, sizeof new_region.name, "%s", panel_heading(by));
+            by = "";
+        } else {
+            const char *condition =
+                collected_constants_text(d->table, row, COLLECTED_CONSTANTS_CONDITION);
+            snprintf(new_region.name, sizeof new_region.name, "%s%s%s",
+                     collected_constants_text(d->table, row, COLLECTED_CONSTANTS_SAMPLE),
+                     condition[0] != '\0' ? ", " : "", condition);
+        }
+        while (panel < r->n_panels && strcmp(r->by[panel], by) != 0)
             panel++;
-        const int section = r->n < REGIONS && panel < PANELS ? add_region(d, &p) : NO_SECTION;
-        if (section == NO_SECTION)
+        new_region.panel = panel;
+        new_region.section =
+            r->n < REGIONS && panel < PANELS ? add_region(d, row, at, new_region.name) : NO_SECTION;
+        if (new_region.section == NO_SECTION)
             continue;
-        r->by[panel] = p.by;
+        r->by[panel] = by;
         r->n_panels = panel == r->n_panels ? panel + 1 : r->n_panels;
-        r->of[r->n++] = (region){section, panel, row};
+        r->of[r->n++] = new_region;
     }
 }
 
-static void draw_region_panel(figure_drawing *d, read_estimates *read, const regions *r,
-                              size_t panel)
+static void draw_region_panel(figure_drawing *d, const regions *r, size_t panel)
 {
     size_t shown = 0;
     d->x = d->y[0] = EMPTY_SPAN;
@@ -127,26 +118,23 @@ static void draw_region_panel(figure_drawing *d, read_estimates *read, const reg
     if (r->n_panels > 1)
         plot_heading(d, panel_heading(r->by[panel]));
     text_add(&d->script, panel == 1 ? "unset key\n" : "");
-    for (size_t i = 0; i < r->n; i++) {
-        constant_estimates p;
-        if (r->of[i].panel != panel)
-            continue;
-        read(d->table, r->of[i].row, &p);
-        plot_item(d, r->of[i].section, "($1*x_unit):($2*y_unit) with lines ls %zu",
-                  1 + shown % STYLES + (shown < STYLES ? 0 : DASHED));
-        plot_title(d, p.name);
-        shown++;
-    }
+    for (size_t i = 0; i < r->n; i++)
+        if (r->of[i].panel == panel) {
+            plot_item(d, r->of[i].section, "($1*x_unit):($2*y_unit) with lines ls %zu",
+                      1 + shown % STYLES + (shown < STYLES ? 0 : DASHED));
+            plot_title(d, r->of[i].name);
+            shown++;
+        }
     plot_end(d);
 }
 
 /* Draws a panel for each method, as their regions may be decades apart. The common legend is above
  * the first panel. */
-static void draw_regions(figure_drawing *d, read_estimates *read)
+static void draw_regions(figure_drawing *d)
 {
     regions r;
     size_t names = 0;
-    find_regions(d, read, &r);
+    find_regions(d, d->table->schema == &identification_schema ? &of_one_layer : &of_cases, &r);
     if (d->status != WT_OK || r.n == 0)
         return;
     for (size_t i = 0; i < r.n; i++)
@@ -158,7 +146,7 @@ static void draw_regions(figure_drawing *d, read_estimates *read)
                     "set xtics rotate by -40\n",
                     3 + names, r.n_panels);
     for (size_t panel = 0; panel < r.n_panels; panel++)
-        draw_region_panel(d, read, &r, panel);
+        draw_region_panel(d, &r, panel);
     if (r.n_panels > 1)
         text_add(&d->script, "unset multiplot\n");
 }
@@ -167,16 +155,6 @@ static void caption_regions(figure_drawing *d)
 {
     if (d->n_sections == REGIONS)
         text_format(&d->caption, " The first %d only.", REGIONS);
-}
-
-static void draw_identification(figure_drawing *d)
-{
-    draw_regions(d, read_identification);
-}
-
-static void draw_collected(figure_drawing *d)
-{
-    draw_regions(d, read_collected_constants);
 }
 
 const figure_description figures_constants[] = {
@@ -190,7 +168,7 @@ const figure_description figures_constants[] = {
      .caption_text =
          "Regions that hold critical energy and specific wear rate together in 95 %, by what is "
          "known of the layer. What is long and narrow is known across, and hardly along.",
-     .draw = draw_identification},
+     .draw = draw_regions},
     {.name = "collected_constants",
      .title = "Critical energy and wear rate of the cases",
      .table = &collected_constants_schema,
@@ -201,7 +179,7 @@ const figure_description figures_constants[] = {
      .caption_text =
          "Regions that hold critical energy and specific wear rate of a case together in 95 %, a "
          "panel for each way to know them. Whether one pair is behind them is in the table.",
-     .draw = draw_collected,
+     .draw = draw_regions,
      .caption = caption_regions},
     {.name = NULL},
 };

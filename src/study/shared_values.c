@@ -26,21 +26,13 @@ static file_match compare_input_rows(const table_view *a, size_t i, const table_
                : FILES_SAME_SIZE;
 }
 
-static bool has_role(const table_view *inputs, size_t row, const char *role)
+/* True if the file of a row has one of n roles. */
+static bool has_role(const table_view *inputs, size_t row, const char *const *roles, size_t n)
 {
-    return strcmp(inputs_text(inputs, row, INPUTS_ROLE), role) == 0;
-}
-
-static file_match compare_role(const table_view *a, const table_view *b, const char *role)
-{
-    file_match closest = FILES_DIFFERENT;
-    for (size_t i = 0; i < a->n_rows; i++)
-        for (size_t k = 0; k < b->n_rows && has_role(a, i, role); k++) {
-            const file_match found =
-                has_role(b, k, role) ? compare_input_rows(a, i, b, k) : FILES_DIFFERENT;
-            closest = found > closest ? found : closest;
-        }
-    return closest;
+    bool any = false;
+    for (size_t i = 0; i < n && roles[i] != NULL; i++)
+        any = any || strcmp(inputs_text(inputs, row, INPUTS_ROLE), roles[i]) == 0;
+    return any;
 }
 
 static bool bind_inputs(const collected_case *c, table_view *inputs)
@@ -49,18 +41,22 @@ static bool bind_inputs(const collected_case *c, table_view *inputs)
            inputs->table != NULL;
 }
 
-/* A result without a list of files may share any. */
+/* Compares the files of equal roles. A result without a list of files may share any. */
 static file_match compare_input_files(const collected_case *a, const collected_case *b,
-                                      const char *const *roles, size_t n_roles)
+                                      const char *const *roles, size_t n)
 {
-    table_view inputs_a, inputs_b;
+    table_view of_a, of_b;
     file_match closest = FILES_DIFFERENT;
-    if (!bind_inputs(a, &inputs_a) || !bind_inputs(b, &inputs_b))
+    if (!bind_inputs(a, &of_a) || !bind_inputs(b, &of_b))
         return FILES_SAME_SIZE;
-    for (size_t i = 0; i < n_roles; i++) {
-        const file_match found = compare_role(&inputs_a, &inputs_b, roles[i]);
-        closest = found > closest ? found : closest;
-    }
+    for (size_t i = 0; i < of_a.n_rows; i++)
+        for (size_t k = 0; k < of_b.n_rows && has_role(&of_a, i, roles, n); k++) {
+            const char *const role = inputs_text(&of_a, i, INPUTS_ROLE);
+            const file_match found = has_role(&of_b, k, &role, 1)
+                                         ? compare_input_rows(&of_a, i, &of_b, k)
+                                         : FILES_DIFFERENT;
+            closest = found > closest ? found : closest;
+        }
     return closest;
 }
 
@@ -92,11 +88,8 @@ double shared_covariance(const case_value *a, const case_value *b)
     double sum = 0;
     for (input_category i = 0; i < INPUT_CATEGORIES; i++) {
         const double closest = sqrt(a->by_files[i] * b->by_files[i]);
-        size_t n = 0;
-        while (n < COUNT_OF(sources[i].roles) && sources[i].roles[n] != NULL)
-            n++;
-        if (closest > 0 &&
-            compare_input_files(a->of, b->of, sources[i].roles, n) != FILES_DIFFERENT)
+        if (closest > 0 && compare_input_files(a->of, b->of, sources[i].roles,
+                                               COUNT_OF(sources[i].roles)) != FILES_DIFFERENT)
             sum += closest;
     }
     return sum;
@@ -109,8 +102,7 @@ static bool has_input_role(const collected_case *c, const char *const *roles, si
     if (!bind_inputs(c, &inputs))
         return false;
     for (size_t row = 0; row < inputs.n_rows; row++)
-        for (size_t k = 0; k < n; k++)
-            any = any || has_role(&inputs, row, roles[k]);
+        any = any || has_role(&inputs, row, roles, n);
     return any;
 }
 
@@ -122,19 +114,9 @@ bool inputs_may_be_shared(const collected_case *a, const collected_case *b)
            compare_input_files(a, b, roles, n) != FILES_DIFFERENT;
 }
 
-static wt_status bind_case_table(const collected_case *c, const table_schema *schema,
-                                 const char *suffix, table_view *view, wt_error *err)
-{
-    const wt_status status = table_bind_result(c->result, schema, suffix, view, err);
-    if (status != WT_OK)
-        wt_error_file(err, c->file);
-    return status;
-}
-
-const char *const shared_constant_names[N_SHARED_CONSTANTS] = {[SHARED_WEAR] = "specific wear rate",
-                                                               [SHARED_SHEAR] = "shear stress",
-                                                               [SHARED_RATE] =
-                                                                   "modulus over a decade of rate"};
+const char *const shared_constant_names[] = {[SHARED_WEAR] = "specific wear rate",
+                                             [SHARED_SHEAR] = "shear stress",
+                                             [SHARED_RATE] = "modulus over a decade of rate"};
 
 /* ---- values of the cases --------------------------------------------------------------------- */
 
@@ -147,16 +129,14 @@ void shared_value_name(const case_value *v, char *text, size_t size)
 static void exclude_value(case_value_list *from, const case_value *v, const char *why)
 {
     char name[256];
-    const size_t used = strlen(from->left_out);
+    const size_t used = strlen(from->left_out), room = sizeof from->left_out - used;
     shared_value_name(v, name, sizeof name);
-    const char *between = used > 0 ? "; " : "";
-    const int length =
-        snprintf(NULL, 0, "%s%s of %s: %s", between, shared_constant_names[v->constant], name, why);
-    if (from->unnamed > 0 || used + (size_t)length >= sizeof from->left_out)
+    const int length = snprintf(from->left_out + used, room, "%s%s of %s: %s", used > 0 ? "; " : "",
+                                shared_constant_names[v->constant], name, why);
+    if (from->unnamed > 0 || (size_t)length >= room) {
+        from->left_out[used] = '\0';
         from->unnamed++;
-    else
-        snprintf(from->left_out + used, sizeof from->left_out - used, "%s%s of %s: %s", between,
-                 shared_constant_names[v->constant], name, why);
+    }
 }
 
 /* True if the value uses the measurement of an earlier value. It is then excluded. */
@@ -217,7 +197,7 @@ static double positive_log(double value)
 static wt_status add_case_wear(const collected_case *c, case_value_list *to, wt_error *err)
 {
     table_view wear;
-    const wt_status status = bind_case_table(c, &wear_schema, "", &wear, err);
+    const wt_status status = collected_bind(c, &wear_schema, "", &wear, err);
     if (status != WT_OK)
         return status;
     const wt_estimate k = wear_value(&wear, WEAR_KEY_RATE);
@@ -235,7 +215,7 @@ static wt_status find_shear_components(const collected_case *c, double variance,
                                        double parts[INPUT_CATEGORIES], wt_error *err)
 {
     table_view table;
-    const wt_status status = bind_case_table(c, &validation_sources_schema, "", &table, err);
+    const wt_status status = collected_bind(c, &validation_sources_schema, "", &table, err);
     for (size_t row = 0; status == WT_OK && row < table.n_rows; row++) {
         const double of = validation_sources_get(&table, row, VALIDATION_SOURCES_NEEDED_SHARE);
         const input_category k = input_category_of_source(
@@ -260,7 +240,7 @@ static const char *missing_errors(const collected_case *c)
 static wt_status add_shear(const collected_case *c, case_value_list *to, wt_error *err)
 {
     table_view record;
-    wt_status status = bind_case_table(c, &validation_schema, "", &record, err);
+    wt_status status = collected_bind(c, &validation_schema, "", &record, err);
     if (status != WT_OK)
         return status;
     const double value = validation_value(&record, VALIDATION_KEY_NEEDED).value,
@@ -325,7 +305,7 @@ static wt_status find_spectrum_variance(const collected_case *c, const table_vie
     table_view master;
     const double temperature =
         indentation_value(curves, INDENTATION_KEY_SPECTRUM_TEMPERATURE).value;
-    const wt_status status = bind_case_table(c, &master_curve_schema, "", &master, err);
+    const wt_status status = collected_bind(c, &master_curve_schema, "", &master, err);
     *variance = 0;
     if (status != WT_OK || isnan(temperature) || master.n_rows == 0 || !(ends->high > ends->low))
         return status;
@@ -345,12 +325,6 @@ static wt_status find_spectrum_variance(const collected_case *c, const table_vie
     return WT_OK;
 }
 
-static const char *curve_spot(const table_view *curves, size_t row)
-{
-    const char *spot = indentation_text(curves, row, INDENTATION_SPOT);
-    return spot != NULL && spot[0] != '\0' ? spot : indentation_text(curves, row, INDENTATION_FILE);
-}
-
 static void extend_rates(rate_range *ends, double rate, double frequency)
 {
     if (!(rate > ends->low)) {
@@ -366,7 +340,10 @@ static void extend_rates(rate_range *ends, double rate, double frequency)
 static void add_curve_to_spot(const table_view *curves, size_t row, spot_line **lines, size_t *n,
                               rate_range *ends)
 {
-    const char *spot = curve_spot(curves, row);
+    const char *named = indentation_text(curves, row, INDENTATION_SPOT),
+               *spot = named != NULL && named[0] != '\0'
+                           ? named
+                           : indentation_text(curves, row, INDENTATION_FILE);
     const double x = log10(indentation_get(curves, row, INDENTATION_RATE)),
                  y = log(indentation_get(curves, row, INDENTATION_MODULUS));
     if (spot == NULL || !isfinite(x) || !isfinite(y) ||
@@ -419,7 +396,7 @@ static wt_status add_rates(const collected_case *c, const char *group, case_valu
     rate_range ends = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     size_t n = 0;
     double variance = 0;
-    wt_status status = bind_case_table(c, &indentation_schema, group, &curves, err);
+    wt_status status = collected_bind(c, &indentation_schema, group, &curves, err);
     for (size_t row = 0; row < curves.n_rows; row++)
         add_curve_to_spot(&curves, row, &lines, &n, &ends);
     status = find_spectrum_variance(c, &curves, &ends, &variance, err);

@@ -39,12 +39,9 @@ typedef struct track_layer_result {
     track_obstacle obstacle;
 } track_layer_result;
 
-typedef struct track_layer_sentences {
-    char allowed[480], agree[480], settled_by[400];
-} track_layer_sentences;
-
+/* A length or a range of lengths. */
 typedef struct metres_text {
-    char text[32];
+    char text[80];
 } metres_text;
 
 static metres_text format_length(double value)
@@ -54,14 +51,10 @@ static metres_text format_length(double value)
     return w;
 }
 
-typedef struct thickness_range_text {
-    char text[80];
-} thickness_range_text;
-
 /* Formats a range of thicknesses. A limit that is not positive or not finite is omitted. */
-static thickness_range_text format_thickness_range(double low, double high)
+static metres_text format_thickness_range(double low, double high)
 {
-    thickness_range_text w;
+    metres_text w;
     const bool from = low > 0 && isfinite(low), to = high > 0 && isfinite(high);
     clocale_print(w.text, sizeof w.text, "%s%s%s%s",
                   from && to ? ""
@@ -80,12 +73,17 @@ typedef struct required_contact {
     double radius;
 } required_contact;
 
+static double contact_radius(const wt_tip *tip, double depth)
+{
+    double g, slope;
+    wt_contact_function(tip, depth, &g, &slope);
+    return slope / 2;
+}
+
 static bool is_too_shallow(double depth, void *user)
 {
     const required_contact *w = user;
-    double g, slope;
-    wt_contact_function(w->tip, depth, &g, &slope);
-    return slope < 2 * w->radius;
+    return contact_radius(w->tip, depth) < w->radius;
 }
 
 /* Depth of this tip for a contact radius. Infinity if 1000 times the depth does not suffice. */
@@ -245,8 +243,8 @@ static void write_agreement(const track_layer_result *f, char *text, size_t size
         clocale_print(text, size, "inconclusive: %s gives no thickness above zero", o->from);
         return;
     }
-    const metres_text here = format_length(o->thickness.value);
-    const thickness_range_text both = format_thickness_range(f->agreement.low, f->agreement.high);
+    const metres_text here = format_length(o->thickness.value),
+                      both = format_thickness_range(f->agreement.low, f->agreement.high);
     if (f->obstacle.reason != NULL || p->bound_kind == WT_LAYER_BOUND_UNKNOWN ||
         p->bound_kind == WT_LAYER_BOUND_OUTSIDE_LAW)
         clocale_print(text, size, "inconclusive: the curves do not tell");
@@ -273,14 +271,6 @@ static void write_agreement(const track_layer_result *f, char *text, size_t size
             "inconclusive: the curves allow the %s by %s, and others that differ from it by "
             "more than a factor of %g; both together allow %s",
             here.text, o->from, WT_LAYER_MARGIN, both.text);
-}
-
-static void track_layer_write_sentences(const track_layer_result *found,
-                                        track_layer_sentences *words)
-{
-    write_allowed_thickness(found, words->allowed, sizeof words->allowed);
-    write_agreement(found, words->agree, sizeof words->agree);
-    write_remedy(found, words->settled_by, sizeof words->settled_by);
 }
 
 /* ---- input tables ---------------------------------------------------------------------------- */
@@ -392,12 +382,6 @@ static wt_status read_depth_group(const wt_table *table, depth_group *g, wt_erro
                            : status;
 }
 
-static void group_clear(depth_group *g)
-{
-    free(g->curve);
-    wt_contact_table_free(g->contact);
-}
-
 /* Finds the thickness from another source: the stated one with a normal 95 % interval, else that of
  * the theory. */
 static wt_status find_other_thickness(const wt_compare_job *job, const wt_table *layer,
@@ -445,12 +429,14 @@ static double finite_or_none(double value)
 static void set_track_layer_keys(table_writer *t, const track_layer_result *f)
 {
     const wt_layer_profile *p = &f->profile;
-    track_layer_sentences words;
-    track_layer_write_sentences(f, &words);
+    char allowed[480], agree[480], settled_by[400];
+    write_allowed_thickness(f, allowed, sizeof allowed);
+    write_agreement(f, agree, sizeof agree);
+    write_remedy(f, settled_by, sizeof settled_by);
     const double thickness = p->thickness.value;
-    track_layer_keys keys = {.allowed = words.allowed,
-                             .agree = words.agree,
-                             .settled_by = words.settled_by,
+    track_layer_keys keys = {.allowed = allowed,
+                             .agree = agree,
+                             .settled_by = settled_by,
                              .other_from = f->other.from,
                              .deepest = finite_or_none(p->depth),
                              .contact_radius = finite_or_none(p->contact_radius),
@@ -471,13 +457,6 @@ static void set_track_layer_keys(table_writer *t, const track_layer_result *f)
     track_layer_set_keys(t, &keys);
 }
 
-static void add_measured_depth_rows(table_writer *t, const char *name, const wt_modulus_profile *d)
-{
-    table_block(t);
-    for (size_t i = 0; i < WT_DEPTHS && !isnan(d->change.value); i++)
-        TABLE_ADD(track_layer, t, name, d->depth[i], d->modulus[i]);
-}
-
 /* Adds the modulus against depth of a layer with the measured ratio, down to depths where it
  * approaches the bulk. */
 static void add_layer_rows(table_writer *t, const char *name, const track_layer_result *f,
@@ -493,9 +472,7 @@ static void add_layer_rows(table_writer *t, const char *name, const track_layer_
     table_block(t);
     for (size_t i = 0; i < POINTS; i++) {
         const double depth = exp(from + (to - from) * (double)i / (POINTS - 1));
-        double g, slope;
-        wt_contact_function(f->tip, depth, &g, &slope);
-        const double over = wt_layer_modulus(p, f->ratio, thickness, slope / 2);
+        const double over = wt_layer_modulus(p, f->ratio, thickness, contact_radius(f->tip, depth));
         if (!isnan(over))
             TABLE_ADD(track_layer, t, name, depth, {bulk * over, none, none, none});
     }
@@ -506,8 +483,12 @@ static wt_status make_track_layer_table(const depth_group group[2], const track_
 {
     table_writer t = table_begin(&track_layer_schema, err);
     set_track_layer_keys(&t, f);
-    for (int g = 0; g < 2 && f->obstacle.reason == NULL; g++)
-        add_measured_depth_rows(&t, compare_group_name[g], &group[g].depth);
+    for (int g = 0; g < 2 && f->obstacle.reason == NULL; g++) {
+        const wt_modulus_profile *const d = &group[g].depth;
+        table_block(&t);
+        for (size_t i = 0; i < WT_DEPTHS && !isnan(d->change.value); i++)
+            TABLE_ADD(track_layer, &t, compare_group_name[g], d->depth[i], d->modulus[i]);
+    }
     if (f->profile.n_steps > 1) {
         const double bulk = group[1].depth.modulus[WT_DEPTHS - 1].value / f->ratio;
         const wt_layer_bound_kind says = f->profile.bound_kind;
@@ -586,7 +567,9 @@ wt_status wt_track_layer_compute(const wt_compare_job *job, const wt_table *laye
     const bool silent = !group[0].there && !group[1].there && !(job->expected_thickness.value > 0);
     if (status == WT_OK && !silent)
         status = make_track_layer_table(group, &f, table, err);
-    group_clear(&group[0]);
-    group_clear(&group[1]);
+    for (int g = 0; g < 2; g++) {
+        free(group[g].curve);
+        wt_contact_table_free(group[g].contact);
+    }
     return status;
 }

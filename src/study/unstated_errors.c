@@ -60,12 +60,6 @@ static pressed_curve mean_pressed_curve(const wt_group_data *d)
 
 /* ---- causes ---------------------------------------------------------------------------------- */
 
-static void append_cause(char *to, size_t size, const char *words)
-{
-    const size_t used = strlen(to);
-    snprintf(to + used, size - used, "%s%s", used > 0 ? "; " : "", words);
-}
-
 /* Largest effect of a cause on ln(ratio): the ratio of the rubber may be lower or higher by it. */
 typedef struct cause_effect {
     double lower, higher;
@@ -81,13 +75,15 @@ static cause_effect group_effect(int group, double effect)
 static void add_cause(unstated_errors *u, bool plausible, cause_effect effect, const char *words,
                       const char *settled_by)
 {
-    append_cause(u->would_explain, sizeof u->would_explain, words);
+    clocale_append(u->would_explain, sizeof u->would_explain, "%s%s",
+                   u->would_explain[0] != '\0' ? "; " : "", words);
     if (!plausible)
         return;
     u->lower += effect.lower;
     u->higher += effect.higher;
-    append_cause(u->plausible, sizeof u->plausible, words);
-    append_cause(u->settled_by, sizeof u->settled_by, settled_by);
+    const char *const between = u->plausible[0] != '\0' ? "; " : "";
+    clocale_append(u->settled_by, sizeof u->settled_by, "%s%s", between, settled_by);
+    clocale_append(u->plausible, sizeof u->plausible, "%s%s", between, words);
 }
 
 static double contact_force(const wt_tip *tip, double depth)
@@ -198,15 +194,16 @@ static wt_status add_tip_cause(const compare_pair *p, const wt_compare_job *job,
 /* More than the 53 binary digits of a double. */
 enum { BISECTIONS = 60 };
 
-typedef struct pulled_depth {
+/* Curve with an adhesion: its share of the force, or the effect that is asked for. */
+typedef struct pulled_curve {
     const wt_tip *tip;
-    double depth, share;
-} pulled_depth;
+    double depth, share, force, effect;
+} pulled_curve;
 
 /* True if the force at a share of the whole depth does not exceed the adhesion. */
 static bool is_below_pull(double x, void *user)
 {
-    const pulled_depth *p = user;
+    const pulled_curve *p = user;
     const double all = p->depth / (1 - x);
     return !(contact_force(p->tip, x * all) > p->share * contact_force(p->tip, all));
 }
@@ -221,30 +218,25 @@ static double pull_effect(const wt_tip *tip, double depth, double force, double 
     if (tip == NULL)
         return log1p(sqrt(share)) - log1p(-sqrt(share));
     /* the whole depth is the depth at compensation plus the apparent depth */
-    pulled_depth of = {tip, depth, share};
+    pulled_curve of = {.tip = tip, .depth = depth, .share = share};
     root_bisect(is_below_pull, &of, &low, &high, 0, BISECTIONS);
     const double all = depth / (1 - low);
     return log((contact_force(tip, all) - contact_force(tip, low * all)) /
                contact_force(tip, depth));
 }
 
-typedef struct required_adhesion {
-    const wt_tip *tip;
-    double depth, force, effect;
-} required_adhesion;
-
 static bool is_pull_too_small(double pull, void *user)
 {
-    const required_adhesion *p = user;
+    const pulled_curve *p = user;
     return !(pull_effect(p->tip, p->depth, p->force, pull) > p->effect);
 }
 
 static double required_pull(const wt_tip *tip, double depth, double force, double effect)
 {
     double low = 0, high = force;
-    if (!(pull_effect(tip, depth, force, high) > effect))
+    pulled_curve of = {.tip = tip, .depth = depth, .force = force, .effect = effect};
+    if (is_pull_too_small(high, &of))
         return (double)INFINITY;
-    required_adhesion of = {tip, depth, force, effect};
     root_bisect(is_pull_too_small, &of, &low, &high, 0, BISECTIONS);
     return high;
 }

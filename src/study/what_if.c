@@ -26,9 +26,9 @@ typedef struct model_choice {
     const char *why;    /* reason of the range */
     const char *lacks;  /* reason why it does not apply; NULL: not reported */
     bool (*applies)(const case_variant *s);
-    double (*value)(const case_variant *s);                /* if it has a unit */
-    void (*name)(const case_variant *s, char text[WORDS]); /* otherwise */
-    void (*move)(const case_variant *used, double tried, case_variant *s);
+    size_t member; /* offset of its value, a double, if it has a unit */
+    void (*name)(const case_variant *s, char text[WORDS]);                 /* otherwise */
+    void (*move)(const case_variant *used, double tried, case_variant *s); /* NULL: by a factor */
     double tried[MOST_TRIED]; /* [n] factors, values, or indices */
     size_t n;
 } model_choice;
@@ -46,12 +46,7 @@ static bool always_applies(const case_variant *s)
     return true;
 }
 
-/* Range of wavenumbers of the measured densities. */
-static double first_measured_wavenumber(const case_variant *s)
-{
-    return s->surface.self_affine ? 0 : s->surface.spectrum.wavenumber[0];
-}
-
+/* Largest wavenumber of the measured densities. */
 static double last_measured_wavenumber(const case_variant *s)
 {
     const wt_power_spectrum *p = &s->surface.spectrum;
@@ -62,11 +57,6 @@ static double last_measured_wavenumber(const case_variant *s)
 static double roll_off_or(const case_variant *s, double other)
 {
     return s->surface.self_affine ? s->surface.qr : other;
-}
-
-static double value_q1(const case_variant *s)
-{
-    return s->surface.q1;
 }
 
 /* [m] No surface has waves below the size of a molecule. */
@@ -95,11 +85,6 @@ static void move_measured_cutoff(const case_variant *used, double where_steep, c
     s->surface.q1 = known ? end : used->surface.q1;
 }
 
-static double value_q0(const case_variant *s)
-{
-    return s->surface.q0;
-}
-
 /* False for a law without a roll-off, which is tied to its q0. */
 static bool has_q0(const case_variant *s)
 {
@@ -111,12 +96,8 @@ static void move_q0(const case_variant *used, double factor, case_variant *s)
     const double q0 = used->surface.q0,
                  highest =
                      fmax(fmin(used->surface.q1 / 2, roll_off_or(used, (double)INFINITY)), q0);
-    s->surface.q0 = limit_value(factor * q0, fmin(first_measured_wavenumber(used), q0), highest);
-}
-
-static double value_gamma(const case_variant *s)
-{
-    return s->sliding.gamma;
+    const double first = used->surface.self_affine ? 0 : used->surface.spectrum.wavenumber[0];
+    s->surface.q0 = limit_value(factor * q0, fmin(first, q0), highest);
 }
 
 /* Scaraggi and Persson, J. Phys. Condens. Matter 27 (2015) 105102; Persson 2001. */
@@ -129,11 +110,6 @@ static void move_gamma(const case_variant *used, double tried, case_variant *s)
 static bool has_strain(const case_variant *s)
 {
     return s->has_softness;
-}
-
-static double value_strain(const case_variant *s)
-{
-    return s->sliding.strain_factor;
 }
 
 static void move_strain(const case_variant *used, double factor, case_variant *s)
@@ -157,38 +133,12 @@ static void move_flash(const case_variant *used, double on, case_variant *s)
     s->sliding.flash.on = on > 0;
 }
 
-static double value_conductivity(const case_variant *s)
-{
-    return s->sliding.flash.diffusivity * s->sliding.flash.heat_capacity;
-}
-
-/* Changes the diffusivity at constant heat capacity, which varies little between rubbers. */
-static void move_conductivity(const case_variant *used, double factor, case_variant *s)
-{
-    s->sliding.flash.diffusivity = factor * used->sliding.flash.diffusivity;
-}
-
-static double value_contact_size(const case_variant *s)
-{
-    return s->sliding.flash.contact_size;
-}
-
-static void move_contact_size(const case_variant *used, double factor, case_variant *s)
-{
-    s->sliding.flash.contact_size = factor * used->sliding.flash.contact_size;
-}
-
 /* False if the anisotropic constants replace it. */
 static bool has_poisson(const case_variant *s)
 {
     const wt_rubber *r = &s->rubber;
     return !r->is_transverse || isnan(r->transverse.plane_poisson) ||
            isnan(r->transverse.axial_poisson);
-}
-
-static double value_poisson(const case_variant *s)
-{
-    return s->rubber.poisson_ratio;
 }
 
 static void move_poisson(const case_variant *used, double tried, case_variant *s)
@@ -260,49 +210,52 @@ static const model_choice choices[] = {
     {"largest wavenumber q1", "Compare with a friction record (weartrack validate).", "rad/m",
      "a decade down and up, as far as the counter surface is known: nothing measures which waves "
      "still reach the rubber",
-     "", always_applies, value_q1, NULL, move_q1, TRIED(0.1, 0.3, 3, 10)},
+     "", always_applies, offsetof(case_variant, surface.q1), NULL, move_q1, TRIED(0.1, 0.3, 3, 10)},
     {"end of the measured spectrum", "Scan the counter surface with a finer step.", "rad/m",
      "where its reliable range ends, and where the rms slope reaches 1.3, by practice the last "
      "that rubber follows",
-     NULL, is_measured_surface, value_q1, NULL, move_measured_cutoff, TRIED(0, 1)},
+     NULL, is_measured_surface, offsetof(case_variant, surface.q1), NULL, move_measured_cutoff,
+     TRIED(0, 1)},
     {"smallest wavenumber q0", "Scan a larger part of the counter surface.", "rad/m",
      "half and twice, as far as the counter surface is known: the longest waves of a measured "
      "spectrum are its least certain",
-     "the roughness has no roll-off", has_q0, value_q0, NULL, move_q0, TRIED(0.5, 2)},
+     "the roughness has no roll-off", has_q0, offsetof(case_variant, surface.q0), NULL, move_q0,
+     TRIED(0.5, 2)},
     {"factor gamma of partial contact", "Compare with a friction record (weartrack validate).", "1",
      "1 is Persson's theory of 2001, 0.5 its later correction for partial contact", "",
-     always_applies, value_gamma, NULL, move_gamma, TRIED(0.5, 1)},
+     always_applies, offsetof(case_variant, sliding.gamma), NULL, move_gamma, TRIED(0.5, 1)},
     {"strain over slope", "Compare with a friction record (weartrack validate).", "1",
      "half and twice: the strain at a wavenumber is of the order of the rms slope up to there, no "
      "more is known",
-     NULL, has_strain, value_strain, NULL, move_strain, TRIED(0.5, 2)},
+     NULL, has_strain, offsetof(case_variant, sliding.strain_factor), NULL, move_strain,
+     TRIED(0.5, 2)},
     {"flash temperature", "Measure friction at low velocity, where sliding does not heat.", NULL,
      "counted or not: it is not validated against measured friction here, and the heat of shearing "
      "the contact is not in it",
-     NULL, has_flash, NULL, name_flash, move_flash, TRIED(0)},
+     NULL, has_flash, 0, name_flash, move_flash, TRIED(0)},
     {"heat conductivity of the rubber", "Measure the heat conductivity of the rubber.", "W/(m K)",
      "half and twice: fillers make it up to some times that of the rubber alone, and it is seldom "
      "measured",
-     NULL, has_flash, value_conductivity, NULL, move_conductivity, TRIED(0.5, 2)},
+     NULL, has_flash, offsetof(case_variant, sliding.flash.diffusivity), NULL, NULL, TRIED(0.5, 2)},
     {"size of a macroscopic contact", "Measure the length of the contact in the sliding direction.",
      "m", "half and twice: how long a place is warmed is known by its order only", NULL, has_flash,
-     value_contact_size, NULL, move_contact_size, TRIED(0.5, 2)},
+     offsetof(case_variant, sliding.flash.contact_size), NULL, NULL, TRIED(0.5, 2)},
     {"Poisson ratio", "Measure the Poisson ratio, or the bulk modulus.", "1",
      "0.5 is that of rubber, 0.4 that of a glass, as which the shortest waves feel it",
-     "a transversely isotropic material has two others", has_poisson, value_poisson, NULL,
-     move_poisson, TRIED(0.4, 0.5)},
+     "a transversely isotropic material has two others", has_poisson,
+     offsetof(case_variant, rubber.poisson_ratio), NULL, move_poisson, TRIED(0.4, 0.5)},
     {"vertical shift", "Measure the thermal expansion of the rubber.", NULL,
      "all four; which of them is right the isotherms do not say", "no isotherms to fit again",
-     has_vertical, NULL, name_vertical, move_vertical,
+     has_vertical, 0, name_vertical, move_vertical,
      TRIED(WT_VERTICAL_NONE, WT_VERTICAL_PHYSICAL, WT_VERTICAL_FREE, WT_VERTICAL_TIED)},
     {"depth profile", "Indent bulk and track deeper than the predicted thickness.", NULL,
      "exponential, or of a half-space that keeps its volume, without local friction and with m = "
      "1: how energy falls off with depth is not measured",
-     "no thickness is calculated from the energy", has_profile, NULL, name_profile, move_profile,
+     "no thickness is calculated from the energy", has_profile, 0, name_profile, move_profile,
      TRIED(-1, 0, 1)},
     {"shear stress of the layer", "Measure friction on a run-in track.", NULL,
      "scaled by the modulus ratio or not: it is not measured on the layer",
-     "no layer with a modulus ratio, or no shear stress", has_layer_shear, NULL, name_shear,
+     "no layer with a modulus ratio, or no shear stress", has_layer_shear, 0, name_shear,
      move_shear, TRIED(1)},
 };
 
@@ -318,13 +271,19 @@ static void short_number(double value, char text[WORDS])
     memmove(to, from, strlen(from) + 1);
 }
 
+/* The heat conductivity is changed by the diffusivity, at constant heat capacity, which varies
+ * little between rubbers. */
 static void name_choice(const model_choice *c, const case_variant *s, char text[WORDS])
 {
+    double value;
     if (c->unit == NULL) {
         c->name(s, text);
         return;
     }
-    short_number(c->value(s), text);
+    memcpy(&value, (const char *)s + c->member, sizeof value);
+    if (c->member == offsetof(case_variant, sliding.flash.diffusivity))
+        value *= s->sliding.flash.heat_capacity;
+    short_number(value, text);
     const size_t length = strlen(text);
     if (c->unit[0] != '1')
         snprintf(text + length, WORDS - length, " %s", c->unit);
@@ -355,8 +314,8 @@ static wt_status compute_outcome(outcome *o, const wt_job *work, wt_error *err)
     for (size_t k = 0; k < CASE_QUANTITIES; k++)
         number[k].value = (double)NAN;
     const wt_status status = case_variant_compute(&o->case_variant, work, number, err);
-    for (size_t k = 0; k < CASE_QUANTITIES; k++) {
-        o->number[k] = status == WT_OK ? number[k].value : (double)NAN;
+    for (size_t k = 0; status == WT_OK && k < CASE_QUANTITIES; k++) {
+        o->number[k] = number[k].value;
         if (fabs(o->number[k]) > 0) /* fmax skips NaN */
             o->error = fmax(o->error, number[k].numerical_error / fabs(o->number[k]));
     }
@@ -372,6 +331,8 @@ static wt_status compute_task(void *user, size_t i, unsigned worker)
     wt_status status = WT_OK;
     const double start = cost_clock(w->work.cost);
     (void)worker;
+    for (size_t k = 0; k < CASE_QUANTITIES; k++)
+        o->number[k] = (double)NAN;
     if (o->model_choice->move == move_vertical) {
         status =
             wt_rubber_refit(&o->case_variant.rubber, o->case_variant.vertical, &refitted, &why);
@@ -389,15 +350,6 @@ static wt_status compute_task(void *user, size_t i, unsigned worker)
     return WT_OK;
 }
 
-static outcome *add_outcome(what_if_run *w, const model_choice *c, const case_variant *s)
-{
-    outcome *o = &w->outcomes[w->n++];
-    *o = (outcome){.model_choice = c, .case_variant = *s};
-    for (size_t k = 0; k < CASE_QUANTITIES; k++)
-        o->number[k] = (double)NAN;
-    return o;
-}
-
 /* Adds the variants of a choice. A limit may exclude one side. */
 static void add_choice(what_if_run *w, const model_choice *c, const case_variant *used)
 {
@@ -405,10 +357,14 @@ static void add_choice(what_if_run *w, const model_choice *c, const case_variant
     name_choice(c, used, as_used);
     case_variant moved = *used;
     for (size_t i = 0; i < c->n; i++) {
-        c->move(used, c->tried[i], &moved);
+        if (c->move != NULL)
+            c->move(used, c->tried[i], &moved);
+        else
+            *(double *)(void *)((char *)&moved + c->member) *= c->tried[i];
         name_choice(c, &moved, tried);
         if (strcmp(tried, as_used) != 0) {
-            outcome *o = add_outcome(w, c, &moved);
+            outcome *const o = &w->outcomes[w->n++];
+            *o = (outcome){.model_choice = c, .case_variant = moved};
             memcpy(o->used, as_used, WORDS);
             memcpy(o->tried, tried, WORDS);
         }
@@ -418,20 +374,16 @@ static void add_choice(what_if_run *w, const model_choice *c, const case_variant
 
 static void add_all_choices(what_if_run *w, const case_variant *used)
 {
-    add_outcome(w, NULL, used);
+    w->outcomes = wt_alloc(1 + COUNT_OF(choices) * MOST_TRIED, sizeof *w->outcomes);
+    w->outcomes[w->n++].case_variant = *used;
     for (size_t i = 0; i < COUNT_OF(choices); i++)
         if (choices[i].applies(used))
             add_choice(w, &choices[i], used);
 }
 
-static outcome *alloc_outcomes(void)
-{
-    return wt_alloc(1 + COUNT_OF(choices) * MOST_TRIED, sizeof(outcome));
-}
-
 case_variant *what_if_list_variants(const case_variant *used, size_t *n)
 {
-    what_if_run w = {.outcomes = alloc_outcomes()};
+    what_if_run w = {.n = 0};
     add_all_choices(&w, used);
     *n = w.n;
     case_variant *const settings = wt_alloc(w.n, sizeof *settings);
@@ -561,7 +513,6 @@ wt_status wt_model_sensitivity_compute(const wt_sliding *sliding, const wt_layer
     w.work.replicates = 0;
     w.work.log = NULL; /* warnings about the case as used exist already */
     w.work.progress = (wt_progress){0};
-    w.outcomes = alloc_outcomes();
     add_all_choices(&w, &used);
     w.work.left_out = WT_EXTRA_ALL & ~(unsigned)WT_EXTRA_EXTRAPOLATED_SHARE;
     status = cover_wavenumbers(&w, &used, err);

@@ -20,30 +20,25 @@ enum {
 
 static const struct {
     const char *name;
-    bool post, body;
+    bool post;
 } actions[VIEW_ACTIONS] = {
-    [VIEW_FILE] = {"", false, false},
-    [VIEW_STATE] = {"state", false, false},
-    [VIEW_INFO] = {"info", false, false},
-    [VIEW_TABLE] = {"table", false, false},
-    [VIEW_REPORT] = {"report", false, false},
-    [VIEW_PROGRESS] = {"progress", false, false},
-    [VIEW_CHECK] = {"check", true, true},
-    [VIEW_TRIAL] = {"trial", true, true},
-    [VIEW_CURVE] = {"curve", true, true},
-    [VIEW_CASE] = {"case", true, true},
-    [VIEW_OVERRIDES] = {"overrides", true, true},
-    [VIEW_NEW_CASE] = {"new-case", true, false},
-    [VIEW_RUN] = {"run", true, false},
-    [VIEW_STOP] = {"stop", true, false},
-    [VIEW_ALIVE] = {"alive", true, false},
-    [VIEW_LEAVE] = {"leave", true, false},
+    [VIEW_FILE] = {"", false},
+    [VIEW_STATE] = {"state", false},
+    [VIEW_INFO] = {"info", false},
+    [VIEW_TABLE] = {"table", false},
+    [VIEW_REPORT] = {"report", false},
+    [VIEW_PROGRESS] = {"progress", false},
+    [VIEW_CHECK] = {"check", true},
+    [VIEW_TRIAL] = {"trial", true},
+    [VIEW_CURVE] = {"curve", true},
+    [VIEW_CASE] = {"case", true},
+    [VIEW_OVERRIDES] = {"overrides", true},
+    [VIEW_NEW_CASE] = {"new-case", true},
+    [VIEW_RUN] = {"run", true},
+    [VIEW_STOP] = {"stop", true},
+    [VIEW_ALIVE] = {"alive", true},
+    [VIEW_LEAVE] = {"leave", true},
 };
-
-bool view_action_has_body(view_action action)
-{
-    return actions[action].body;
-}
 
 /* ---- addresses ------------------------------------------------------------------------------- */
 

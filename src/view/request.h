@@ -50,7 +50,5 @@ typedef struct view_request {
  * 200, or the reason for the refusal. */
 unsigned view_request_parse(const view_head *head, const char *token, unsigned port,
                             view_request *request);
-/* True if the action needs a body. */
-bool view_action_has_body(view_action action);
 
 #endif

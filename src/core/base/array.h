@@ -2,14 +2,12 @@
 #ifndef WT_CORE_BASE_ARRAY_H
 #define WT_CORE_BASE_ARRAY_H
 
-#include <stdbool.h>
 #include <stddef.h>
 
 /* A zero-initialised arena is empty. */
 typedef struct arena {
     void **blocks;
     size_t n;
-    bool failed; /* set by a failed allocation, so that several allocations need one check */
 } arena;
 
 #define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))

@@ -30,11 +30,6 @@ static prefix_range find_prefix_range(const char *unit)
     return (prefix_range){"", "", 0, 0};
 }
 
-static int floor_divide_by_three(int exponent)
-{
-    return exponent >= 0 ? exponent / 3 : -((2 - exponent) / 3);
-}
-
 /* Formats the significant digits of value / 10^shift: plain for short numbers, otherwise with an
  * exponent. */
 static void format_scaled_number(double value, int digits, int shift, char *buffer, size_t size)
@@ -76,7 +71,7 @@ size_t wt_format_si(double value, const char *unit, int digits, char *buffer, si
             /* The exponent is that after rounding: 999.96 kPa is 1.00 MPa. */
             char scientific[48];
             (void)snprintf(scientific, sizeof scientific, "%.*e", digits - 1, value);
-            step = floor_divide_by_three(atoi(strchr(scientific, 'e') + 1));
+            step = (int)floor(atoi(strchr(scientific, 'e') + 1) / 3.0);
             step = step < prefix.low ? prefix.low : step > prefix.high ? prefix.high : step;
         }
         format_scaled_number(value, digits, 3 * step, number, sizeof number);

@@ -42,21 +42,17 @@ const wt_param *wt_params_get(const wt_params *params, size_t i)
     return find_param_record(params, i, &offset);
 }
 
-/* True if this is the name of the parameter, or its name in an earlier version. */
-static bool is_named(const wt_param *param, const char *name)
-{
-    return strcmp(param->name, name) == 0 ||
-           (param->former != NULL && strcmp(param->former, name) == 0);
-}
-
-/* Its number in the table; that of all if there is none. */
+/* Number of the parameter with this name, or with this name in an earlier version. That of all if
+ * there is none. */
 static size_t param_index(const wt_params *params, const char *name)
 {
     const size_t n = wt_params_count(params);
-    size_t i = 0;
-    while (i < n && !is_named(wt_params_get(params, i), name))
-        i++;
-    return i;
+    for (size_t i = 0; i < n; i++) {
+        const wt_param *const p = wt_params_get(params, i);
+        if (strcmp(p->name, name) == 0 || (p->former != NULL && strcmp(p->former, name) == 0))
+            return i;
+    }
+    return n;
 }
 
 /* ---- members --------------------------------------------------------------------------------- */

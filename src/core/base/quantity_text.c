@@ -21,13 +21,6 @@ static char *copy_trimmed(const char *begin, const char *end)
     return wt_strndup(begin, (size_t)(end - begin));
 }
 
-/* Returns the position of "+-" or "±", NULL if there is none. Both have two bytes. */
-static const char *find_plus_minus(const char *text)
-{
-    const char *ascii = strstr(text, "+-");
-    return ascii != NULL ? ascii : strstr(text, "\xc2\xb1");
-}
-
 /* Returns the length of the text before a "%" or "percent" at its end; 0 without one. */
 static size_t length_before_percent(const char *text)
 {
@@ -102,7 +95,8 @@ wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate 
     if (text == NULL || estimate == NULL)
         return wt_fail(err, WT_E_ARG, "no text to parse");
     wt_estimate parsed = {(double)NAN, 0, 0, wt_quantity_unit(quantity)};
-    const char *sign = find_plus_minus(text), *end = text + strlen(text);
+    const char *const ascii = strstr(text, "+-"); /* "+-" and "±" have two bytes */
+    const char *sign = ascii != NULL ? ascii : strstr(text, "\xc2\xb1"), *end = text + strlen(text);
     char *head = copy_trimmed(text, sign != NULL ? sign : end);
     char *tail = sign != NULL ? copy_trimmed(sign + 2, end) : NULL;
     wt_status status = wt_quantity_parse(head, quantity, &parsed.value, err);
@@ -134,17 +128,6 @@ static wt_status fail_list(const char *text, const char *what, wt_error *err)
     wt_error_found(err, "\"%s\"", text);
     wt_error_advice(err, "for example 1e-4:10m/s:log:40");
     return WT_E_RANGE;
-}
-
-static wt_status parse_items(char *const *item, size_t n, wt_quantity quantity, value_list *out,
-                             wt_error *err)
-{
-    out->v = wt_alloc(n, sizeof *out->v);
-    wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < n; i++)
-        status = wt_quantity_parse(item[i], quantity, &out->v[i], err);
-    out->n = n;
-    return status;
 }
 
 /* Parses FIRST:LAST UNIT:log|lin:COUNT; `part` contains the four parts. */
@@ -219,9 +202,11 @@ wt_status wt_list_parse(const char *text, wt_quantity quantity, double **result,
     if (n_parts > (range ? 4 : MAX_LIST))
         return fail_list(text, range ? "too many parts" : "the list is too long", err);
     char **parts = split_at_mark(text, range ? ':' : ',', n_parts);
-    if (!range)
-        status = parse_items(parts, n_parts, quantity, &list, err);
-    else if (n_parts == 4)
+    if (!range) {
+        list = (value_list){wt_alloc(n_parts, sizeof *list.v), n_parts};
+        for (size_t i = 0; status == WT_OK && i < n_parts; i++)
+            status = wt_quantity_parse(parts[i], quantity, &list.v[i], err);
+    } else if (n_parts == 4)
         status = parse_range(text, parts, quantity, &list, err);
     else
         status = fail_list(text, "a range has four parts", err);

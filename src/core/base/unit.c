@@ -1,6 +1,5 @@
 /* Converts units of files and of the command line to SI with UDUNITS-2. SPDX-License-Identifier:
  * GPL-3.0-or-later */
-#include "core/base/unit.h"
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/base/memory.h"
@@ -14,7 +13,13 @@
 #include <string.h>
 #include <udunits2.h>
 
-static const builtin_unit builtin_table[] = {
+/* Conversion factors of the units that most files and commands use. Reading the database of UDUNITS
+ * takes as long as fitting several force curves, and most runs need nothing of it but these.
+ * unit_core_units holds each of them against UDUNITS for every quantity, bit by bit. */
+static const struct {
+    const char *text, *si;
+    double factor, offset;
+} builtin_units[] = {
     {"mm", "m", 1e-3, 0},
     {"um", "m", 1e-6, 0},
     {"\xC2\xB5m", "m", 1e-6, 0},
@@ -65,39 +70,6 @@ static const builtin_unit builtin_table[] = {
     {"1/m", "1/m", 1, 0},
     {"mm^3/(N m)", "m^2/N", 1e-9, 0},
 };
-
-const builtin_unit *builtin_units(size_t *n)
-{
-    *n = COUNT_OF(builtin_table);
-    return builtin_table;
-}
-
-/* If false, the unit must be converted by UDUNITS. */
-static bool builtin_unit_exists(const char *text)
-{
-    for (size_t i = 0; i < (size_t)WT_Q_COUNT; i++)
-        if (strcmp(text, wt_quantity_unit((wt_quantity)i)) == 0)
-            return true;
-    for (size_t i = 0; i < COUNT_OF(builtin_table); i++)
-        if (strcmp(text, builtin_table[i].text) == 0)
-            return true;
-    return false;
-}
-
-/* Finds the conversion of a built-in unit. False if it is not a multiple of `si`. */
-static bool builtin_unit_find(const char *text, const char *si, double *factor, double *offset)
-{
-    static const builtin_unit itself = {.factor = 1.0};
-    const builtin_unit *found = strcmp(text, si) == 0 ? &itself : NULL;
-    for (size_t i = 0; found == NULL && i < COUNT_OF(builtin_table); i++)
-        if (strcmp(text, builtin_table[i].text) == 0 && strcmp(si, builtin_table[i].si) == 0)
-            found = &builtin_table[i];
-    if (found == NULL)
-        return false;
-    *factor = found->factor;
-    *offset = found->offset;
-    return true;
-}
 
 /* Limit for the length of a unit. It also protects the UDUNITS parser from hostile files. */
 enum { UNIT_MAX = 128 };
@@ -273,13 +245,25 @@ static wt_status query_udunits(const char *unit, const char *si, bool *good, dou
     return failed ? resource_error_fail(ENOMEM, err) : WT_OK;
 }
 
+/* A unit that neither the table nor a quantity has is converted by UDUNITS. */
 static wt_status convert_unit(const char *unit, const char *si, bool *good, double *factor,
                               double *offset, wt_error *err)
 {
-    if (!builtin_unit_exists(unit))
-        return query_udunits(unit, si, good, factor, offset, err);
-    *good = builtin_unit_find(unit, si, factor, offset);
-    return WT_OK;
+    bool known = false;
+    for (size_t i = 0; i < (size_t)WT_Q_COUNT && !known; i++)
+        known = strcmp(unit, wt_quantity_unit((wt_quantity)i)) == 0;
+    *good = strcmp(unit, si) == 0;
+    *factor = 1;
+    *offset = 0;
+    for (size_t i = 0; i < COUNT_OF(builtin_units) && !(known && *good); i++) {
+        if (strcmp(unit, builtin_units[i].text) != 0)
+            continue;
+        known = true;
+        *good = strcmp(si, builtin_units[i].si) == 0;
+        *factor = builtin_units[i].factor;
+        *offset = builtin_units[i].offset;
+    }
+    return known ? WT_OK : query_udunits(unit, si, good, factor, offset, err);
 }
 
 /* UDUNITS supports integer powers only. The square root of the hertz is removed from the text. */

@@ -6,8 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Computes the coefficients from values at cos(pi k / degree). The array has the values of the
- * highest degree; every `step`-th one is used. */
 WIDE_REGISTERS
 void chebyshev_fit(const double *restrict value, size_t degree, const double *restrict fit,
                    double *restrict coefficient)
@@ -20,7 +18,6 @@ void chebyshev_fit(const double *restrict value, size_t degree, const double *re
     memcpy(coefficient, sum, (CHEBYSHEV_DEGREE_MAX + 1) * sizeof *coefficient);
 }
 
-/* Estimates the truncation error of the series, relative to the smallest value. */
 double chebyshev_tail(const double *coefficient, const double *value, size_t degree)
 {
     double least = (double)INFINITY, most = 0;
@@ -33,9 +30,6 @@ double chebyshev_tail(const double *coefficient, const double *value, size_t deg
     return most > 0 ? tail / (least > 0 ? least : most) : 0;
 }
 
-/* Truncates the series to the terms that the allowed error needs, and converts T_n(z) to powers of
- * z. The powers are summed twice as fast; their rounding error is about the sum of their
- * magnitudes. Returns the error due to rounding and truncation. */
 double chebyshev_to_monomials(double *coefficient, size_t *degree, double allowed)
 {
     double t[CHEBYSHEV_DEGREE_MAX + 1] = {0}, last[CHEBYSHEV_DEGREE_MAX + 1] = {1},

@@ -81,29 +81,23 @@ double gauss_rule_integrate(const gauss_rule *rule, const double *f, double *run
 
 /* Sums both integrands in registers. */
 WIDE_REGISTERS
-static void sum_top_coefficients(const double *restrict top, size_t n, const double *restrict f,
-                                 const double *restrict g, double *restrict of_f,
-                                 double *restrict of_g)
+void gauss_rule_top_coefficients(const gauss_rule *rule, const double *restrict f,
+                                 const double *restrict g, legendre_top *restrict of_f,
+                                 legendre_top *restrict of_g)
 {
     wide f_low = {0}, f_high = {0}, g_low = {0}, g_high = {0}, low, high;
-    for (size_t i = 0; i < n; i++) {
-        memcpy(&low, top + i * LEGENDRE_TOP_STRIDE, sizeof low);
-        memcpy(&high, top + i * LEGENDRE_TOP_STRIDE + WIDE, sizeof high);
+    for (size_t i = 0; i < rule->n; i++) {
+        memcpy(&low, rule->top + i * LEGENDRE_TOP_STRIDE, sizeof low);
+        memcpy(&high, rule->top + i * LEGENDRE_TOP_STRIDE + WIDE, sizeof high);
         f_low += low * f[i];
         f_high += high * f[i];
         g_low += low * g[i];
         g_high += high * g[i];
     }
-    memcpy(of_f, &f_low, sizeof f_low);
-    memcpy(of_f + WIDE, &f_high, sizeof f_high);
-    memcpy(of_g, &g_low, sizeof g_low);
-    memcpy(of_g + WIDE, &g_high, sizeof g_high);
-}
-
-void gauss_rule_top_coefficients(const gauss_rule *rule, const double *f, const double *g,
-                                 legendre_top *of_f, legendre_top *of_g)
-{
-    sum_top_coefficients(rule->top, rule->n, f, g, of_f->coefficient, of_g->coefficient);
+    memcpy(of_f->coefficient, &f_low, sizeof f_low);
+    memcpy(of_f->coefficient + WIDE, &f_high, sizeof f_high);
+    memcpy(of_g->coefficient, &g_low, sizeof g_low);
+    memcpy(of_g->coefficient + WIDE, &g_high, sizeof g_high);
 }
 
 /* The coefficients are used in pairs, because one or both may be small by accident. The slowest

@@ -24,11 +24,6 @@ moments sample_moments(const double *x, size_t n)
     return m;
 }
 
-double normal_quantile(double part)
-{
-    return gsl_cdf_ugaussian_Pinv(part);
-}
-
 double students_t_quantile(double df)
 {
     const double p = 0.5 + 0.5 * confidence;

@@ -15,10 +15,9 @@ typedef struct t_error {
 } t_error;
 
 moments sample_moments(const double *x, size_t n);
-double students_t_from_normal(double z,
-                              double df); /* value of Student's t with the same tail probability */
-double normal_quantile(double part);      /* value with the probability `part` below it */
-double students_t_quantile(double df);    /* quantile 0.975 of Student's t */
+/* Value of Student's t with the tail probability of z, and the quantile 0.975. */
+double students_t_from_normal(double z, double df);
+double students_t_quantile(double df);
 /* Adds independent errors by the Welch-Satterthwaite equation. */
 t_error t_error_sum(const t_error *parts, size_t n);
 /* Adds a normal variance without uncertainty. */

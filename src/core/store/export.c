@@ -19,11 +19,8 @@
 /* Additional tables: descriptions of the columns, and values that belong to the whole table. No
  * table of this program has these names, but a table of another program may. */
 #define COLUMNS_TABLE "weartrack_columns"
-
 #define KEYS_TABLE "weartrack_keys"
-
 #define SQLITE_RESERVED_PREFIX "sqlite_" /* prefix that SQLite reserves */
-
 #define BLOCK_COLUMN "block"
 
 typedef struct database {
@@ -47,10 +44,15 @@ static wt_status execute_sql(const database *d, const char *words)
     return code == SQLITE_OK ? WT_OK : fail_sqlite(d, code);
 }
 
-static wt_status prepare_statement(const database *d, const char *words, sqlite3_stmt **statement)
+/* Creates a table and prepares the statement that adds a row. */
+static wt_status begin_insert(const database *d, const char *create, const char *insert,
+                              sqlite3_stmt **row)
 {
+    const wt_status status = execute_sql(d, create);
+    if (status != WT_OK)
+        return status;
     const int code =
-        words == NULL ? SQLITE_NOMEM : sqlite3_prepare_v2(d->db, words, -1, statement, NULL);
+        insert == NULL ? SQLITE_NOMEM : sqlite3_prepare_v2(d->db, insert, -1, row, NULL);
     return code == SQLITE_OK ? WT_OK : fail_sqlite(d, code);
 }
 
@@ -169,13 +171,11 @@ static char *format_table_statement(const database *d, bool create)
 static wt_status insert_table_rows(const database *d)
 {
     sqlite3_stmt *row = NULL;
-    char *words = format_table_statement(d, true);
-    wt_status status = execute_sql(d, words);
-    sqlite3_free(words);
-    words = status == WT_OK ? format_table_statement(d, false) : NULL;
-    if (status == WT_OK)
-        status = prepare_statement(d, words, &row);
-    sqlite3_free(words);
+    char *const create = format_table_statement(d, true), *const insert =
+                                                              format_table_statement(d, false);
+    wt_status status = begin_insert(d, create, insert, &row);
+    sqlite3_free(create);
+    sqlite3_free(insert);
     for (size_t i = 0; status == WT_OK && i < d->table->n_rows; i++) {
         int place = 1;
         if (d->blocks)
@@ -194,10 +194,9 @@ static wt_status insert_table_rows(const database *d)
 static wt_status insert_column_rows(const database *d)
 {
     sqlite3_stmt *row = NULL;
-    wt_status status = execute_sql(d, "CREATE TABLE " COLUMNS_TABLE
-                                      "(\"table\" TEXT, \"column\" TEXT, unit TEXT, words TEXT)");
-    if (status == WT_OK)
-        status = prepare_statement(d, "INSERT INTO " COLUMNS_TABLE " VALUES(?, ?, ?, ?)", &row);
+    wt_status status = begin_insert(
+        d, "CREATE TABLE " COLUMNS_TABLE "(\"table\" TEXT, \"column\" TEXT, unit TEXT, words TEXT)",
+        "INSERT INTO " COLUMNS_TABLE " VALUES(?, ?, ?, ?)", &row);
     for (size_t i = 0; status == WT_OK && i < d->table->n_columns; i++) {
         const table_column *const column = &d->table->columns[i];
         bind_text(row, 1, d->table->name);
@@ -216,12 +215,11 @@ static wt_status insert_key_rows(const database *d)
     if (d->table->n_keys == 0)
         return WT_OK;
     wt_status status =
-        execute_sql(d, "CREATE TABLE " KEYS_TABLE
-                       "(\"table\" TEXT, \"key\" TEXT, value REAL, standard_error REAL, "
-                       "numerical_error REAL, unit TEXT, words TEXT)");
-    if (status == WT_OK)
-        status =
-            prepare_statement(d, "INSERT INTO " KEYS_TABLE " VALUES(?, ?, ?, ?, ?, ?, ?)", &row);
+        begin_insert(d,
+                     "CREATE TABLE " KEYS_TABLE
+                     "(\"table\" TEXT, \"key\" TEXT, value REAL, standard_error REAL, "
+                     "numerical_error REAL, unit TEXT, words TEXT)",
+                     "INSERT INTO " KEYS_TABLE " VALUES(?, ?, ?, ?, ?, ?, ?)", &row);
     for (size_t i = 0; status == WT_OK && i < d->table->n_keys; i++) {
         const table_key *const key = &d->table->keys[i];
         const double numbers[] = {key->parsed.value, key->parsed.standard_error,
@@ -238,19 +236,22 @@ static wt_status insert_key_rows(const database *d)
     return status;
 }
 
-/* A later run identifies the file by this number and may then overwrite it. */
-static wt_status set_application_id(const database *d)
+/* A later run identifies the file by the application id and may then overwrite it. */
+static wt_status begin_database(const database *d)
 {
     char words[64];
     uint32_t id;
     memcpy(&id, SQLITE_APPLICATION_ID, sizeof id);
-    (void)snprintf(words, sizeof words, "PRAGMA application_id = %" PRIu32, be32toh(id));
+    (void)snprintf(words, sizeof words, "BEGIN; PRAGMA application_id = %" PRIu32, be32toh(id));
     return execute_sql(d, words);
 }
 
 static wt_status write_database(const database *d, FILE *out)
 {
     sqlite3_int64 size = 0;
+    const wt_status status = execute_sql(d, "COMMIT");
+    if (status != WT_OK)
+        return status;
     unsigned char *const bytes = sqlite3_serialize(d->db, "main", &size, 0);
     if (bytes == NULL)
         return fail_sqlite(d, SQLITE_NOMEM);
@@ -267,21 +268,13 @@ static wt_status export_sqlite(FILE *out, const wt_table *table, bool blocks, wt
     database d = {.table = table, .blocks = blocks, .err = err};
     const int opened = sqlite3_open_v2(
         ":memory:", &d.db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_MEMORY, NULL);
+    static wt_status (*const steps[])(const database *d) = {begin_database, insert_table_rows,
+                                                            insert_column_rows, insert_key_rows};
     wt_status status = opened == SQLITE_OK ? check_database_table(&d) : fail_sqlite(&d, opened);
-    if (status == WT_OK) {
+    if (status == WT_OK)
         choose_column_names(&d);
-        status = execute_sql(&d, "BEGIN");
-    }
-    if (status == WT_OK)
-        status = set_application_id(&d);
-    if (status == WT_OK)
-        status = insert_table_rows(&d);
-    if (status == WT_OK)
-        status = insert_column_rows(&d);
-    if (status == WT_OK)
-        status = insert_key_rows(&d);
-    if (status == WT_OK)
-        status = execute_sql(&d, "COMMIT");
+    for (size_t i = 0; status == WT_OK && i < COUNT_OF(steps); i++)
+        status = steps[i](&d);
     if (status == WT_OK)
         status = write_database(&d, out);
     (void)sqlite3_close(d.db);

@@ -148,12 +148,6 @@ static wt_status write_block(wt_map_writer *w)
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-static const wt_channel *measured_channel(const wt_segment *segment, wt_quantity quantity)
-{
-    const wt_channel *const c = wt_segment_channel(segment, quantity);
-    return c != NULL && map_channel_has_samples(c->values, segment->n_points) ? c : NULL;
-}
-
 static wt_status buffer_samples(wt_map_writer *w, const wt_segment *segment)
 {
     wt_status status = WT_OK;
@@ -189,8 +183,8 @@ static wt_status add_map_segment(wt_map_writer *w, const wt_segment *segment, ui
             status = add_map_channel(w, &segment->channels[c]);
     }
     for (size_t k = 0; k < w->n_channels; k++) {
-        const wt_channel *const c = measured_channel(segment, w->channels[k].quantity);
-        if (c != NULL)
+        const wt_channel *const c = wt_segment_channel(segment, w->channels[k].quantity);
+        if (c != NULL && map_channel_has_samples(c->values, segment->n_points))
             *sum = map_checksum(*sum, c->values, segment->n_points);
     }
     TABLE_ADD(map_segments, &w->segments, wt_segment_kind_name(segment->kind), *segment);

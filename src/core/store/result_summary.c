@@ -1,6 +1,7 @@
 /* Headlines of a result, and the table with one row for each result. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "core/base/array.h"
+#include "core/base/number.h"
 #include "core/store/store.h"
 #include "core/table/registry.h"
 #include "core/table/result_value.h"
@@ -92,11 +93,13 @@ static void add_bounds(table_writer *t, const char *stem, const char *suffixes[2
     add_number_headline(t, stem, suffixes[1], high, unit);
 }
 
+static const char *bound_suffixes[2] = {"_low", "_high"};
+
 /* Adds the limits of the interval and of the range over model choices. */
 static void add_value_bounds(table_writer *t, const char *name, const result_value *f)
 {
-    static const char *interval[2] = {"_low", "_high"}, *range[2] = {"_model_low", "_model_high"};
-    add_bounds(t, name, interval, f->low, f->high, f->number.unit);
+    static const char *range[2] = {"_model_low", "_model_high"};
+    add_bounds(t, name, bound_suffixes, f->low, f->high, f->number.unit);
     add_bounds(t, name, range, f->range.low, f->range.high, f->number.unit);
 }
 
@@ -150,32 +153,15 @@ static void add_ratio_headlines(table_writer *t, const result_value_tables *foun
                         "1");
 }
 
-/* Parses a key that is a number without an error. */
-static double parse_plain_key(const char *words)
-{
-    double value = (double)NAN;
-    return words != NULL && wt_number_parse(words, strlen(words), '.', &value) ? value
-                                                                               : (double)NAN;
-}
-
 /* Returns how completely the result answers the request. */
 static wt_result_status result_completeness(const table_view *failures, const table_view *notes)
 {
     bool lost = failures->n_rows > 0;
     for (size_t row = 0; row < notes->n_rows; row++)
         lost = lost || notes_enum(notes, row, NOTES_SEVERITY) == WT_LOSS;
-    if (parse_plain_key(failures_key_text(failures, FAILURES_KEY_STATUS)) == WT_RESULT_EMPTY)
+    if (parse_number_or_nan(failures_key_text(failures, FAILURES_KEY_STATUS)) == WT_RESULT_EMPTY)
         return WT_RESULT_EMPTY;
     return lost ? WT_RESULT_PARTIAL : WT_RESULT_COMPLETE;
-}
-
-/* Adds the misfit of the common spectrum, on which the verdict on superposition is based. */
-static void add_misfit_headlines(table_writer *t, const table_view *shifts)
-{
-    static const char *bound_suffixes[2] = {"_low", "_high"};
-    add_bounds(t, "superposition_misfit", bound_suffixes,
-               parse_plain_key(shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_MISFIT_LOW)),
-               parse_plain_key(shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_MISFIT_HIGH)), "1");
 }
 
 /* Further tables with headlines. Those from WITH_KEYS on have headlines in their keys. */
@@ -255,7 +241,12 @@ wt_status wt_result_main_values(const wt_result *result, wt_table **headlines, w
     add_group_headlines(&t, &found);
     for (size_t i = WITH_KEYS; i < N_TABLES; i++)
         add_key_headlines(&t, &found, &views[i]);
-    add_misfit_headlines(&t, &views[WITH_KEYS]);
+    /* the misfit of the common spectrum, on which the verdict on superposition is based */
+    const table_view *const shifts = &views[WITH_KEYS];
+    add_bounds(&t, "superposition_misfit", bound_suffixes,
+               parse_number_or_nan(shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_MISFIT_LOW)),
+               parse_number_or_nan(shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_MISFIT_HIGH)),
+               "1");
     add_number_headline(&t, "remarks", "", n_remarks, "1");
     add_number_headline(&t, "failures", "", (double)views[FAILURES].n_rows, "1");
     return table_end(&t, headlines);

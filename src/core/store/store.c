@@ -62,13 +62,6 @@ wt_status store_corrupt_error(wt_error *err, const char *place, const char *mess
     return WT_E_CORRUPT;
 }
 
-static void decode_origin(const char *text, size_t length, wt_provenance *provenance)
-{
-    char *const origin = wt_strndup(text, length);
-    provenance_restore(provenance, origin);
-    free(origin);
-}
-
 static wt_status check_digest(const char *bytes, const char *end, const char *expected,
                               const char *place, wt_error *err)
 {
@@ -145,10 +138,28 @@ wt_status store_decode(const char *bytes, size_t length, wt_result *result, wt_e
     if (!split_store_bytes(bytes, length, &p))
         return store_corrupt_error(err, "", "the content is not whole");
     wt_status status = decode_tables(&p, result, err);
-    if (status == WT_OK && p.tail.has_origin)
-        decode_origin(p.origin, p.tail.origin_length, wt_result_provenance(result));
+    if (status == WT_OK && p.tail.has_origin) {
+        char *const origin = wt_strndup(p.origin, p.tail.origin_length);
+        provenance_restore(wt_result_provenance(result), origin);
+        free(origin);
+    }
     if (status == WT_OK)
         wt_result_set_case(result, p.case_file, p.tail.case_length);
+    return status;
+}
+
+/* Decodes a new result. */
+static wt_status decode_result(const char *bytes, size_t length, const char *name,
+                               wt_result **result, wt_error *err)
+{
+    wt_result *const read = wt_result_new();
+    const wt_status status = store_decode(bytes, length, read, err);
+    if (status == WT_OK) {
+        *result = read;
+    } else {
+        wt_error_file(err, name);
+        wt_result_free(read);
+    }
     return status;
 }
 
@@ -158,17 +169,12 @@ wt_status store_read_bytes(const hdf5_bytes *from, hdf5_read_function *pass, con
     const sandbox_limits limits = sandbox_limits_for(from->size);
     size_t n = 0;
     char *answer = NULL;
-    wt_result *const read = wt_result_new();
     wt_status status = hdf5_sandbox_read(from, &limits, pass, &answer, &n, err);
     if (status == WT_OK)
-        status = store_decode(answer, n, read, err);
-    free(answer);
-    if (status == WT_OK) {
-        *result = read;
-    } else {
+        status = decode_result(answer, n, name, result, err);
+    else
         wt_error_file(err, name);
-        wt_result_free(read);
-    }
+    free(answer);
     return status;
 }
 
@@ -287,18 +293,11 @@ static bool read_exactly(int file, size_t at, void *to, size_t n)
  * kB. */
 #define ABSTRACT_SIZE_MAX ((size_t)2 << 20)
 
-/* True if the abstract has the current set of tables with headlines. */
-static bool is_current_abstract(const char *bytes, size_t length)
-{
-    char of[STORE_DIGEST_SIZE];
-    store_headlines_digest(of);
-    return length >= sizeof of && memcmp(bytes + length - sizeof of, of, sizeof of) == 0;
-}
-
 /* Returns the bytes of the abstract, which the caller frees. NULL without a usable abstract. */
 static char *read_abstract_bytes(int file, size_t size, size_t *length)
 {
     abstract_trailer end;
+    char of[STORE_DIGEST_SIZE]; /* of the current set of tables with headlines */
     if (size < sizeof end)
         return NULL;
     const size_t before = size - sizeof end;
@@ -307,9 +306,10 @@ static char *read_abstract_bytes(int file, size_t size, size_t *length)
     *length = (size_t)le64toh(end.length);
     const bool whole = *length > 0 && *length <= before && *length <= ABSTRACT_SIZE_MAX;
     char *const bytes = whole ? wt_alloc(*length, 1) : NULL;
-    if (whole && read_exactly(file, before - *length, bytes, *length) &&
-        is_current_abstract(bytes, *length)) {
-        *length -= STORE_DIGEST_SIZE;
+    store_headlines_digest(of);
+    if (whole && *length >= sizeof of && read_exactly(file, before - *length, bytes, *length) &&
+        memcmp(bytes + *length - sizeof of, of, sizeof of) == 0) {
+        *length -= sizeof of;
         return bytes;
     }
     free(bytes);
@@ -323,15 +323,8 @@ wt_status store_abstract_read(int file, size_t size, const char *name, wt_result
     char *const bytes = read_abstract_bytes(file, size, &length);
     if (bytes == NULL)
         return WT_END;
-    wt_result *const read = wt_result_new();
-    const wt_status status = store_decode(bytes, length, read, err);
+    const wt_status status = decode_result(bytes, length, name, result, err);
     free(bytes);
-    if (status == WT_OK) {
-        *result = read;
-    } else {
-        wt_error_file(err, name);
-        wt_result_free(read);
-    }
     return status;
 }
 

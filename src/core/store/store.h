@@ -13,29 +13,17 @@
 enum { STORE_FORMAT_OLDEST = 3, STORE_FORMAT = 5, STORE_FORMAT_MAP };
 
 #define STORE_VERSION_ATTRIBUTE "weartrack_version"
-
 #define STORE_COMMAND_ATTRIBUTE "command"
-
 #define STORE_CREATED_ATTRIBUTE "created"
-
 #define STORE_DIGESTS_ATTRIBUTE "table_sha256"
-
 #define STORE_TABLES_ATTRIBUTE "table_order"
-
 #define STORE_TITLE_ATTRIBUTE "title"
-
 #define STORE_COLUMNS_ATTRIBUTE "column_order"
-
 #define STORE_KEYS_ATTRIBUTE "key_order"
-
 #define STORE_UNITS_ATTRIBUTE "units"
-
 #define STORE_LONG_NAME_ATTRIBUTE "long_name"
-
 #define STORE_BLOCK_DATASET "block"
-
 #define STORE_CASE_DATASET "case"
-
 #define STORE_INPUTS_TABLE "provenance/inputs"
 
 /* Format of the data from the sandbox: tables as bytes (table_bytes.h), then with has_origin the

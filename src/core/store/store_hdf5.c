@@ -216,11 +216,6 @@ static hid_t open_stored_dataset(const hdf5_reader *r, hid_t group, const char *
     return -1;
 }
 
-static hid_t open_dataset(const hdf5_reader *r, hid_t group, const char *name, int rank, hsize_t *n)
-{
-    return open_stored_dataset(r, group, name, rank, H5D_CONTIGUOUS, n);
-}
-
 static bool read_estimate_key(hdf5_reader *r, hid_t group, const char *key, double value,
                               wt_table *table)
 {
@@ -268,7 +263,7 @@ static bool read_column(hdf5_reader *r, hid_t group, const char *name, hsize_t n
                         wt_table *table, hid_t *opened)
 {
     hsize_t n = 0;
-    const hid_t dataset = open_dataset(r, group, name, 1, &n);
+    const hid_t dataset = open_stored_dataset(r, group, name, 1, H5D_CONTIGUOUS, &n);
     *opened = dataset;
     if (dataset < 0 || n != n_rows)
         return fail_corrupt_object(r, name,
@@ -328,7 +323,8 @@ static bool read_table_columns(hdf5_reader *r, hid_t group, wt_table *table)
     hsize_t n_rows = 0;
     char **columns = NULL;
     size_t n = 0, n_opened = 0;
-    const hid_t blocks = open_dataset(r, group, STORE_BLOCK_DATASET, 1, &n_rows);
+    const hid_t blocks =
+        open_stored_dataset(r, group, STORE_BLOCK_DATASET, 1, H5D_CONTIGUOUS, &n_rows);
     if (blocks < 0)
         return fail_corrupt_object(r, STORE_BLOCK_DATASET, "blocks missing");
     bool good = read_name_list(r, group, STORE_COLUMNS_ATTRIBUTE, TABLE_COLUMNS_MAX, &columns, &n);
@@ -384,11 +380,12 @@ static bool write_case_text(hdf5_reader *r, uint64_t *passed)
     char *text = NULL;
     if (H5Lexists(r->file, STORE_CASE_DATASET, H5P_DEFAULT) == 0)
         return true;
-    const hid_t dataset = open_dataset(r, r->file, STORE_CASE_DATASET, 0, &n);
+    const hid_t dataset =
+        open_stored_dataset(r, r->file, STORE_CASE_DATASET, 0, H5D_CONTIGUOUS, &n);
     const hid_t type = dataset >= 0 ? H5Dget_type(dataset) : -1;
     const bool is_text =
         type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
-    /* not longer than the file: open_dataset checks it */
+    /* not longer than the file: open_stored_dataset checks it */
     const size_t length = is_text ? H5Tget_size(type) : 0;
     if (!is_text)
         good = fail_corrupt_object(r, STORE_CASE_DATASET, "not one text of fixed length");
@@ -460,13 +457,6 @@ void store_tail_write(FILE *out, const store_tail *tail)
     (void)fwrite(words, sizeof words, 1, out);
 }
 
-static void write_table_digest(const hdf5_reader *r, const char *digest)
-{
-    char padded[STORE_DIGEST_SIZE] = "";
-    (void)snprintf(padded, sizeof padded, "%s", digest);
-    (void)fwrite(padded, sizeof padded, 1, r->out);
-}
-
 /* Writes all tables, or those that `wanted` selects. A selection has no origin and no case. */
 static wt_status write_store(hdf5_reader *r, bool (*wanted)(const char *name))
 {
@@ -484,8 +474,11 @@ static wt_status write_store(hdf5_reader *r, bool (*wanted)(const char *name))
     if (good && tail.has_origin)
         tail.origin_length = (uint64_t)fprintf(r->out, "%s\n%s", w.version, w.command);
     for (size_t i = 0; good && i < w.n_digests; i++)
-        if (wanted == NULL || (i < w.n_tables && wanted(w.tables[i])))
-            write_table_digest(r, w.digests[i]);
+        if (wanted == NULL || (i < w.n_tables && wanted(w.tables[i]))) {
+            char padded[STORE_DIGEST_SIZE] = "";
+            (void)snprintf(padded, sizeof padded, "%s", w.digests[i]);
+            (void)fwrite(padded, sizeof padded, 1, r->out);
+        }
     if (good)
         store_tail_write(r->out, &tail);
     wt_strings_free(w.tables, w.n_tables);

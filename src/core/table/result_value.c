@@ -133,19 +133,6 @@ result_value result_value_ratio(const result_value_tables *t)
     return f;
 }
 
-double result_value_ratio_all_rates(const result_value_tables *t)
-{
-    const result_value ratio = result_value_ratio(t);
-    double mean[2] = {(double)NAN, (double)NAN};
-    for (size_t i = 0; i < t->groups.n_rows; i++)
-        for (int g = 0; g < 2; g++)
-            if (strcmp(modulus_groups_text(&t->groups, i, MODULUS_GROUPS_GROUP),
-                       g == 0 ? "bulk" : "track") == 0)
-                mean[g] = modulus_groups_get(&t->groups, i, MODULUS_GROUPS_GEOMETRIC_MEAN);
-    const double of_all = mean[1] / mean[0];
-    return of_all < ratio.low || of_all > ratio.high ? of_all : (double)NAN;
-}
-
 /* ---- sliding and layer ----------------------------------------------------------------------- */
 
 /* Function that returns a number of one row of the table what_if. */

@@ -58,9 +58,6 @@ wt_status result_values_bind(const wt_result *result, result_value_tables *table
 result_value result_value_group(const result_value_tables *tables, size_t row);
 /* Ratio of the moduli of the groups over all rates. */
 result_value result_value_ratio(const result_value_tables *tables);
-/* Ratio of the moduli of all rates, which may differ from the ratio of the common rates. NaN if it
- * is within the interval of the latter, or unknown. */
-double result_value_ratio_all_rates(const result_value_tables *tables);
 /* Values of friction and layer, selected by the key of the number. */
 result_value result_value_friction(const result_value_tables *tables, friction_key key);
 result_value result_value_thickness(const result_value_tables *tables);

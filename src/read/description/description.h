@@ -246,8 +246,7 @@ wt_status description_parse_file(description_xsd *schema, const char *path,
 void description_free(text_description *description);
 
 /* Parses the head of a description embedded in the library, which is known to be valid. */
-wt_status description_from_library(const embedded_text *file, text_description **description,
-                                   wt_error *err);
+text_description *description_from_library(const embedded_text *file);
 /* Parses a description up to at least `extent`. An embedded description is parsed on the first
  * request, from any thread; only lack of memory can fail. The result is borrowed from
  * `description`. */

@@ -17,26 +17,17 @@ static char *extract_text(text_description *d, const char *mark, char end)
     return arena_text(&d->memory, from, (size_t)(strchrnul(from, end) - from));
 }
 
-wt_status description_from_library(const embedded_text *file, text_description **description,
-                                   wt_error *err)
+text_description *description_from_library(const embedded_text *file)
 {
-    text_description *const d = calloc(1, sizeof *d);
-    if (d == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for a format description");
+    text_description *const d = wt_alloc(1, sizeof *d);
     d->xml = file->text;
     d->id = extract_text(d, " id=\"", '"');
     d->version = extract_text(d, " version=\"", '"');
     d->title = extract_text(d, "<title>", '<');
     d->evidence = extract_text(d, "<evidence>", '<');
-    const char *const kinds = extract_text(d, " kinds=\"", '"');
-    if (d->memory.failed) {
-        description_free(d);
-        return wt_fail(err, WT_E_MEMORY, "no memory for a format description");
-    }
-    d->kinds = parse_kinds(kinds);
+    d->kinds = parse_kinds(extract_text(d, " kinds=\"", '"'));
     d->verified = strstr(d->xml, " verified=\"true\"") != NULL;
-    *description = d;
-    return WT_OK;
+    return d;
 }
 
 /* Parses the document up to the description of the file content. */

@@ -154,18 +154,12 @@ wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t pi
     const wt_status status = description_load(reader->description, DESCRIPTION_WHOLE, &d, err);
     if (status != WT_OK)
         return status;
-    text_parts *const p = calloc(1, sizeof *p);
-    if (p == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
+    text_parts *const p = wt_alloc(1, sizeof *p);
     p->options = *options;
     p->file = (text_file){.description = d, .name = wt_input_name(input)};
-    p->file.feed = calloc(1, sizeof *p->file.feed);
+    p->file.feed = wt_alloc(1, sizeof *p->file.feed);
     p->file.values = arena_alloc(&p->file.memory, d->n_fields, sizeof *p->file.values);
     p->unit_uses = arena_alloc(&p->file.memory, options->n_units, sizeof *p->unit_uses);
-    if (p->file.feed == NULL || p->file.memory.failed) {
-        text_parts_free(p);
-        return wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
-    }
     *p->file.feed = (text_feed){.input = input, .encoding = d->encoding, .piece = piece};
     p->s = (text_scanner){.file = &p->file,
                           .d = d,

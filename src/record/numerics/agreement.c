@@ -35,13 +35,6 @@ static size_t count_velocities(const agreement_data *d, double ends[2])
     return n;
 }
 
-/* Term k of the curve at a logarithm of the velocity. */
-static double curve_term(const agreement *a, double log_velocity, size_t k)
-{
-    const double u = (log_velocity - a->centre) / a->span;
-    return k == 0 ? 1 : k == 1 ? u : u * u;
-}
-
 /* Computes the rows of `weight` for a scatter: (X W X)^-1 X W. False if the velocities do not
  * determine all terms. */
 static bool find_curve_weights(const agreement_data *d, agreement *a, double scatter)
@@ -155,14 +148,16 @@ static void find_curve_errors(const agreement_data *d, agreement *a, double *row
 
 static void alloc_agreement(const agreement_data *d, agreement *a)
 {
-    a->weight = wt_alloc(a->terms * d->n, sizeof *a->weight);
-    a->fitted_value = wt_alloc(d->n, sizeof *a->fitted_value);
-    a->error = wt_alloc(d->n, sizeof *a->error);
-    a->df = wt_alloc(d->n, sizeof *a->df);
-    a->at = wt_alloc(a->terms * d->n, sizeof *a->at);
+    a->weight = arena_numbers(&a->memory, a->terms * d->n);
+    a->fitted_value = arena_numbers(&a->memory, d->n);
+    a->error = arena_numbers(&a->memory, d->n);
+    a->df = arena_numbers(&a->memory, d->n);
+    a->at = arena_numbers(&a->memory, a->terms * d->n);
     for (size_t k = 0; k < a->terms; k++)
-        for (size_t i = 0; i < d->n; i++)
-            a->at[k * d->n + i] = curve_term(a, d->log_velocity[i], k);
+        for (size_t i = 0; i < d->n; i++) {
+            const double u = (d->log_velocity[i] - a->centre) / a->span;
+            a->at[k * d->n + i] = k == 0 ? 1 : k == 1 ? u : u * u;
+        }
 }
 
 wt_status agreement_fit(const agreement_data *data, size_t most_terms, agreement *a, wt_error *err)
@@ -198,11 +193,7 @@ wt_status agreement_fit(const agreement_data *data, size_t most_terms, agreement
 
 void agreement_clear(agreement *a)
 {
-    free(a->at);
-    free(a->weight);
-    free(a->fitted_value);
-    free(a->error);
-    free(a->df);
+    arena_free(&a->memory);
     *a = (agreement){.n = 0};
 }
 

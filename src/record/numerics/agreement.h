@@ -5,6 +5,7 @@
 #ifndef WT_RECORD_NUMERICS_AGREEMENT_H
 #define WT_RECORD_NUMERICS_AGREEMENT_H
 
+#include "core/base/array.h"
 #include "weartrack/core.h"
 
 #include <stdbool.h>
@@ -45,6 +46,7 @@ typedef struct agreement {
                                       degrees of freedom */
     agreement_verdict verdict;
     size_t deciding_step; /* step that decides the verdict */
+    arena memory;         /* of the arrays */
 } agreement;
 
 /* Smallest separation of distinct velocities. */

@@ -30,19 +30,14 @@ static bool has_both_signs(const double *x, size_t n)
     return 10 * below > n && 10 * above > n; /* 10 % exceeds scatter about 0 */
 }
 
-static double sample_load(const wt_record *record, double load, size_t i)
-{
-    const double *const measured = record->channel[WT_RECORD_NORMAL_FORCE];
-    return measured != NULL ? measured[i] : load;
-}
-
 /* The coefficient of the file is used unless it lost the sign that the force has. */
 static wt_status sample_friction(const wt_record *record, double load, double *friction,
                                  wt_cycles *cycles, wt_error *err)
 {
     const double *const given = record->channel[WT_RECORD_COEFFICIENT],
                         *const force = record->channel[WT_RECORD_FRICTION_FORCE];
-    const bool has_load = record->channel[WT_RECORD_NORMAL_FORCE] != NULL || load > 0,
+    const double *const loads = record->channel[WT_RECORD_NORMAL_FORCE];
+    const bool has_load = loads != NULL || load > 0,
                by_force = force != NULL && has_load &&
                           (given == NULL ||
                            (has_both_signs(force, record->n) && !has_both_signs(given, record->n)));
@@ -54,7 +49,7 @@ static wt_status sample_friction(const wt_record *record, double load, double *f
         return status;
     }
     for (size_t i = 0; i < record->n; i++) {
-        const double normal = sample_load(record, load, i),
+        const double normal = loads != NULL ? loads[i] : load,
                      ratio = force != NULL && normal > 0 ? force[i] / normal : (double)NAN;
         friction[i] = by_force ? ratio : given[i];
         cycles->n_unloaded += by_force && normal <= 0;
@@ -198,15 +193,20 @@ static cycle_span sliding_span(const wt_record *record, wt_cycle_kind kind, cycl
 
 /* ---- means ----------------------------------------------------------------------------------- */
 
-static double span_mean(const double *x, cycle_span s)
+static double mean_in_span(const double *x, cycle_span s, bool of_magnitude)
 {
     double sum = 0, n = 0;
     for (size_t i = s.first; x != NULL && i < s.end; i++)
         if (!isnan(x[i])) {
-            sum += x[i];
+            sum += of_magnitude ? fabs(x[i]) : x[i];
             n++;
         }
     return n > 0 ? sum / n : (double)NAN;
+}
+
+static double span_mean(const double *x, cycle_span s)
+{
+    return mean_in_span(x, s, false);
 }
 
 static double standard_deviation_in_span(const double *x, cycle_span s, double mean)
@@ -222,29 +222,16 @@ static double standard_deviation_in_span(const double *x, cycle_span s, double m
 
 /* The span ends at the first sample of the next cycle, so that a cycle of one sample has a
  * duration. */
-static size_t span_end(const wt_record *record, cycle_span s)
-{
-    return same_step(record, s.end) ? s.end : s.end - 1;
-}
-
 static double span_difference(const double *x, const wt_record *record, cycle_span s)
 {
-    return x != NULL ? x[span_end(record, s)] - x[s.first] : (double)NAN;
+    return x != NULL ? x[same_step(record, s.end) ? s.end : s.end - 1] - x[s.first] : (double)NAN;
 }
 
 /* For strokes the mean of a quantity that changes its sign with the direction is that of its
  * magnitude. */
 static double mean_speed(const double *x, cycle_span s, wt_cycle_kind kind)
 {
-    double sum = 0, n = 0;
-    if (kind != WT_CYCLE_STROKE)
-        return fabs(span_mean(x, s));
-    for (size_t i = s.first; x != NULL && i < s.end; i++)
-        if (!isnan(x[i])) {
-            sum += fabs(x[i]);
-            n++;
-        }
-    return n > 0 ? sum / n : (double)NAN;
+    return fabs(mean_in_span(x, s, kind == WT_CYCLE_STROKE));
 }
 
 /* Length of a double stroke. */

@@ -343,35 +343,18 @@ static law_sum combine_members(const factor_scan *t)
     return (law_sum){weight, {mean, mean * mean + variance}, t->each[0].level};
 }
 
-static law_sum evaluate_factor(factor_scan *t, double log_factor, bool first)
-{
-    for (size_t i = 0; i < t->n_of; i++)
-        t->each[i] = evaluate_member(&t->of[i], log_factor, first);
-    return combine_members(t);
-}
-
-static void store_factor(factor_scan *t, double log_factor, law_sum sum)
-{
-    t->log_factor[t->n] = log_factor;
-    t->weight[t->n] = sum.weight;
-    t->sum[t->n++] = sum;
-}
-
 /* Evaluates factors in equal steps from low to high. */
 static void evaluate_factors(factor_scan *t, double low, double high, size_t n, bool first)
 {
-    t->n = 0;
+    t->n = n;
     for (size_t i = 0; i < n; i++) {
         const double at = low + (high - low) * (double)i / (double)(n - 1);
-        store_factor(t, at, evaluate_factor(t, at, first));
+        for (size_t k = 0; k < t->n_of; k++)
+            t->each[k] = evaluate_member(&t->of[k], at, first);
+        t->sum[i] = combine_members(t);
+        t->log_factor[i] = at;
+        t->weight[i] = t->sum[i].weight;
     }
-}
-
-/* Excludes laws that are less likely than the best by a factor of e^-deep. */
-static void exclude_unlikely_laws(member *m)
-{
-    for (size_t i = 0; i < SCATTER_LAWS; i++)
-        m->kept[i] = m->likelihood[i] > m->best - deep;
 }
 
 /* Limits of the factor: from the smallest to the largest one that any of the series can show. */
@@ -388,12 +371,14 @@ static void factor_limits(const factor_scan *t, double limit[2])
     }
 }
 
+/* Excludes laws that are less likely than the best by a factor of e^-deep. */
 static void scan_coarsely(factor_scan *t, const double limit[2])
 {
     const size_t n = (size_t)fmin(fmax(ceil((limit[1] - limit[0]) / coarse), 2), COARSE_MOST);
     evaluate_factors(t, limit[0], limit[1], n, true);
     for (size_t i = 0; i < t->n_of; i++)
-        exclude_unlikely_laws(&t->of[i]);
+        for (size_t k = 0; k < SCATTER_LAWS; k++)
+            t->of[i].kept[k] = t->of[i].likelihood[k] > t->of[i].best - deep;
 }
 
 /* ln of the odds of the curve, with any factor, over constants. The prior of the shift is uniform

@@ -41,14 +41,6 @@ typedef struct slip_sums {
     double rise, fall;       /* number of samples */
 } slip_sums;
 
-static void add_fall(slip_sums *s, double height)
-{
-    s->n++;
-    const double off = height - s->mean;
-    s->mean += off / s->n;
-    s->squares += off * (height - s->mean);
-}
-
 /* Finds falls between turning points with hysteresis. */
 static slip_sums find_falls(const double *y, size_t n, double least)
 {
@@ -66,7 +58,9 @@ static slip_sums find_falls(const double *y, size_t n, double least)
             bottom = i;
         } else if (falling && y[i] - y[bottom] > least) {
             s.fall += (double)(bottom - top);
-            add_fall(&s, y[top] - y[bottom]);
+            const double off = y[top] - y[bottom] - s.mean;
+            s.mean += off / ++s.n;
+            s.squares += off * (y[top] - y[bottom] - s.mean);
             falling = false;
             top = i;
         }
