@@ -19,9 +19,9 @@ static size_t read_collected_cases(cmd_session *s, wt_collected_result *cases, w
             read = wt_fail(&s->err, WT_E_NOT_FOUND,
                            "this is no result of a case, and no curve of it has a modulus");
             wt_error_file(&s->err, path);
-            wt_error_advice(&s->err, "give what weartrack run wrote, or weartrack indent with "
-                                     "--curves median; a hard particle tells a modulus only under "
-                                     "a stiff lever");
+            wt_error_advice(&s->err, "give what weartrack run wrote; beside it, weartrack indent "
+                                     "with --curves median; a hard particle tells a modulus only "
+                                     "under a stiff lever");
         }
         if (read != WT_OK) {
             wt_error_file(&s->err, path);

@@ -226,9 +226,15 @@ static wt_estimate cap_area(wt_estimate depth, double radius)
 
 /* ---- rows ------------------------------------------------------------------------------------ */
 
+/* True if the radius of the track gives the distance: laps or rotations are counted. */
+static bool counts_rounds(const wt_record *record)
+{
+    return record->channel[WT_RECORD_LAPS] != NULL || record->channel[WT_RECORD_ROTATION] != NULL;
+}
+
 /* Names the first missing input of the rate. */
 static const char *missing_wear_input(const wt_record_job *job, const wear_row *r, wt_estimate load,
-                                      bool strokes)
+                                      bool strokes, bool rounds)
 {
     if (!is_stated(job->mass_loss) && !is_stated(job->track_area) && isnan(r->depth.value))
         return "nothing tells what was lost: give --profile, --track-area or --mass-loss, or "
@@ -236,7 +242,9 @@ static const char *missing_wear_input(const wt_record_job *job, const wear_row *
     if (isnan(load.value))
         return "no load: give --load";
     if (isnan(r->distance))
-        return strokes ? "no distance: give --track-length" : "no distance: give --track-radius";
+        return strokes  ? "no distance: give --track-length"
+               : rounds ? "no distance: give --track-radius"
+                        : "no distance, velocity, laps or rotation in the record";
     if (r->depth.value <= 0)
         return "the depth of the record does not grow";
     return strokes ? "no volume: give --track-length"
@@ -244,7 +252,7 @@ static const char *missing_wear_input(const wt_record_job *job, const wear_row *
 }
 
 static void set_rate(const wt_record_job *job, wear_row *r, wt_estimate load, bool strokes,
-                     const char *of_ball)
+                     bool rounds, const char *of_ball)
 {
     const double value = r->volume.value / (load.value * r->distance),
                  error = hypot(relative_error(r->volume), relative_error(load));
@@ -252,7 +260,7 @@ static void set_rate(const wt_record_job *job, wear_row *r, wt_estimate load, bo
     r->rate = (wt_interval){value, none, none, none};
     if (!(value > 0)) {
         r->rate.value = none;
-        r->note = missing_wear_input(job, r, load, strokes);
+        r->note = missing_wear_input(job, r, load, strokes, rounds);
     } else if (error > 0) {
         r->rate = (wt_interval){value, value * error, value * exp(-NORMAL_95 * error),
                                 value * exp(NORMAL_95 * error)};
@@ -279,7 +287,7 @@ typedef struct wear_rows {
     const wt_record_job *job;
     wear_row row;
     wt_estimate load;
-    bool strokes;
+    bool strokes, rounds;
     table_writer *t;
     wear_rates *rates;
 } wear_rows;
@@ -292,7 +300,7 @@ static void add_wear_volume(wear_rows *rows, const char *of, wt_estimate volume)
     r->volume = volume;
     if (!(volume.standard_error > 0)) /* no error was stated */
         r->volume.standard_error = (double)NAN;
-    set_rate(rows->job, r, rows->load, rows->strokes,
+    set_rate(rows->job, r, rows->load, rows->strokes, rows->rounds,
              large ? "the contact is large against the ball" : "");
     wear_add_row(rows->t, r);
     if (!isnan(r->rate.value))
@@ -312,6 +320,7 @@ wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_c
     wear_rows rows = {.job = job,
                       .load = {load, load * load_error, 0, "N"},
                       .strokes = cycles->kind == WT_CYCLE_STROKE,
+                      .rounds = counts_rounds(record),
                       .t = t,
                       .rates = rates};
     wear_row *const r = &rows.row;

@@ -17,6 +17,7 @@ typedef struct image_builder {
     wt_log *log;
     image_list *list;
     wt_error *err;
+    double pixel_size; /* of the user; NaN: none */
 } image_builder;
 
 static void name_image(const image_builder *m, wt_image *head, const char *otherwise)
@@ -36,7 +37,7 @@ static void check_pixel_shape(const image_builder *m)
     const text_table *const t = m->table;
     const double ratio = t->header.value[HEADER_HEIGHT] / (double)t->n_rows /
                          (t->header.value[HEADER_WIDTH] / (double)t->n_columns);
-    if (ratio > ratio_least && t->n_rows > 1)
+    if (ratio > ratio_least && t->n_rows > 1 && isnan(m->pixel_size))
         wt_log_action(m->log, WT_WARNING, WT_CONTRADICTED, 0, "pixel-size", m->file->name,
                       format_line_position(t->names_line).text,
                       "the pixels are not square: %.3g times as high as wide, by %zu rows and the "
@@ -263,7 +264,7 @@ wt_status text_read_images(const file_reader *self, wt_input *input, const wt_re
         return status;
     text_log_columns(&file, log);
     for (size_t i = 0; status == WT_OK && i < file.n_tables; i++) {
-        const image_builder m = {&file, &file.tables[i], log, &list, err};
+        const image_builder m = {&file, &file.tables[i], log, &list, err, options->pixel_size};
         status = add_table_image(&m);
         if (is_skipped(&m, status))
             status = WT_OK;
