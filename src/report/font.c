@@ -42,11 +42,8 @@ bool wt_report_font_is_available(const char *font, char *instead, size_t size)
         return true;
     escape_font_pattern(font, pattern);
     const char *const arguments[] = {"-f", "%{family}\\n", pattern, NULL};
-    const program_call call = {.program = "fc-match",
-                               .arguments = arguments,
-                               .folder = "/",
-                               .limit = match_time,
-                               .file_size = GNUPLOT_PICTURE_LIMIT};
+    const program_call call = {
+        .program = "fc-match", .arguments = arguments, .folder = "/", .limit = match_time};
     program_result end;
     if (program_run(&call, &end, NULL) != WT_OK || end.outcome != PROGRAM_EXITED || end.code != 0 ||
         end.words[0] == '\0' || family_contains(end.words, font))

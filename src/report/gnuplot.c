@@ -8,6 +8,13 @@
 #include <math.h>
 #include <string.h>
 
+/* Largest size of all that gnuplot writes [byte]. */
+static size_t folder_size(const gnuplot_call *call)
+{
+    const size_t pictures = (size_t)1 << 30;
+    return call->size > pictures ? call->size : pictures;
+}
+
 static wt_status fail_start(const char *program, int code, wt_error *err)
 {
     wt_status status = wt_fail(err, WT_E_TOOL, "gnuplot cannot be started");
@@ -26,6 +33,8 @@ static wt_status fail_run(const gnuplot_call *call, const program_result *end, w
         wt_fail(err, status, "gnuplot was ended by signal %d", end->code);
     else if (*call->timed_out)
         wt_fail(err, status, "gnuplot did not end within %g s", call->limit);
+    else if (end->outcome == PROGRAM_TOO_LARGE)
+        wt_fail(err, status, "gnuplot wrote more than %zu MiB", folder_size(call) >> 20);
     else
         wt_fail(err, status, "gnuplot failed with exit status %d", end->code);
     wt_error_file(err, call->program);
@@ -39,13 +48,15 @@ static wt_status fail_run(const gnuplot_call *call, const program_result *end, w
 wt_status gnuplot_run(const gnuplot_call *call, wt_error *err)
 {
     // Environment variables that change gnuplot.
-    static const char *const hidden[] = {"GNU", "COLUMNS=", NULL};
+    static const char *const hidden[] = {"GNU", "COLUMNS=", "LD_PRELOAD=", NULL};
     const program_call run = {.program = call->program,
                               .arguments = call->arguments,
                               .folder = call->folder,
                               .hidden = hidden,
                               .limit = (double)INFINITY, // go_on enforces the limit
+                              .foreign = true,
                               .file_size = call->size,
+                              .folder_size = folder_size(call),
                               .go_on = call->go_on,
                               .user = call->user};
     program_result end;

@@ -47,7 +47,6 @@ static void *run_program(void *user)
                                .arguments = (const char *const *)p->arguments,
                                .folder = p->folder,
                                .limit = DAY,
-                               .file_size = (size_t)1 << 40,
                                .go_on = may_go_on,
                                .user = p};
     if (program_run(&call, &end, &err) != WT_OK) {

@@ -2,6 +2,7 @@
  * process nor a file. Usage: interrupts PROGRAM FIXTURES WORK
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
+#include <glob.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdbool.h>
@@ -40,18 +41,22 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* The number that the gnuplot of this test writes when it has begun. */
-static pid_t wait_for_gnuplot(void)
+/* The number that the gnuplot of this test writes in its folder when it has begun. The next run
+ * removes that folder if it is left. */
+static pid_t wait_for_gnuplot(pid_t report)
 {
+    char pattern[64];
     long number = 0;
+    (void)snprintf(pattern, sizeof pattern, ".weartrack-%ld-*/plots/pid", (long)report);
     for (int i = 0; i < 1000 && number == 0; i++) {
-        FILE *file = fopen("pid", "r");
+        glob_t found = {0};
+        FILE *file = glob(pattern, 0, NULL, &found) == 0 ? fopen(found.gl_pathv[0], "r") : NULL;
         if (file == NULL || fscanf(file, "%ld", &number) != 1)
             (void)usleep(10000);
         if (file != NULL)
             (void)fclose(file);
+        globfree(&found);
     }
-    (void)unlink("pid");
     return (pid_t)number;
 }
 
@@ -75,7 +80,7 @@ static bool is_gone(pid_t pid)
 static bool try_signal(char *const report[], int number)
 {
     const pid_t pid = start(report);
-    const pid_t gnuplot = wait_for_gnuplot();
+    const pid_t gnuplot = wait_for_gnuplot(pid);
     const double begin = now();
     (void)kill(pid, number);
     const int end = end_of(pid);
@@ -108,7 +113,7 @@ int main(int argc, char **argv)
     FILE *file = fopen(fake, "w");
     if (file == NULL)
         return 2;
-    fprintf(file, "#!/bin/sh\ntrap '' TERM INT HUP\necho $$ >'%s/pid'\nexec sleep 100\n", argv[3]);
+    fprintf(file, "#!/bin/sh\ntrap '' TERM INT HUP\necho $$ >pid\nexec sleep 100\n");
     if (fclose(file) != 0 || chmod(fake, 0755) != 0)
         return 2;
     char *const report[] = {argv[1], "report", "case.h5", "-o", "report", "--gnuplot", fake, NULL};

@@ -357,9 +357,3 @@ wt_status sandbox_read(const sandbox_call *door, const sandbox_limits *limits, c
     sandbox_close(flow);
     return status;
 }
-
-/* No process of these is shut in, as it is said here. */
-const char *wt_sandbox_limitations(void)
-{
-    return "the doors of a fuzz target stand open";
-}

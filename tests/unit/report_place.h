@@ -89,6 +89,48 @@ static inline size_t count_files(const char *path)
     return n;
 }
 
+/* Programs inherit this variable, by which they are found. */
+#define PROGRAM_MARK "WEARTRACK_TEST_PROGRAM"
+
+static inline bool is_marked(const char *process)
+{
+    char path[300], line[64], bytes[1 << 16];
+    (void)snprintf(path, sizeof path, "/proc/%.250s/environ", process);
+    (void)snprintf(line, sizeof line, PROGRAM_MARK "=%ld", (long)getpid());
+    FILE *file = fopen(path, "rb");
+    const size_t n = file != NULL ? fread(bytes, 1, sizeof bytes, file) : 0; // none of a zombie
+    if (file != NULL)
+        (void)fclose(file);
+    return memmem(bytes, n, line, strlen(line) + 1) != NULL;
+}
+
+static inline pid_t find_program(void)
+{
+    pid_t found = 0;
+    DIR *all = opendir("/proc");
+    assert_non_null(all);
+    for (const struct dirent *entry; found == 0 && (entry = readdir(all)) != NULL;)
+        if (entry->d_name[0] >= '1' && entry->d_name[0] <= '9' && is_marked(entry->d_name))
+            found = (pid_t)atol(entry->d_name);
+    closedir(all);
+    return found;
+}
+
+static inline void mark_programs(void)
+{
+    char number[32];
+    (void)snprintf(number, sizeof number, "%ld", (long)getpid());
+    assert_int_equal(setenv(PROGRAM_MARK, number, 1), 0);
+}
+
+/* Whether every program and what it started ends within five seconds: a kill takes a moment. */
+static inline bool programs_end(void)
+{
+    for (int i = 0; i < 500 && find_program() != 0; i++)
+        (void)usleep(10000);
+    return find_program() == 0;
+}
+
 static inline bool have_gnuplot(void)
 {
     const char *path = getenv("PATH");

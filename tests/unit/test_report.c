@@ -4,6 +4,7 @@
 #include "report_fixture.h"
 #include "report_place.h"
 
+#include <glob.h>
 #include <libxml/parser.h>
 #include <libxml/xpath.h>
 #include <libxml/xpathInternals.h>
@@ -872,12 +873,20 @@ static pid_t draw_slowly(const wt_result *result, const char *folder, const char
     return writer;
 }
 
-static void wait_for(const char *path)
+/* gnuplot writes in its folder only: that of a new report, or one in the folder of the report. */
+static void wait_for(const char *name)
 {
-    for (int i = 0; i < 1000 && !exists(path); i++)
-        (void)usleep(10000);
-    assert_true(exists(path));
-    assert_int_equal(unlink(path), 0);
+    bool found = false;
+    char pattern[64];
+    for (int i = 0; i < 2000 && !found; i++) {
+        static const char *const places[] = {".weartrack-*/plots/", "out/.weartrack-*/plots/"};
+        glob_t matches;
+        (void)snprintf(pattern, sizeof pattern, "%s%s", places[i % 2], name);
+        found = glob(pattern, 0, NULL, &matches) == 0;
+        globfree(&matches);
+        (void)usleep(5000);
+    }
+    assert_true(found);
 }
 
 /* What a killed run has left is swept away by the next one, in a new place and over an older
@@ -888,23 +897,22 @@ static void test_leftovers(void **state)
     NEED_GNUPLOT();
     const char *const table = "friction";
     wt_result *result = fixture_only(&table, 1, &(fixture_change){.table = NULL});
-    write_all("slow", "#!/bin/sh\ntouch ../../../begun ../../begun\nexec sleep 100\n");
+    write_all("slow", "#!/bin/sh\n: > slow_begun\nexec sleep 100\n");
     write_all("later",
-              "#!/bin/sh\ntouch ../../begun ../../../begun\nsleep 1\nexec gnuplot \"$@\"\n");
+              "#!/bin/sh\n: > later_begun\nsleep 1\nrm later_begun\nexec gnuplot \"$@\"\n");
     assert_int_equal(chmod("slow", 0755) + chmod("later", 0755), 0);
     for (int again = 0; again < 2; again++) {
         const pid_t killed = draw_slowly(result, "out", "./slow");
-        wait_for("begun");
+        wait_for("slow_begun");
         assert_int_equal(kill(killed, SIGKILL), 0);
         assert_int_equal(waitpid(killed, NULL, 0), killed);
         const pid_t alive = draw_slowly(result, "out", "./later");
-        wait_for("begun");
+        wait_for("later_begun");
         write_report(result, "out", NULL); // into the same folder, while the other one draws
         write_report(result, "other", NULL);
         int end = -1;
         assert_int_equal(waitpid(alive, &end, 0), alive);
         assert_int_equal(end, 0);
-        (void)unlink("out/begun");
         assert_int_equal(count_files("out"), 2);
         assert_int_equal(count_files("out/plots"), 5);
         assert_int_equal(count_files("."), 4); // out, other, and the two programs

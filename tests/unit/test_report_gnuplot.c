@@ -140,41 +140,6 @@ static void write_program(const char *name, const char *script)
     assert_int_equal(chmod(name, 0755), 0);
 }
 
-/* The numbers in a file, one a line; waits for the first. */
-static size_t read_numbers(const char *path, pid_t *numbers, size_t most)
-{
-    size_t n = 0;
-    for (int i = 0; i < 500 && n == 0; i++) {
-        FILE *file = fopen(path, "r");
-        long number = 0;
-        while (file != NULL && n < most && fscanf(file, "%ld", &number) == 1)
-            numbers[n++] = (pid_t)number;
-        if (file != NULL)
-            (void)fclose(file);
-        if (n == 0)
-            (void)usleep(10000);
-    }
-    return n;
-}
-
-/* Whether the process ends, or is a zombie that somebody else has to reap, within two seconds. */
-static bool ends(pid_t process)
-{
-    for (int i = 0; i < 200; i++) {
-        char path[64], state = 'Z';
-        (void)snprintf(path, sizeof path, "/proc/%ld/stat", (long)process);
-        FILE *file = fopen(path, "r");
-        if (file == NULL || fscanf(file, "%*d (%*[^)]) %c", &state) != 1)
-            state = 'Z';
-        if (file != NULL)
-            (void)fclose(file);
-        if (state == 'Z')
-            return true;
-        (void)usleep(10000);
-    }
-    return false;
-}
-
 static wt_result *one_figure(void)
 {
     const char *const table = "friction";
@@ -188,25 +153,21 @@ static void test_programs_that_hang_flood_and_die(void **state)
         const char *script, *message, *found;
         bool late;
     } programs[] = {
-        {"echo drawing; echo $$ > ../../pids; exec sleep 100", "did not end within 0.5 s",
-         "drawing", true},
-        {"trap '' TERM INT HUP; echo $$ > ../../pids\nwhile :; do sleep 100; done",
-         "did not end within", "no message", true},
-        {"exec >/dev/null 2>&1; echo $$ > ../../pids; exec sleep 100", "did not end within",
-         "no message", true},
-        {"echo $$ > ../../pids; exec yes nonsense", "did not end within", "n",
-         true}, // cut somewhere
-        {"sleep 100 & echo $! > ../../pids; echo broken; exit 3", "exit status 3", "broken", false},
-        {"echo $$ > ../../pids; kill -SEGV $$", "ended by signal 11", "no message", false},
-        {"echo $$ > ../../pids; exec cat /dev/zero > friction.svg", "ended by signal 25", "",
-         false},
-        {"echo $$ > ../../pids; exit 0", "cannot be opened", "", false},
+        {"echo drawing; exec sleep 100", "did not end within 0.5 s", "drawing", true},
+        {"trap '' TERM INT HUP\nwhile :; do sleep 100; done", "did not end within", "no message",
+         true},
+        {"exec >/dev/null 2>&1; exec sleep 100", "did not end within", "no message", true},
+        {"exec yes nonsense", "did not end within", "n", true}, // cut somewhere
+        {"sleep 100 & echo broken; exit 3", "exit status 3", "broken", false},
+        {"kill -SEGV $$", "ended by signal 11", "no message", false},
+        {"exec cat /dev/zero > friction.svg", "ended by signal 25", "", false},
+        {"exit 0", "cannot be opened", "", false},
     };
     wt_result *result = one_figure();
+    mark_programs();
     for (size_t i = 0; i < sizeof programs / sizeof *programs; i++) {
         wt_report_options options = wt_report_defaults();
         wt_error err = WT_ERROR_INIT;
-        pid_t pids[4];
         options.gnuplot = "./fake";
         options.gnuplot_time = programs[i].late ? 0.5 : 60;
         write_program("fake", programs[i].script);
@@ -217,11 +178,7 @@ static void test_programs_that_hang_flood_and_die(void **state)
             strstr(err.found, programs[i].found) == NULL)
             fail_msg("%s: %s, found %s", programs[i].script, err.message, err.found);
         assert_true(took < 10 && (!programs[i].late || took > 0.4));
-        const size_t n = read_numbers("pids", pids, 4);
-        assert_true(n > 0);
-        for (size_t k = 0; k < n; k++)
-            assert_true(ends(pids[k]));
-        assert_int_equal(unlink("pids"), 0);
+        assert_true(programs_end());
         assert_int_equal(count_files("."), 1);
     }
     wt_result_free(result);
@@ -241,15 +198,14 @@ static void test_cancelled_while_it_draws(void **state)
     wt_result *result = one_figure();
     wt_report_options options = wt_report_defaults();
     wt_error err = WT_ERROR_INIT;
-    pid_t child = 0;
     options.gnuplot = "./fake";
-    write_program("fake", "echo $$ > ../../pids; exec sleep 100");
+    mark_programs();
+    write_program("fake", "exec sleep 100");
     double begin = wt_time_wall(), end = begin + 0.3;
     const wt_progress progress = {cancel_after, &end};
     assert_int_equal(wt_report_write(result, "out", &options, &progress, &err), WT_E_CANCELLED);
     assert_true(wt_time_wall() - begin < 5);
-    assert_int_equal(read_numbers("pids", &child, 1), 1);
-    assert_true(ends(child));
+    assert_true(programs_end());
     assert_false(exists("out"));
     wt_result_free(result);
 }
@@ -260,19 +216,21 @@ static void test_killed_while_it_draws(void **state)
     (void)state;
     wt_result *result = one_figure();
     wt_report_options options = wt_report_defaults();
-    pid_t drawing = 0;
     options.gnuplot = "./fake";
-    write_program("fake", "echo $$ > ../../pids; exec sleep 100");
+    mark_programs();
+    write_program("fake", "exec sleep 100");
     const pid_t writer = fork();
     if (writer == 0) {
         wt_error err = WT_ERROR_INIT;
         _exit(wt_report_write(result, "out", &options, NULL, &err) == WT_OK ? 0 : 1);
     }
     assert_true(writer > 0);
-    assert_int_equal(read_numbers("pids", &drawing, 1), 1);
+    for (int i = 0; i < 500 && find_program() == 0; i++)
+        (void)usleep(10000);
+    assert_int_not_equal(find_program(), 0);
     assert_int_equal(kill(writer, SIGKILL), 0);
     assert_int_equal(waitpid(writer, NULL, 0), writer);
-    assert_true(ends(drawing));
+    assert_true(programs_end());
     wt_result_free(result);
 }
 

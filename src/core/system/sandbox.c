@@ -3,18 +3,15 @@
 #include "core/system/sandbox.h"
 #include "core/base/array.h"
 #include "core/base/memory.h"
-#include "core/system/seccomp_filter.h"
+#include "core/system/confinement.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,20 +29,6 @@ sandbox_limits sandbox_limits_for(size_t size)
 }
 
 /* ---- in the sandbox -------------------------------------------------------------------------- */
-
-/* Sets a limit that never exceeds the current one. */
-static bool lower_resource_limit(unsigned resource, size_t most)
-{
-    struct rlimit both;
-    if (getrlimit(resource, &both) != 0)
-        return false;
-    /* The hard limit has one more second of processor time, so that SIGXCPU is distinguished from
-     * SIGKILL. */
-    const rlim_t last = most + (resource == RLIMIT_CPU ? 1 : 0);
-    both.rlim_max = last < both.rlim_max ? last : both.rlim_max;
-    both.rlim_cur = most < both.rlim_max ? most : both.rlim_max;
-    return setrlimit(resource, &both) == 0;
-}
 
 /* Moves the output and the file to fixed descriptors and closes all others. The others are closed
  * first, because the calling program may have used all descriptors. */
@@ -67,41 +50,25 @@ static bool close_other_descriptors(int to, int file)
     return true;
 }
 
-/* First byte of the output, written before the library reads the file: flags of missing
- * protections, or the reason why the sandbox failed. */
-enum {
-    SANDBOX_ENTERED = 'P',
-    NO_FILTER = 1,
-    MEMORY_UNLIMITED = 2,
-    SETUP_NO_DESCRIPTORS = 'f',
-    SETUP_NO_MEMORY = 'm',
-    SETUP_FAILED = 'x'
-};
-
 /* Applies all restrictions that sandbox.h describes. */
 static char enter_sandbox(int to, const sandbox_call *request, const sandbox_limits *limits,
                           size_t data, pid_t parent)
 {
     const struct sigaction usual = {.sa_handler = SIG_DFL};
+    const confinement own = {.answer = ANSWER_FD,
+                             .memory = data != 0 ? data + limits->memory : 0,
+                             .cpu_time = limits->cpu_time};
     sigset_t none;
     (void)sigemptyset(&none);
     for (int i = 1; i < NSIG; i++)
         (void)sigaction(i, &usual, NULL); /* some signals cannot be set and need not be */
     if (!close_other_descriptors(to, request->file))
-        return SETUP_NO_DESCRIPTORS;
-    if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent ||
-        prctl(PR_SET_DUMPABLE, 0) != 0 || prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
-        sigprocmask(SIG_SETMASK, &none, NULL) != 0 || !lower_resource_limit(RLIMIT_NOFILE, 0) ||
-        !lower_resource_limit(RLIMIT_FSIZE, 0) || !lower_resource_limit(RLIMIT_CORE, 0) ||
-        !lower_resource_limit(RLIMIT_NPROC, 0) ||
-        !lower_resource_limit(RLIMIT_CPU, limits->cpu_time) ||
-        (data != 0 && !lower_resource_limit(RLIMIT_DATA, data + limits->memory)))
-        return SETUP_FAILED;
-    const sandbox_filter_state filter = seccomp_filter_install(ANSWER_FD);
-    if (filter == FILTER_NO_MEMORY)
-        return SETUP_NO_MEMORY;
-    return (char)(SANDBOX_ENTERED + (filter == FILTER_SET ? 0 : NO_FILTER) +
-                  (data != 0 ? 0 : MEMORY_UNLIMITED));
+        return CONFINEMENT_NO_DESCRIPTORS;
+    if (sigprocmask(SIG_SETMASK, &none, NULL) != 0)
+        return CONFINEMENT_FAILED;
+    const char report = confine(&own, parent);
+    const bool unlimited = data == 0 && confinement_error(report) == 0;
+    return (char)(report + (unlimited ? MEMORY_UNLIMITED : 0));
 }
 
 /* The output ends with the error object. Output without it is incomplete. */
@@ -122,32 +89,13 @@ _Noreturn static void start_in_sandbox(int to, const sandbox_call *request,
                                        const sandbox_limits *limits, size_t data, pid_t parent)
 {
     const char report = enter_sandbox(to, request, limits, data, parent);
-    const bool held =
-        report >= SANDBOX_ENTERED && report <= SANDBOX_ENTERED + (NO_FILTER | MEMORY_UNLIMITED);
-    const ssize_t n = write(report == SETUP_NO_DESCRIPTORS ? to : ANSWER_FD, &report, 1);
-    if (!held || n != 1)
+    const ssize_t n = write(report == CONFINEMENT_NO_DESCRIPTORS ? to : ANSWER_FD, &report, 1);
+    if (confinement_error(report) != 0 || n != 1)
         _exit(EXIT_FAILURE);
     run_in_sandbox(request);
 }
 
 /* ---- in the calling process ------------------------------------------------------------------ */
-
-/* Protections that were missing in any process so far. */
-static atomic_uint missing_protections;
-
-const char *wt_sandbox_limitations(void)
-{
-    static const char *const words[] = {
-        NULL,
-        "this system refuses the filter of system calls (seccomp) behind which HDF5 files are "
-        "read: a file made to do harm could do what you may; take files that you trust only",
-        "without /proc the memory that reading HDF5 files takes has no limit",
-        "this system refuses the filter of system calls (seccomp) behind which HDF5 files are "
-        "read, and has no /proc, by which their memory is limited: a file made to do harm could do "
-        "what "
-        "you may; take files that you trust only"};
-    return words[atomic_load(&missing_protections)];
-}
 
 /* Determines the size of the data segment, which also counts for the fork; terabytes with a
  * sanitizer. 0 if it is unknown. Returns -1 with errno if no file can be opened. */
@@ -270,7 +218,7 @@ static void explain_forbidden_call(const sandbox_stream *stream, bool told, wt_e
     char name[64] = "its name is not known";
     if (told && stream->length >= sizeof call) {
         memcpy(&call, stream->bytes + stream->length - sizeof call, sizeof call);
-        seccomp_syscall_name(call, name, sizeof name);
+        system_call_name(call, name, sizeof name);
     }
     (void)wt_fail(err, WT_E_CORRUPT,
                   "reading the %s file led to a call of the system that reading does not need (%s) "
@@ -308,7 +256,7 @@ static wt_status explain_failure(const sandbox_stream *stream, int state, wt_err
                       outcome == STREAM_TIMED_OUT ? limits->wall_time : limits->cpu_time,
                       outcome == STREAM_TIMED_OUT ? "" : " of processor time");
     else if (by == SIGSYS ||
-             (outcome == STREAM_ENDED && by == 0 && WEXITSTATUS(state) == FILTER_EXIT))
+             (outcome == STREAM_ENDED && by == 0 && WEXITSTATUS(state) == FORBIDDEN_CALL_EXIT))
         explain_forbidden_call(stream, by == 0, err);
     else if (by == SIGINT || by == SIGTERM || by == SIGHUP)
         return wt_fail(err, WT_E_CANCELLED, "reading was interrupted");
@@ -355,9 +303,9 @@ static wt_status fail_to_start(const char *what, int number, wt_error *err)
 static wt_status receive_start_report(sandbox_stream *stream, wt_error *err)
 {
     collect_output(stream, 1);
-    const char report = stream->length > 0 ? stream->bytes[0] : SETUP_FAILED;
-    if (report >= SANDBOX_ENTERED && report <= SANDBOX_ENTERED + (NO_FILTER | MEMORY_UNLIMITED)) {
-        atomic_fetch_or(&missing_protections, (unsigned)(report - SANDBOX_ENTERED));
+    const char report = stream->length > 0 ? stream->bytes[0] : CONFINEMENT_FAILED;
+    const int number = confinement_note(report);
+    if (number == 0) {
         stream->length--;
         memmove(stream->bytes, stream->bytes + 1, stream->length);
         return WT_OK;
@@ -368,11 +316,7 @@ static wt_status receive_start_report(sandbox_stream *stream, wt_error *err)
     stream->child = -1;
     if (outcome == STREAM_ENDED && (by == SIGINT || by == SIGTERM || by == SIGHUP))
         return wt_fail(err, WT_E_CANCELLED, "reading was interrupted");
-    return fail_to_start(stream->what,
-                         report == SETUP_NO_DESCRIPTORS                             ? EMFILE
-                         : report == SETUP_NO_MEMORY || outcome == STREAM_NO_MEMORY ? ENOMEM
-                                                                                    : EPERM,
-                         err);
+    return fail_to_start(stream->what, outcome == STREAM_NO_MEMORY ? ENOMEM : number, err);
 }
 
 wt_status sandbox_start(const sandbox_call *request, const sandbox_limits *limits,

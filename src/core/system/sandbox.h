@@ -7,14 +7,9 @@
  * if the locks of the library are held during the fork (enter, leave).
  *
  * The process has default signal handlers and no open file except its output and one optional
- * input. It cannot open or write files, leaves no core file and does not outlive the caller. Its
- * resources are limited. The signal handlers of the caller stay unchanged. A handler that waits for
- * every child may reap this process, and then only the cause of a failure is unknown.
- *
- * The sandbox does not prevent that a malicious file runs code in the process. Such code can only
- * produce wrong output. Without a system-call filter or /proc some protections are missing;
- * wt_sandbox_limitations (weartrack/core.h) reports them. SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * input. It is confined (core/system/confinement.h). The signal handlers of the caller stay
+ * unchanged. A handler that waits for every child may reap this process, and then only the cause of
+ * a failure is unknown. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_SYSTEM_SANDBOX_H
 #define WT_CORE_SYSTEM_SANDBOX_H
 

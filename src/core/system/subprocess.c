@@ -1,15 +1,19 @@
 /* Starts another program and waits for its end. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/system/subprocess.h"
+#include "core/base/memory.h"
+#include "core/system/confinement.h"
+#include "core/system/temporary.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -85,13 +89,25 @@ static bool read_output(int fd, last_line *last)
     return got > 0 || (got < 0 && errno == EINTR);
 }
 
-/* A relative path is resolved, because the program runs in another folder. */
-static char *resolve_program_path(const char *program)
+/* Returns an absolute path, because the program runs in another folder; or the name if there is no
+ * such program. Relative folders in PATH are not searched. */
+static char *find_program(const char *program)
 {
-    if (program[0] == '/' || strchr(program, '/') == NULL)
-        return wt_strdup(program);
-    char *absolute = realpath(program, NULL);
-    return absolute != NULL ? absolute : wt_strdup(program);
+    if (strchr(program, '/') != NULL) {
+        char *const absolute = program[0] != '/' ? realpath(program, NULL) : NULL;
+        return absolute != NULL ? absolute : wt_strdup(program);
+    }
+    const char *at = getenv("PATH");
+    for (size_t n; at != NULL; at = at[n] != '\0' ? at + n + 1 : NULL) {
+        n = strcspn(at, ":");
+        char *const path = format_text("%.*s/%s", (int)n, at, program);
+        struct stat info;
+        if (path[0] == '/' && n > 0 && access(path, X_OK) == 0 && stat(path, &info) == 0 &&
+            S_ISREG(info.st_mode))
+            return path;
+        free(path);
+    }
+    return wt_strdup(program);
 }
 
 /* Arguments for the child process. */
@@ -99,51 +115,57 @@ typedef struct program_start {
     const char *path;
     const program_call *call;
     const char **arguments, **environment;
-    int words;       /* descriptor for standard output and standard error */
-    int start_error; /* receives errno if exec fails; closed by a successful exec */
+    int words;  /* descriptor for standard output and standard error */
+    int report; /* receives the report of the confinement, and errno if the program is not started;
+                   closed by a successful exec */
     pid_t parent;
 } program_start;
 
-/* 0 means no limit. */
-static bool set_resource_limit(int resource, size_t most)
-{
-    const struct rlimit limit = {most, most};
-    return most == 0 || setrlimit((__rlimit_resource_t)resource, &limit) == 0;
-}
-
-/* Runs in the child, where only async-signal-safe functions are allowed. The child leads a process
- * group, so that its own children end with it. It does not outlive the parent. */
+/* Runs in the child. The child leads a process group, so that its own children end with it. */
 _Noreturn static void exec_program(const program_start *s)
 {
     const program_call *const call = s->call;
-    if (prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() == s->parent && setpgid(0, 0) == 0 &&
-        set_resource_limit(RLIMIT_FSIZE, call->file_size) &&
-        set_resource_limit(RLIMIT_DATA, call->memory) &&
-        set_resource_limit(RLIMIT_CPU, call->cpu_time) && chdir(call->folder) == 0) {
-        const int none = open("/dev/null", O_RDONLY | O_CLOEXEC);
-        // Output of the program must not mix with data in a pipe.
-        if (none >= 0 && dup2(none, STDIN_FILENO) >= 0 && dup2(s->words, STDOUT_FILENO) >= 0 &&
-            dup2(s->words, STDERR_FILENO) >= 0)
-            (void)execvpe(s->path, (char *const *)s->arguments, (char *const *)s->environment);
+    const confinement own = {.program = s->path,
+                             .memory = call->memory,
+                             .file_size = call->file_size,
+                             .cpu_time = call->cpu_time};
+    char report = CONFINED;
+    bool ready = setpgid(0, 0) == 0 && chdir(call->folder) == 0;
+    const int none = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    // Output of the program must not mix with data in a pipe.
+    ready = ready && none >= 0 && dup2(none, STDIN_FILENO) >= 0 &&
+            dup2(s->words, STDOUT_FILENO) >= 0 && dup2(s->words, STDERR_FILENO) >= 0;
+    if (ready && call->foreign) {
+        (void)close_range(STDERR_FILENO + 1, UINT_MAX, CLOSE_RANGE_CLOEXEC);
+        report = confine(&own, s->parent);
+    } else if (ready && (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != s->parent)) {
+        report = CONFINEMENT_FAILED;
     }
-    const int code = errno;
-    (void)!write(s->start_error, &code, sizeof code);
+    int code = errno;
+    if (write(s->report, &report, 1) == 1 && ready && confinement_error(report) == 0) {
+        (void)execvpe(s->path, (char *const *)s->arguments, (char *const *)s->environment);
+        code = errno;
+    }
+    (void)!write(s->report, &code, sizeof code);
     _exit(127);
 }
 
-/* Returns the errno of a failed exec, or 0. Closes the write end of the pipe. */
-static int read_start_error(int start_error[2], pid_t child)
+/* Returns the error number of a program that was not started, or 0. */
+static int receive_report(int from, pid_t child)
 {
-    int code = 0;
-    ssize_t got = 0;
-    close(start_error[1]);
-    start_error[1] = -1;
-    do
-        got = read(start_error[0], &code, sizeof code);
-    while (got < 0 && errno == EINTR);
-    if (got > 0)
-        (void)waitpid(child, NULL, 0);
-    return got > 0 ? code : 0;
+    char bytes[1 + sizeof(int)];
+    size_t n = 0;
+    for (ssize_t got = 1; n < sizeof bytes && got != 0; n += got > 0 ? (size_t)got : 0) {
+        got = read(from, bytes + n, sizeof bytes - n);
+        if (got < 0 && errno != EINTR)
+            break;
+    }
+    int code = confinement_note(n > 0 ? bytes[0] : CONFINEMENT_FAILED);
+    if (code == 0 && n == sizeof bytes)
+        memcpy(&code, bytes + 1, sizeof code);
+    while (code != 0 && waitpid(child, NULL, 0) < 0 && errno == EINTR)
+        ;
+    return code;
 }
 
 /* Starts the program and returns its process and the read end of its output pipe. *code is the
@@ -152,18 +174,22 @@ static wt_status start_program(const program_call *call, pid_t *child, int *word
                                wt_error *err)
 {
     wt_status status = WT_OK;
-    int output_pipe[2] = {-1, -1}, start_error[2] = {-1, -1};
-    char *path = resolve_program_path(call->program);
+    int output_pipe[2] = {-1, -1}, report[2] = {-1, -1};
+    char *path = find_program(call->program);
     const char **list = environment(call), **line = create_argument_list(call, path);
-    if (pipe2(output_pipe, O_CLOEXEC) != 0 || pipe2(start_error, O_CLOEXEC) != 0) {
+    if (pipe2(output_pipe, O_CLOEXEC) != 0 || pipe2(report, O_CLOEXEC) != 0) {
         status = wt_fail(err, WT_E_IO, "no pipe for the messages of %s: %s", call->program,
                          strerror(errno));
     } else {
-        const program_start s = {path, call, line, list, output_pipe[1], start_error[1], getpid()};
+        const program_start s = {path, call, line, list, output_pipe[1], report[1], getpid()};
         *child = fork();
         if (*child == 0)
             exec_program(&s);
-        *code = *child < 0 ? errno : read_start_error(start_error, *child);
+        *code = *child < 0 ? errno : 0;
+        close(report[1]);
+        report[1] = -1;
+        if (*child > 0)
+            *code = receive_report(report[0], *child);
     }
     if (status == WT_OK && *code == 0) {
         *words = output_pipe[0];
@@ -173,8 +199,8 @@ static wt_status start_program(const program_call *call, pid_t *child, int *word
     for (int i = 0; i < 2; i++) {
         if (output_pipe[i] >= 0)
             close(output_pipe[i]);
-        if (start_error[i] >= 0)
-            close(start_error[i]);
+        if (report[i] >= 0)
+            close(report[i]);
     }
     free(path);
     free(list);
@@ -182,13 +208,15 @@ static wt_status start_program(const program_call *call, pid_t *child, int *word
     return status;
 }
 
-/* Waits for the end of the program, the time limit or a cancellation. The state of the pipe does
+/* Waits for the end of the program, a limit or a cancellation. The state of the pipe does
  * not matter, because children of the program may keep it open. The process is not reaped yet. */
-static wt_status wait_for_end(const program_call *call, pid_t child, int fd, last_line *last,
-                              program_outcome *outcome, wt_error *err)
+static wt_status wait_for_end(const program_call *call, size_t folder_limit, pid_t child, int fd,
+                              last_line *last, program_outcome *outcome, wt_error *err)
 {
     enum { POLL_OPEN_MS = 50, POLL_CLOSED_MS = 2 }; // ms
+    static const double between = 0.05;             // time between two checks of the folder [s]
     const double end = wt_time_wall() + call->limit;
+    double next = 0;
     bool open = true;
     for (;;) {
         struct pollfd words = {open ? fd : -1, POLLIN, 0};
@@ -204,9 +232,16 @@ static wt_status wait_for_end(const program_call *call, pid_t child, int fd, las
         *outcome = PROGRAM_CANCELLED;
         if (call->go_on != NULL && !call->go_on(call->user))
             return WT_OK;
+        const double now = wt_time_wall();
         *outcome = PROGRAM_TOO_LONG;
-        if (wt_time_wall() >= end)
+        if (now >= end)
             return WT_OK;
+        *outcome = PROGRAM_TOO_LARGE;
+        if (call->foreign && now >= next) {
+            if (temporary_folder_size(call->folder, folder_limit) > folder_limit)
+                return WT_OK;
+            next = wt_time_wall() + between;
+        }
     }
 }
 
@@ -217,10 +252,12 @@ wt_status program_run(const program_call *call, program_result *end, wt_error *e
     pid_t child = 0;
     int words = -1, state = 0;
     *end = (program_result){.outcome = PROGRAM_NOT_STARTED};
+    const size_t room = call->folder_size,
+                 before = call->foreign ? temporary_folder_size(call->folder, SIZE_MAX - room) : 0;
     wt_status status = start_program(call, &child, &words, &end->code, err);
     if (status != WT_OK || end->code != 0)
         return status;
-    status = wait_for_end(call, child, words, &last, &end->outcome, err);
+    status = wait_for_end(call, before + room, child, words, &last, &end->outcome, err);
     (void)kill(-child, SIGKILL); // before it is reaped, while its number is valid
     for (int i = 0; i < READS_AFTER_END && read_output(words, &last); i++)
         ;

@@ -170,6 +170,42 @@ void temporary_remove(const char *path)
     remove_tree(AT_FDCWD, path, LEVELS);
 }
 
+/* Adds the sizes of the files in a folder, which is closed. */
+static void add_sizes(int fd, int deeper, size_t most, size_t *size)
+{
+    enum { SMALLEST = 4096 }; /* every file counts, also an empty one */
+    DIR *const folder = deeper >= 0 ? fdopendir(fd) : NULL;
+    struct stat info;
+    if (folder == NULL) {
+        *size = SIZE_MAX; /* it cannot be examined */
+        (void)close(fd);
+        return;
+    }
+    for (const struct dirent *entry; *size <= most && (entry = readdir(folder)) != NULL;) {
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0 ||
+            fstatat(fd, entry->d_name, &info, AT_SYMLINK_NOFOLLOW) != 0)
+            continue; /* it was removed meanwhile */
+        const size_t bytes = 512 * (size_t)info.st_blocks;
+        *size += bytes > SMALLEST ? bytes : SMALLEST;
+        const int inner =
+            S_ISDIR(info.st_mode)
+                ? openat(fd, entry->d_name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)
+                : -1;
+        if (inner >= 0)
+            add_sizes(inner, deeper - 1, most, size);
+    }
+    (void)closedir(folder);
+}
+
+size_t temporary_folder_size(const char *path, size_t most)
+{
+    size_t size = 0;
+    const int fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd >= 0)
+        add_sizes(fd, LEVELS, most, &size);
+    return size;
+}
+
 /* A process in another container is invisible but still holds its lock. */
 static bool is_abandoned(int folder, const char *name)
 {

@@ -18,6 +18,9 @@ char *temporary_folder_create(const char *folder, int *descriptor);
 void temporary_lock(int descriptor);
 /* Removes a file, or a folder with its contents up to eight levels deep; links are not followed. */
 void temporary_remove(const char *path);
+/* Returns the space that the files of a folder take [byte]; more than `most` if they take more, or
+ * are more than eight levels deep. Links are not followed. */
+size_t temporary_folder_size(const char *path, size_t most);
 /* Removes the temporary files in `folder` whose processes no longer exist. */
 void temporary_remove_abandoned(const char *folder);
 

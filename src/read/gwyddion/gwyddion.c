@@ -212,7 +212,8 @@ static wt_status fail_tool(const char *what, wt_error *err)
     return add_export_advice(err);
 }
 
-static wt_status check_program_end(const program_result *end, double limit, wt_error *err)
+static wt_status check_program_end(const program_result *end, const gwyddion_limits *limits,
+                                   wt_error *err)
 {
     switch (end->outcome) {
     case PROGRAM_NOT_STARTED:
@@ -235,10 +236,13 @@ static wt_status check_program_end(const program_result *end, double limit, wt_e
         wt_fail(err, WT_E_TOOL, "Gwyddion cannot read the file: it ended with exit status %d",
                 end->code);
         return add_export_advice(err);
+    case PROGRAM_TOO_LARGE:
+        wt_fail(err, WT_E_TOOL, "Gwyddion wrote more than %zu MiB", 2 * limits->file_size >> 20);
+        return add_export_advice(err);
     case PROGRAM_TOO_LONG:
     case PROGRAM_CANCELLED:
     default:
-        wt_fail(err, WT_E_TOOL, "Gwyddion did not end within %g s", limit);
+        wt_fail(err, WT_E_TOOL, "Gwyddion did not end within %g s", limits->time);
         return add_export_advice(err);
     }
 }
@@ -247,21 +251,26 @@ static wt_status run_gwyddion(const char *folder, const char *const *arguments,
                               const gwyddion_limits *limits, program_result *end, wt_error *err)
 {
     /* Gwyddion must not see settings of the user or a display. */
-    static const char *const hidden[] = {"HOME=", "XDG_",     "DISPLAY=", "WAYLAND_", "DBUS_",
-                                         "GTK",   "GWYDDION", "G_",       "TMPDIR=",  NULL};
+    static const char *const hidden[] = {"HOME=",   "XDG_",        "DISPLAY=", "WAYLAND_",
+                                         "DBUS_",   "GTK",         "GWYDDION", "G_",
+                                         "TMPDIR=", "LD_PRELOAD=", NULL};
     char *const home = format_text("HOME=%s", folder);
-    const char *const added[] = {home, NULL};
+    char *const temporary = format_text("TMPDIR=%s", folder);
+    const char *const added[] = {home, temporary, NULL};
     const program_call call = {.program = "gwyddion",
                                .arguments = arguments,
                                .folder = folder,
                                .hidden = hidden,
                                .added = added,
                                .limit = limits->time,
+                               .foreign = true,
                                .file_size = limits->file_size,
+                               .folder_size = 2 * limits->file_size,
                                .memory = limits->memory,
                                .cpu_time = limits->cpu_time};
     const wt_status status = program_run(&call, end, err);
     free(home);
+    free(temporary);
     return status;
 }
 
@@ -338,7 +347,7 @@ wt_status gwyddion_convert(wt_input *input, const gwyddion_limits *limits, wt_in
     if (status == WT_OK)
         status = run_gwyddion(folder, arguments, limits, &end, err);
     if (status == WT_OK)
-        status = check_program_end(&end, limits->time, err);
+        status = check_program_end(&end, limits, err);
     if (status == WT_OK)
         status = read_converted(folder, wt_input_name(input), limits->file_size, converted, err);
     if (status == WT_OK)
