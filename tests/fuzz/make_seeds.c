@@ -207,6 +207,18 @@ static int make_gsf(const char *folder)
                       0);
 }
 
+static int make_wsxm(const char *folder)
+{
+    return make_image(folder, "seed0.stp",
+                      "WSxM file copyright Nanotec Electronica\r\nSxM Image file\r\n"
+                      "Image header size: 300\r\n[Control]\r\n    X Amplitude: 4 \xb5m\r\n"
+                      "    Y Amplitude: 3000 nm\r\n[General Info]\r\n"
+                      "    Acquisition channel: Topography\r\n    Image Data Type: float\r\n"
+                      "    Number of columns: 4\r\n    Number of rows: 3\r\n"
+                      "    Z Amplitude: 15 \xc5\r\n[Header end]\r\n",
+                      300);
+}
+
 static void put_number(FILE *out, uint64_t value, size_t width)
 {
     for (size_t i = 0; i < width; i++)
@@ -490,6 +502,7 @@ int main(int argc, char *argv[])
                    {"park", make_park},
                    {"properties", make_properties},
                    {"surf", make_surf},
+                   {"wsxm", make_wsxm},
                    {"x3p", make_x3p}};
     char folder[256];
     if (argc != 2) {

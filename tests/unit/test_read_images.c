@@ -106,6 +106,45 @@ static void simple_field(void **state)
     check(&m, 1, 0, "Height of a spot", 1e-6);
 }
 
+/* Samples of each type, which the header scales. The units of the area and of the heights differ,
+ * and are in Latin-1. */
+static void wsxm_image(void **state)
+{
+    static const struct {
+        const char *type, *width, *height, *range;
+        size_t sample;
+    } files[] = {{"", "5 \xb5m", "3000 nm", "240 \xc5", 2},
+                 {"Image Data Type: short\r\n", "5 \xb5m", "3 \xb5m", "24 nm", 2},
+                 {"Image Data Type: integer\r\n", "5000 nm", "3 \xc2\xb5m", "24000 pm", 4},
+                 {"Image Data Type: float\r\n", "50000 \xc5", "3 um", "24 nm", 4},
+                 {"Image Data Type: double\r\n", "0.005 mm", "3 um", "0.024 \xb5m", 8}};
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        enum { HEADER = 400 };
+        made m = {.n = 0};
+        put_text(&m,
+                 "WSxM file copyright Nanotec Electronica\r\nSxM Image file\r\n"
+                 "Image header size: %d\r\n\r\n[Control]\r\n\r\n    X Amplitude: %s\r\n"
+                 "    Y Amplitude: %s\r\n\r\n[General Info]\r\n\r\n"
+                 "    Acquisition channel: Topography\r\n    %s    Number of columns: %d\r\n"
+                 "    Number of rows: %d\r\n    Z Amplitude: %s\r\n\r\n[Header end]\r\n",
+                 HEADER, files[i].width, files[i].height, files[i].type, COLUMNS, ROWS,
+                 files[i].range);
+        fill(&m, HEADER);
+        for (size_t row = 0; row < ROWS; row++)
+            for (size_t column = COLUMNS; column-- > 0;) { /* the last column first */
+                const int value = 3 * height(column, row);
+                if (files[i].sample == 8)
+                    put_double(&m, value, false);
+                else if (strstr(files[i].type, "float") != NULL)
+                    put_float(&m, (float)value, false);
+                else
+                    put(&m, (uint64_t)(int64_t)value, files[i].sample, false);
+            }
+        check(&m, 1, 0, "Topography", 1e-6);
+    }
+}
+
 /* A height of 16 bits and one of 32; the deflection stays in volts. */
 static void nanoscope_image(void **state)
 {
@@ -440,7 +479,7 @@ int main(void)
         cmocka_unit_test(test_given),   cmocka_unit_test(test_missing),
         cmocka_unit_test(simple_field), cmocka_unit_test(nanoscope_image),
         cmocka_unit_test(igor_image),   cmocka_unit_test(park_image),
-        cmocka_unit_test(measured),
+        cmocka_unit_test(wsxm_image),   cmocka_unit_test(measured),
     };
     return cmocka_run_group_tests(tests, set_up, clean);
 }

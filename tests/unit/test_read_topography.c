@@ -416,7 +416,7 @@ static const measured_file measured_files[] = {
     {"al3d-1.al3d", "/data/topography/al3d-1.al3d", true, true, .converted = true},
     {"test_1.opd", "/data/topography/test_1.opd", false, true, .converted = true},
     {"sdf-1.sdf", "/data/topography/sdf-1.sdf", true, true, .converted = true},
-    {"top-1.top", "/data/topography/top-1.top", false, true, .converted = true, .mirrored = true},
+    {"top-1.top", "/data/topography/top-1.top", false, true, .mirrored = true},
     {"data/afm/nanosurf/circles.nid", "/data/afm/nanosurf/circles.nid", false, false, .ends = true,
      .dx = 1.953125e-7, .dy = 1.953125e-7},
     {"data/afm/nanosurf/image.nid", "/data/afm/nanosurf/image.nid", false, false, .ends = true,

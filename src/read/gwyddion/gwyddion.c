@@ -371,9 +371,6 @@ static const char *maker_name(const file_peek *peek)
         return "Dektak, Bruker";
     if (PEEK_BEGINS(peek, "aISO-1.0") || PEEK_BEGINS(peek, "aBCR-1.0"))
         return "SDF, ISO 25178-71";
-    /* force curves of WSxM have the same first line */
-    if (PEEK_BEGINS(peek, "WSxM file copyright") && PEEK_CONTAINS(peek, "SxM Image file"))
-        return "WSxM";
     return NULL;
 }
 
@@ -474,12 +471,12 @@ static wt_status read_images(const file_reader *self, wt_input *input,
 
 const file_reader reader_gwyddion = {
     .info = {.id = "gwyddion",
-             .title = "height maps of Alicona, Digital Surf, Wyko, Dektak, SDF, WSxM, by the "
-                      "program Gwyddion",
+             .title = "height maps of Alicona, Digital Surf, Wyko, Dektak, SDF, by the program "
+                      "Gwyddion",
              .kinds = WT_KIND_IMAGE,
              .verified = true,
-             .evidence = "measured files of Alicona, Digital Surf, Wyko and WSxM, whose numbers "
-                         "other programs agree on",
+             .evidence = "measured files of Alicona, Digital Surf and Wyko, whose numbers other "
+                         "programs agree on",
              .version = "1"},
     .detect = detect,
     .read_images = read_images,
