@@ -217,6 +217,9 @@ typedef struct text_description {
     char *row_prefix;        /* normalised */
     char **row_numbers;      /* normalised names of the column of row numbers */
     size_t n_row_numbers;
+    char *flag_column; /* normalised name of the column in which the instrument flags rows */
+    char **flags;      /* normalised flags of rows outside of the limits of the instrument */
+    size_t n_flags;
     bool blank_is_block;
 
     char *group;    /* normalised name of the column that separates isotherms */

@@ -228,6 +228,12 @@ static void read_table_element(description_parser *p, const xmlNode *table)
                    NULL);
     d->row_prefix = parse_normalised(p, parse_attribute(p, table, "row-prefix"));
     read_name_list(p, table, "row-number", &d->row_numbers, &d->n_row_numbers);
+    d->flag_column = parse_normalised(p, parse_attribute(p, table, "flag-column"));
+    read_name_list(p, table, "flags", &d->flags, &d->n_flags);
+    if ((d->flag_column != NULL) != (d->n_flags > 0) ||
+        (d->n_flags > 0 && d->kinds != WT_KIND_SWEEP))
+        parse_fail(p, table, "a column of flags and its flags belong together, in a sweep",
+                   "kinds=\"sweep\", and flag-column with flags", NULL);
     d->blank_is_block = parse_choice(p, table, "blank", blanks, 2, 0) == 1;
     d->steps = parse_alloc_children(p, table, "step", sizeof *d->steps);
     d->end_markers = parse_alloc_children(p, table, "end", sizeof *d->end_markers);

@@ -110,7 +110,7 @@ static size_t find_first_cell(const column_resolver *r, char *const *names, size
 }
 
 /* Returns the column that reads the quantity, segment and condition of a column, or NULL. */
-static const text_column *find_read_column(const text_table *table, const text_column *column)
+static text_column *find_read_column(const text_table *table, const text_column *column)
 {
     const column_rule *const rule = column->rule;
     for (size_t i = 0; i < table->n_columns; i++) {
@@ -301,7 +301,7 @@ static wt_status resolve_matrix(const names_row *names, text_file *file, text_ta
     const text_column column = resolve_column(&r, 0, &known);
     table->n_names = table->n_columns = n;
     table->group_cell = table->segment_cell = table->curve_cell = SIZE_MAX;
-    table->sample_cell = table->number_cell = SIZE_MAX;
+    table->sample_cell = table->number_cell = table->flag_cell = SIZE_MAX;
     for (size_t i = 0; i < n; i++) {
         table->columns[i] = column;
         table->columns[i].cell = i;
@@ -409,6 +409,35 @@ static void normalise_names(const column_resolver *r)
     }
 }
 
+bool text_column_is_of_sample(const text_column *column)
+{
+    static const char *const words[] = {"sample", "specimen", "proben", "\u00e9chantillon"};
+    char name[COLUMN_NAME_SIZE];
+    name_normalise((text_span){column->name, strlen(column->name)}, name);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strstr(name, words[i]) != NULL)
+            return true;
+    return false;
+}
+
+/* Adds a second column of temperature. The first one is read, so that of the sample becomes the
+ * first; the other remains for a comparison. */
+static void add_temperature(text_table *table, text_column *first, const text_column *second)
+{
+    text_column *const last = &table->columns[table->n_columns++];
+    *last = *second;
+    if (text_column_is_of_sample(second) && !text_column_is_of_sample(first)) {
+        *last = *first;
+        *first = *second;
+    }
+}
+
+static bool is_special_cell(const text_table *t, size_t i)
+{
+    return i == t->group_cell || i == t->segment_cell || i == t->curve_cell ||
+           i == t->sample_cell || i == t->number_cell || i == t->flag_cell;
+}
+
 wt_status names_resolve(const names_row *names, text_file *file, text_table *table,
                         const wt_read_options *options, wt_error *err)
 {
@@ -434,18 +463,17 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
     table->curve_cell = find_cell(&r, d->curve_column);
     table->sample_cell = find_first_cell(&r, d->samples, d->n_samples);
     table->number_cell = find_first_cell(&r, d->row_numbers, d->n_row_numbers);
+    table->flag_cell = find_cell(&r, d->flag_column);
     for (size_t i = 0; i < n_cells && status == WT_OK; i++) {
         const text_span cell = names->names.cells[i];
         name_match known;
         if (!find_column_name(d, cell, &known)) {
-            if (cell.length > 0 && i != table->group_cell && i != table->segment_cell &&
-                i != table->curve_cell && i != table->sample_cell && i != table->number_cell &&
-                !(i == 0 && d->row_prefix != NULL))
+            if (cell.length > 0 && !is_special_cell(table, i) && !(i == 0 && d->row_prefix != NULL))
                 status = add_unknown_name(file, cell, err);
             continue;
         }
         text_column column = resolve_column(&r, i, &known);
-        const text_column *taken = NULL;
+        text_column *taken = NULL;
         status = set_condition(&r, file, &known, &column, err);
         if (status != WT_OK)
             break;
@@ -453,7 +481,10 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
             status = add_unknown_name(file, cell, err);
         else if (column.problem != COLUMN_GOOD) {
             table->problems[table->n_problems++] = column;
-        } else if ((taken = find_read_column(table, &column)) != NULL) {
+        } else if ((taken = find_read_column(table, &column)) != NULL &&
+                   column.rule->quantity == WT_Q_TEMPERATURE) {
+            add_temperature(table, taken, &column);
+        } else if (taken != NULL) {
             file->has_repeated_moduli =
                 file->has_repeated_moduli || is_repeated_modulus(names, taken, i);
             status = add_unknown_name(file, cell, err);

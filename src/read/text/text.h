@@ -156,11 +156,11 @@ typedef struct text_table {
     text_column *problems;  /* columns with a problem */
     size_t n_problems;
     wt_quantity_set quantities; /* quantities of `columns` */
-    size_t group_cell, segment_cell, curve_cell, sample_cell,
-        number_cell;      /* cells of the special columns; SIZE_MAX if absent */
+    size_t group_cell, segment_cell, curve_cell, sample_cell, number_cell,
+        flag_cell;        /* cells of the special columns; SIZE_MAX if absent */
     double *values;       /* [n_rows][n_columns], NaN for an empty cell */
     size_t *blocks;       /* [n_rows] block number */
-    unsigned char *kinds; /* [n_rows] wt_segment_kind or ROW_KIND_NONE */
+    unsigned char *kinds; /* [n_rows] wt_segment_kind, ROW_KIND_NONE or ROW_KIND_FLAGGED */
     size_t *row_lines;    /* [n_rows] counted from 1 */
     size_t
         *samples; /* [n_rows] index in the list of samples of the file; NO_SAMPLE without a name */
@@ -171,6 +171,7 @@ typedef struct text_table {
     char grouped[16];  /* one of those cells */
 } text_table;
 #define ROW_KIND_NONE 255u
+#define ROW_KIND_FLAGGED 254u /* the instrument marks the row as outside of its limits */
 #define NO_SAMPLE SIZE_MAX
 #define SAMPLES_MAX ((size_t)1024)
 
@@ -241,6 +242,8 @@ line_position_text format_line_position(size_t line);
 bool text_has_kind(const text_file *file, unsigned kind);
 /* Returns the column of a quantity, or NULL; segment < 0 accepts any segment. */
 const text_column *text_table_column(const text_table *table, wt_quantity quantity, int segment);
+/* True if the name of a column of temperature says that it is that of the sample. */
+bool text_column_is_of_sample(const text_column *column);
 /* Returns the value of a column in a row. */
 double text_table_value(const text_table *table, size_t row, const text_column *column);
 /* Fails unless the quantities of the table suffice for `kind`, and names the column that is the

@@ -88,8 +88,28 @@ static size_t find_row_sample(text_scanner *s)
     return scan_find_sample(s, s->row.cells[i]);
 }
 
+/* True if a cell has one of the marks that the instrument sets on rows outside of its limits. */
+static bool has_flag(const text_scanner *s)
+{
+    static const char separators[] = ",; ";
+    const size_t i = s->table->flag_cell;
+    const text_span cell = i < s->row.n ? s->row.cells[i] : (text_span){"", 0};
+    for (size_t at = 0, end; at < cell.length; at = end + 1) {
+        char mark[COLUMN_NAME_SIZE];
+        for (end = at; end < cell.length && strchr(separators, cell.text[end]) == NULL;)
+            end++;
+        name_normalise((text_span){cell.text + at, end - at}, mark);
+        for (size_t k = 0; k < s->d->n_flags; k++)
+            if (strcmp(mark, s->d->flags[k]) == 0)
+                return true;
+    }
+    return false;
+}
+
 static unsigned char row_segment_kind(const text_scanner *s)
 {
+    if (has_flag(s))
+        return ROW_KIND_FLAGGED;
     const size_t i = s->table->segment_cell;
     if (i == SIZE_MAX || i >= s->row.n)
         return s->kind;

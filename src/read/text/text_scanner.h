@@ -22,6 +22,7 @@ typedef struct last_cell_stats {
     bool empty;                      /* true if one is empty */
     size_t shortest, longest;        /* length [byte] */
     size_t digits_min, exponent_min; /* minimum digits of mantissa and exponent */
+    size_t tail_min, tail_max;       /* characters from the decimal point on */
     bool points, exponents;          /* true if one has a decimal point, an exponent */
 } last_cell_stats;
 

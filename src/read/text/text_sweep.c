@@ -219,6 +219,29 @@ static void ignore_count_column(const sweep_builder *b)
         t->samples[row] = NO_SAMPLE;
 }
 
+/* Leaves out the rows that the instrument marks as outside of its limits, unless it marks all of
+ * them. Returns the number of rows that are left. */
+static size_t drop_flagged_rows(const sweep_builder *b, size_t *rows, size_t n)
+{
+    const text_table *const t = b->table;
+    size_t kept = 0, line = 0;
+    for (size_t i = 0; i < n; i++)
+        if (t->kinds[rows[i]] != ROW_KIND_FLAGGED)
+            rows[kept++] = rows[i];
+        else
+            line = line == 0 ? t->row_lines[rows[i]] : line;
+    if (kept == n)
+        return n;
+    wt_log_action(b->log, WT_WARNING, kept > 0 ? WT_LEFT_OUT : WT_IMPLAUSIBLE, n - kept, NULL,
+                  b->file->name, format_line_position(line).text,
+                  kept > 0 ? "rows that the instrument flags as outside of its limits are left "
+                             "out: %zu of %zu in the table"
+                           : "the instrument flags all rows of the table as outside of its limits; "
+                             "they are used: %zu of %zu",
+                  n - kept, n);
+    return kept > 0 ? kept : n;
+}
+
 static wt_status split_table(sweep_builder *b)
 {
     const text_table *t = b->table;
@@ -237,6 +260,7 @@ static wt_status split_table(sweep_builder *b)
                       format_line_position(t->names_line).text,
                       "%zu rows without a positive frequency or without a modulus left out",
                       t->n_rows - n);
+    n = status == WT_OK ? drop_flagged_rows(b, rows, n) : 0;
     while (status == WT_OK && n > 0) {
         const wt_sweep before = *b->sweep;
         size_t taken = 0, kept = 0;

@@ -161,10 +161,38 @@ static void warn_contradictions(const text_file *file, const text_table *t, wt_l
     }
 }
 
+/* Reports two columns of temperature that differ, such as those of the oven and of the sample. */
+static void report_other_temperature(const text_file *file, const text_table *t, wt_log *log)
+{
+    static const double same = 0.5; /* [K] */
+    const text_column *const used = text_table_column(t, WT_Q_TEMPERATURE, -1), *other = NULL;
+    for (size_t i = 0; i < t->n_columns && used != NULL; i++)
+        if (&t->columns[i] != used && t->columns[i].rule->quantity == WT_Q_TEMPERATURE)
+            other = &t->columns[i];
+    if (other == NULL)
+        return;
+    double *const differences = wt_alloc(t->n_rows, sizeof *differences);
+    size_t n = 0;
+    for (size_t i = 0; i < t->n_rows; i++) {
+        const double d = text_table_value(t, i, other) - text_table_value(t, i, used);
+        if (isfinite(d))
+            differences[n++] = d;
+    }
+    const double median = n > 0 ? numbers_median(differences, n) : 0;
+    free(differences);
+    if (fabs(median) > same)
+        wt_log_action(log, text_column_is_of_sample(used) ? WT_NOTE : WT_WARNING, WT_CONTRADICTED,
+                      n, NULL, file->name, format_line_position(t->names_line).text,
+                      "two columns of temperature differ by %.1f K in most rows: \"%s\" is used, "
+                      "not \"%s\"",
+                      fabs(median), used->name, other->name);
+}
+
 wt_status sweep_check_table(const text_file *file, text_table *t, wt_log *log, wt_error *err)
 {
     const wt_status status = warn_duplicate_rows(file, t, log, err);
     warn_contradictions(file, t, log);
+    report_other_temperature(file, t, log);
     return status == WT_OK ? warn_loss_factors(file, t, log, err) : status;
 }
 

@@ -7,10 +7,13 @@
 
 #include "core/base/number.h"
 
+#include <math.h>
+
 /* The format of a cell. */
 typedef struct cell_form {
     bool number, point, exponent;
     size_t length, digits, exponent_digits;
+    size_t tail; /* characters from the decimal point on */
 } cell_form;
 
 static cell_form parse_cell_form(text_span cell, char decimal)
@@ -23,6 +26,7 @@ static cell_form parse_cell_form(text_span cell, char decimal)
         if (c >= '0' && c <= '9')
             ++*(form.exponent ? &form.exponent_digits : &form.digits);
         form.point = form.point || c == decimal;
+        form.tail += form.point;
         form.exponent = form.exponent || c == 'e' || c == 'E';
     }
     return form;
@@ -65,6 +69,8 @@ void truncation_track_row(text_scanner *s)
     if (form.exponent)
         l->exponent_min =
             l->exponents ? min_size(l->exponent_min, form.exponent_digits) : form.exponent_digits;
+    l->tail_min = first ? form.tail : min_size(l->tail_min, form.tail);
+    l->tail_max = form.tail > l->tail_max ? form.tail : l->tail_max;
     l->points = l->points || form.point;
     l->exponents = l->exponents || form.exponent;
 }
@@ -93,6 +99,26 @@ bool truncation_row_is_complete(const text_scanner *s)
            (!l->exponents || (form.exponent && form.exponent_digits >= l->exponent_min));
 }
 
+/* True if the last number has lost no digit: all last numbers of the rows have the same decimals,
+ * or the same length without decimals. */
+static bool last_number_is_whole(const last_cell_stats *l)
+{
+    return l->n > 1 && !l->empty && l->tail_min == l->tail_max &&
+           (l->points || l->shortest == l->longest);
+}
+
+/* True if the header shows that no row is missing: by the number of rows, or by the area of an
+ * image, whose pixels are then square. */
+static bool has_all_rows(const text_scanner *s)
+{
+    const double *const stated = s->header.value;
+    if (s->n_declared > 0)
+        return s->n_rows == s->n_declared;
+    return s->d->matrix && s->table != NULL &&
+           fabs(stated[HEADER_HEIGHT] / stated[HEADER_WIDTH] * (double)s->table->n_columns -
+                (double)s->table->n_rows) < 0.5;
+}
+
 void truncation_check_table_end(text_scanner *s)
 {
     if (s->unclosed)
@@ -111,7 +137,10 @@ void truncation_report(text_scanner *s)
                    "the last line has half a line end: the file was cut off there, and what "
                    "follows is missing");
     } else if (end == END_NONE) {
-        if (s->last_row == LAST_ROW_DROPPED)
+        if (s->last_row == LAST_ROW_KEPT && last_number_is_whole(&s->last) && has_all_rows(s))
+            wt_log_add(s->log, WT_NOTE, s->file->name, place.text,
+                       "the last line has no line end; its row is complete");
+        else if (s->last_row == LAST_ROW_DROPPED)
             wt_log_add(s->log, WT_WARNING, s->file->name, place.text,
                        "the last line has no line end and is no whole row: the file was cut "
                        "off; the row is left out, and rows may be missing behind it");
