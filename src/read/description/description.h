@@ -225,6 +225,8 @@ typedef struct text_description {
     char *group;    /* normalised name of the column that separates isotherms */
     char **samples; /* normalised names of the column of sample names */
     size_t n_samples;
+    char **repeating; /* normalised names of a column that names samples if it repeats a grid */
+    size_t n_repeating;
     double temperature_jump; /* [K]; NaN if there is none */
 
     segment_marker *markers;

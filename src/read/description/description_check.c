@@ -57,8 +57,8 @@ wt_status description_check_whole(const text_description *d, const char *name, w
             return fail_element(err, name, "column");
         }
     }
-    if ((d->kinds & WT_KIND_SWEEP) == 0 &&
-        (d->group != NULL || d->n_samples > 0 || !isnan(d->temperature_jump))) {
+    if ((d->kinds & WT_KIND_SWEEP) == 0 && (d->group != NULL || d->n_samples > 0 ||
+                                            d->n_repeating > 0 || !isnan(d->temperature_jump))) {
         wt_fail(err, WT_E_SCHEMA, "isotherms without a sweep");
         wt_error_expected(err, "kinds with sweep in it");
         return fail_element(err, name, "isotherms");

@@ -267,6 +267,7 @@ static void read_isotherms_element(description_parser *p, const xmlNode *node)
     const char *jump = parse_attribute(p, node, "temperature-jump");
     p->d->group = parse_normalised(p, parse_attribute(p, node, "group"));
     read_name_list(p, node, "sample", &p->d->samples, &p->d->n_samples);
+    read_name_list(p, node, "repeating", &p->d->repeating, &p->d->n_repeating);
     if (jump != NULL && (wt_quantity_parse(jump, WT_Q_TEMPERATURE_DIFFERENCE,
                                            &p->d->temperature_jump, NULL) != WT_OK ||
                          !(p->d->temperature_jump > 0)))

@@ -462,6 +462,13 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
     table->segment_cell = find_cell(&r, d->segment_column);
     table->curve_cell = find_cell(&r, d->curve_column);
     table->sample_cell = find_first_cell(&r, d->samples, d->n_samples);
+    if (table->sample_cell == SIZE_MAX) {
+        table->sample_cell = find_first_cell(&r, d->repeating, d->n_repeating);
+        table->is_sample_guessed = table->sample_cell != SIZE_MAX;
+        if (table->is_sample_guessed)
+            text_copy(table->sample_name, sizeof table->sample_name,
+                      names->names.cells[table->sample_cell]);
+    }
     table->number_cell = find_first_cell(&r, d->row_numbers, d->n_row_numbers);
     table->flag_cell = find_cell(&r, d->flag_column);
     for (size_t i = 0; i < n_cells && status == WT_OK; i++) {

@@ -166,9 +166,11 @@ typedef struct text_table {
         *samples; /* [n_rows] index in the list of samples of the file; NO_SAMPLE without a name */
     size_t n_rows;
     text_header header;
-    size_t n_grouped;  /* number of cells whose decimal mark may separate thousands */
-    bool has_decimals; /* true if another cell shows that it does not */
-    char grouped[16];  /* one of those cells */
+    bool is_sample_guessed; /* true if the samples count only if they repeat a grid */
+    char sample_name[32];   /* name of that column */
+    size_t n_grouped;       /* number of cells whose decimal mark may separate thousands */
+    bool has_decimals;      /* true if another cell shows that it does not */
+    char grouped[16];       /* one of those cells */
 } text_table;
 #define ROW_KIND_NONE 255u
 #define ROW_KIND_FLAGGED 254u /* the instrument marks the row as outside of its limits */

@@ -199,3 +199,63 @@ void collect_scattered_rows(sweep_builder *b, size_t *rows, size_t n)
     free(ordered);
     free(gaps);
 }
+
+/* A row with its sample and the steps of temperature, frequency and strain in which it lies. */
+typedef struct grid_row {
+    int temperature, frequency, strain;
+    size_t sample;
+} grid_row;
+
+static int compare_grid_rows(const void *a, const void *b)
+{
+    const grid_row *const p = a, *const q = b;
+    int order = (p->temperature > q->temperature) - (p->temperature < q->temperature);
+    order = order != 0 ? order : (p->frequency > q->frequency) - (p->frequency < q->frequency);
+    order = order != 0 ? order : (p->strain > q->strain) - (p->strain < q->strain);
+    return order != 0 ? order : compare_index(p->sample, q->sample);
+}
+
+static bool is_same_place(const grid_row *a, const grid_row *b)
+{
+    return a->temperature == b->temperature && a->frequency == b->frequency &&
+           a->strain == b->strain;
+}
+
+/* Returns the row of a table; sample NO_SAMPLE without a frequency or a sample. */
+static grid_row find_grid_row(const sweep_builder *b, size_t row)
+{
+    static const double kelvin = 2, ratio = 1.05; /* size of the steps */
+    const double temperature = sweep_temperature(b, row), rate = sweep_angular_frequency(b, row),
+                 strain = b->c.strain != NULL ? text_table_value(b->table, row, b->c.strain)
+                                              : (double)NAN;
+    grid_row found = {.sample = NO_SAMPLE};
+    if (!(rate > 0) || !isfinite(rate))
+        return found;
+    found.temperature = isfinite(temperature) ? (int)lround(temperature / kelvin) : 0;
+    found.frequency = (int)lround(log(rate) / log(ratio));
+    found.strain = strain > 0 && isfinite(strain) ? (int)lround(log(strain) / M_LN2) : 0;
+    found.sample = b->table->samples[row];
+    return found;
+}
+
+bool samples_repeat_grid(const sweep_builder *b)
+{
+    const text_table *const t = b->table;
+    grid_row *const rows = wt_alloc(t->n_rows, sizeof *rows);
+    size_t n = 0, n_repeated = 0, n_frequencies = 0;
+    for (size_t row = 0; row < t->n_rows; row++) {
+        rows[n] = find_grid_row(b, row);
+        n += rows[n].sample != NO_SAMPLE;
+    }
+    if (n > 0)
+        qsort(rows, n, sizeof *rows, compare_grid_rows);
+    for (size_t first = 0, end; first < n; first = end) {
+        for (end = first + 1; end < n && is_same_place(&rows[first], &rows[end]);)
+            end++;
+        n_repeated += rows[first].sample != rows[end - 1].sample ? end - first : 0;
+        n_frequencies += first == 0 || rows[first].temperature == rows[0].temperature;
+    }
+    free(rows);
+    /* heating and cooling repeat temperatures as well, at few frequencies */
+    return 2 * n_repeated > n && n_frequencies >= FREQUENCIES_MIN;
+}

@@ -190,11 +190,37 @@ static wt_status name_sample(const sweep_builder *b, const wt_sweep *from)
     return good ? WT_OK : wt_fail(b->err, WT_E_MEMORY, "no memory for the name of a sample");
 }
 
+static void remove_samples(const text_table *t)
+{
+    for (size_t row = 0; row < t->n_rows; row++)
+        t->samples[row] = NO_SAMPLE;
+}
+
+/* Keeps the samples of a column such as "Specimen" or "Run" only if they repeat one grid. */
+static void check_guessed_samples(const sweep_builder *b)
+{
+    const text_table *const t = b->table;
+    const line_position_text place = format_line_position(t->names_line);
+    if (samples_repeat_grid(b)) {
+        wt_log_add(b->log, WT_WARNING, b->file->name, place.text,
+                   "column %zu, %s, repeats the same frequencies and temperatures: each of its "
+                   "values counts as a sample",
+                   t->sample_cell + 1, t->sample_name);
+        return;
+    }
+    wt_log_add(b->log, WT_NOTE, b->file->name, place.text, "columns not used: %s", t->sample_name);
+    remove_samples(t);
+}
+
 /* Ignores a sample column of numbers that nearly all differ, or of too many names; it counts
  * something. */
 static void ignore_count_column(const sweep_builder *b)
 {
     const text_table *t = b->table;
+    if (t->is_sample_guessed) {
+        check_guessed_samples(b);
+        return;
+    }
     const text_list *names = &b->file->samples;
     bool seen[SAMPLES_MAX] = {false};
     bool numbers = true;
@@ -215,8 +241,7 @@ static void ignore_count_column(const sweep_builder *b)
                   format_line_position(t->names_line).text,
                   "column %zu, which would name the sample, %s: left out", t->sample_cell + 1,
                   counts ? "is different in every row" : "has too many names");
-    for (size_t row = 0; row < t->n_rows; row++)
-        t->samples[row] = NO_SAMPLE;
+    remove_samples(t);
 }
 
 /* Leaves out the rows that the instrument marks as outside of its limits, unless it marks all of

@@ -71,6 +71,8 @@ void sweep_warn_shared_temperature(const text_file *file, const wt_read_options 
 
 /* ---- text_order.c: collects the rows of isotherms that do not stand together. --------------- */
 void collect_scattered_rows(sweep_builder *b, size_t *rows, size_t n);
+/* True if most rows have a frequency and temperature that another sample of the table has, too. */
+bool samples_repeat_grid(const sweep_builder *b);
 
 /* ---- text_strain.c: removes the rows of strain sweeps from `rows` and adds these sweeps. ----- */
 wt_status extract_strain_sweeps(sweep_builder *b, size_t *rows, size_t *n);

@@ -281,10 +281,12 @@ void sweep_warn_shared_temperature(const text_file *file, const wt_read_options 
     static const double most = M_LN2;
     double low = (double)INFINITY, high = -(double)INFINITY;
     size_t n = 0;
-    if (isnan(options->temperature) || file->samples.n > 1)
+    if (isnan(options->temperature))
         return;
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         const wt_isotherm *const s = &sweep->isotherms[i];
+        if (s->sample != NULL && file->samples.n > 1)
+            return;
         if (fabs(s->temperature - options->temperature) > 1e-6 || !isnan(s->temperature_spread))
             continue;
         low = fmin(low, mean_log_modulus(s));
