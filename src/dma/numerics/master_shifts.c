@@ -77,11 +77,10 @@ static wt_interval shift_to_reference(const master_work *work, size_t curve)
     const wt_posterior *p = work->posterior;
     double a, error;
     if (master_reference_is_fitted(work))
-        return work->at == work->anchor ? posterior_a(p, curve)
-                                        : posterior_a_against(p, curve, work->curve[work->at]);
+        return posterior_a(p, curve, work->curve[work->at]);
     if (work->at == work->set.n || !master_shift_outside_part(work, work->at, &a, &error))
         return posterior_a_to_reference(p, curve);
-    wt_interval shift = posterior_a(p, curve);
+    wt_interval shift = posterior_a(p, curve, work->curve[work->anchor]);
     error = hypot(error, shift.standard_error);
     a = shift.value - a;
     return (wt_interval){a, error, a - NORMAL_95 * error, a + NORMAL_95 * error};

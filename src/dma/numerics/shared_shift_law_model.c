@@ -4,7 +4,7 @@
 
 #include "core/base/quantity.h"
 #include "core/math/students_t.h"
-#include "dma/numerics/mixture.h"
+#include "dma/numerics/posterior.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
