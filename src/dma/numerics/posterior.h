@@ -14,6 +14,9 @@ typedef struct mixture_component {
 /* Returns the mean, the 95 % limits and the corresponding standard error. The weights must sum
  * to 1. */
 wt_interval mixture_interval(const mixture_component *part, size_t n);
+/* Returns the interval of x + by, and of a rising function of x. */
+wt_interval interval_offset(wt_interval x, double by);
+wt_interval interval_map(wt_interval x, double (*f)(double));
 
 /* Number of geometry widths times departure widths in master_route.c. */
 enum { POSTERIOR_CELLS = 12 };

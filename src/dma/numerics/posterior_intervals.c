@@ -61,6 +61,21 @@ wt_interval mixture_interval(const mixture_component *part, size_t n)
     return interval;
 }
 
+wt_interval interval_offset(wt_interval x, double by)
+{
+    x.value += by;
+    x.low += by;
+    x.high += by;
+    return x;
+}
+
+wt_interval interval_map(wt_interval x, double (*f)(double))
+{
+    wt_interval y = {f(x.value), 0.0, f(x.low), f(x.high)};
+    y.standard_error = 0.5 * (y.high - y.low) / NORMAL_95;
+    return y;
+}
+
 /* ---- intervals ------------------------------------------------------------------------------- */
 
 enum { MAX_COMPONENTS = POSTERIOR_CELLS * LAW_SPREADS };
@@ -356,12 +371,8 @@ wt_interval posterior_term(const wt_posterior *p, size_t term, double slope)
 {
     double mean[LAW_MAX_UNKNOWNS];
     posterior_mean_law(p, mean);
-    wt_interval x = offset_unknown_interval(p, (long)term, 0.0, 0.0, 1.0, slope * M_LN10);
-    const double by = slope * M_LN10 * mean[0];
-    x.value += by;
-    x.low += by;
-    x.high += by;
-    return x;
+    return interval_offset(offset_unknown_interval(p, (long)term, 0.0, 0.0, 1.0, slope * M_LN10),
+                           slope * M_LN10 * mean[0]);
 }
 
 /* ---- means and draws ------------------------------------------------------------------------- */
