@@ -14,14 +14,7 @@
  * window needs one point for each frequency and LEAST_POINTS points, as SHIFT_MIN_POINTS. Above
  * 600 points (20 per window) neighbours are merged. Each round moves the points by half of the
  * residual. Anderson mixing of two rounds extrapolates by up to eight times. */
-enum {
-    MOST_WINDOWS = 30,
-    OF_FREQUENCY = 1,
-    LEAST_POINTS = 4,
-    MOST_POINTS = 600,
-    MOST_ROUNDS = 8,
-    MOST_AHEAD = 8
-};
+enum { MOST_WINDOWS = 30, LEAST_POINTS = 4, MOST_POINTS = 600, MOST_ROUNDS = 8, MOST_AHEAD = 8 };
 static const double same_frequency = 1e-3; /* exports with four digits differ by 5e-4 */
 /* The rounds end if no point moves farther [decade]: 1 %, the size of the noise. */
 static const double convergence_limit = 0.005;
@@ -68,8 +61,7 @@ static size_t count_frequencies(const wt_sweep *sweep)
 /* Splits the points into windows that are wide enough and contain enough points. */
 static void split_into_windows(windows *w, size_t n_frequencies)
 {
-    const size_t least =
-        OF_FREQUENCY * n_frequencies > LEAST_POINTS ? OF_FREQUENCY * n_frequencies : LEAST_POINTS;
+    const size_t least = n_frequencies > LEAST_POINTS ? n_frequencies : LEAST_POINTS;
     const window_point *p = w->window_point;
     const double width = (p[w->n_points - 1].temperature - p[0].temperature) / MOST_WINDOWS;
     w->n = 0;

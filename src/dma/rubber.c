@@ -174,17 +174,6 @@ static void shifted_series(const wt_rubber *rubber, const wt_rubber_draw *draw, 
     }
 }
 
-static wt_status series_material(const wt_rubber *rubber, const wt_rubber_draw *draw,
-                                 double temperature, double a, double b, wt_material **material,
-                                 wt_error *err)
-{
-    wt_prony prony = {0};
-    shifted_series(rubber, draw, temperature, a, b, &prony);
-    const wt_status status = wt_material_prony(&prony, rubber->poisson_ratio, material, err);
-    wt_prony_clear(&prony);
-    return status;
-}
-
 static wt_status table_material(const wt_rubber *rubber, double a, double b, wt_material **material,
                                 wt_error *err)
 {
@@ -211,16 +200,16 @@ static wt_status rubber_material(const wt_rubber *rubber, const wt_rubber_draw *
                                  wt_error *err)
 {
     const wt_zener *z = &rubber->zener;
-    switch (rubber->kind) {
-    case WT_RUBBER_TABLE:
+    wt_prony prony = {0};
+    if (rubber->kind == WT_RUBBER_TABLE)
         return table_material(rubber, a, b, material, err);
-    case WT_RUBBER_ZENER:
+    if (rubber->kind == WT_RUBBER_ZENER)
         return wt_material_fractional_zener(z->e0 / b, z->eg / b, z->tau * a, z->alpha,
                                             rubber->poisson_ratio, material, err);
-    case WT_RUBBER_SERIES:
-        break;
-    }
-    return series_material(rubber, draw, temperature, a, b, material, err);
+    shifted_series(rubber, draw, temperature, a, b, &prony);
+    const wt_status status = wt_material_prony(&prony, rubber->poisson_ratio, material, err);
+    wt_prony_clear(&prony);
+    return status;
 }
 
 /* Computes the factors of times and moduli at a temperature. NaN means the reference, which then

@@ -1,4 +1,4 @@
-/* Strain softening of the rubber from strain sweeps or from a table.
+/* The job of strain sweeps, and the strain softening of the rubber from them or from a table.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/strain_softening.h"
 
@@ -6,7 +6,9 @@
 #include "core/base/clocale.h"
 #include "core/base/number.h"
 #include "core/math/students_t.h"
-#include "core/table/registry.h"
+#include "core/table/table_rows.h"
+#include "dma/sweep_input.h"
+#include "job/cost.h"
 #include "job/random_draws.h"
 
 #include <math.h>
@@ -149,9 +151,8 @@ static wt_status select_temperature(const table_view *v, wt_strain_softening_cho
             "case give sweeps of one temperature",
             err);
     }
-    if (!isnan(choice->temperature) && isnan(nearest)) {
+    if (!isnan(choice->temperature) && isnan(nearest))
         return fail_no_temperature("the strain sweeps do not say their temperature", err);
-    }
     choice->temperature = isnan(choice->temperature) ? choice->temperature : nearest;
     return WT_OK;
 }
@@ -310,11 +311,6 @@ static wt_status read_strain_sweeps(const wt_table *table, wt_strain_softening_c
 enum { STRAIN, F, G, F_ERROR, G_ERROR, N_COLUMNS };
 static const char *const names[N_COLUMNS] = {"strain", "f", "g", "f_error", "g_error"};
 
-static bool is_numeric_column(const wt_table *table, long column)
-{
-    return column >= 0 && wt_table_column_kind(table, (size_t)column) != WT_COLUMN_TEXT;
-}
-
 static wt_status fail_not_softening(wt_error *err)
 {
     wt_fail(err, WT_E_MISSING, "the table is none of a softening with strain");
@@ -332,7 +328,8 @@ static wt_status read_softening_table(const wt_table *table, wt_strain_softening
     for (size_t i = 0; i < N_COLUMNS; i++) {
         column[i] = wt_table_find(table, names[i]);
         factor[i] = 1;
-        if (!is_numeric_column(table, column[i]) && (i <= G || column[i] >= 0))
+        if (column[i] < 0 ? i <= G
+                          : wt_table_column_kind(table, (size_t)column[i]) == WT_COLUMN_TEXT)
             return fail_not_softening(err);
         if (column[i] >= 0 && status == WT_OK)
             status = wt_unit_to_si(wt_table_column_unit(table, (size_t)column[i]), WT_Q_STRAIN,
@@ -376,9 +373,8 @@ wt_status wt_strain_softening_from_table(const wt_table *table, wt_strain_soften
     if (table == NULL || softening == NULL)
         return wt_fail(err, WT_E_ARG, "no table of a softening with strain");
     wt_strain_softening s = {0};
-    const bool swept = wt_table_find(table, "storage_ratio") >= 0;
     wt_status status = WT_OK;
-    if (swept)
+    if (wt_table_find(table, "storage_ratio") >= 0)
         status = read_strain_sweeps(table, choice, &s, err);
     else if (!isnan(choice.temperature))
         status = fail_no_temperature("a table of strain, f and g has no temperature", err);
@@ -432,15 +428,13 @@ bool strain_softening_has_errors(const wt_strain_softening *softening)
 void strain_softening_describe(const wt_strain_softening *s, char *text, size_t size)
 {
     const double *strain = s->table.strain;
-    char from[64], at[32];
+    char from[64], at[32] = "";
     if (s->n_sweeps == 0)
         snprintf(from, sizeof from, "given table");
     else
         snprintf(from, sizeof from, "%s%zu strain sweep%s", s->n_sweeps > 1 ? "mean of " : "",
                  s->n_sweeps, s->n_sweeps > 1 ? "s" : "");
-    if (isnan(s->temperature))
-        at[0] = '\0';
-    else
+    if (!isnan(s->temperature))
         clocale_print(at, sizeof at, " at %.1f °C", s->temperature - WT_ZERO_CELSIUS);
     clocale_print(text, size, "%s%s, strain %s; %s", from, at,
                   format_range(strain[0], strain[s->table.n - 1], 3).text,
@@ -472,4 +466,135 @@ wt_strain_softening strain_softening_draw(const wt_strain_softening *softening, 
                     flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_LOSS));
     }
     return drawn;
+}
+
+/* ---- the job of strain sweeps ---------------------------------------------------------------- */
+
+wt_payne_job wt_payne_job_defaults(void)
+{
+    return (wt_payne_job){.n_sets = 0};
+}
+
+void wt_payne_tables_clear(wt_payne_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->payne);
+    wt_table_free(tables->payne_sweep);
+    *tables = (wt_payne_tables){0};
+}
+
+/* Points with positive moduli, to which a law is fitted. */
+typedef struct usable_points {
+    size_t n;
+    double *strain, *storage, *loss;
+    bool loss_measured;
+} usable_points;
+
+static usable_points select_usable_points(const wt_strain_sweep *sweep, arena *memory, wt_log *log)
+{
+    usable_points u = {.strain = arena_numbers(memory, sweep->n),
+                       .storage = arena_numbers(memory, sweep->n),
+                       .loss = arena_numbers(memory, sweep->n)};
+    bool storage_only = true;
+    for (size_t i = 0; i < sweep->n && storage_only; i++)
+        storage_only = isnan(sweep->loss_modulus[i]);
+    u.loss_measured = !storage_only;
+    for (size_t i = 0; i < sweep->n; i++) {
+        const double storage = sweep->storage_modulus[i], loss = sweep->loss_modulus[i];
+        if (!(storage > 0 && isfinite(storage) && (storage_only || (loss > 0 && isfinite(loss)))))
+            continue;
+        u.strain[u.n] = sweep->strain[i];
+        u.storage[u.n] = storage;
+        u.loss[u.n++] = loss;
+    }
+    if (u.n < sweep->n)
+        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, 0, NULL, sweep->source, NULL,
+                      "strain sweep at %.4g rad/s: %zu of %zu points left out, no positive "
+                      "modulus",
+                      sweep->angular_frequency, sweep->n - u.n, sweep->n);
+    return u;
+}
+
+TABLE_ROW(payne_sweep, PAYNE_SWEEP, double strain, angular_frequency, temperature, storage, loss,
+          loss_factor;
+          double storage_ratio, loss_ratio, storage_kraus, loss_kraus; const char *source, *sample;)
+
+static void add_sweep_point_rows(table_writer *t, const wt_strain_sweep *s, const wt_payne *p)
+{
+    const double unknown = (double)NAN;
+    table_block(t);
+    for (size_t i = 0; i < s->n; i++) {
+        const double strain = s->strain[i], storage = s->storage_modulus[i],
+                     loss = s->loss_modulus[i];
+        TABLE_ADD(payne_sweep, t, strain, s->angular_frequency, s->temperature, storage, loss,
+                  storage > 0 ? loss / storage : unknown, storage / p->storage_start,
+                  loss / p->loss_start, p->fitted ? wt_kraus_storage(&p->law, strain) : unknown,
+                  p->fitted ? wt_kraus_loss(&p->law, strain) : unknown, s->source, s->sample);
+    }
+}
+
+TABLE_ROW(payne, PAYNE, wt_strain_sweep sweep; wt_payne payne; size_t points;
+          double strain_min, strain_max;)
+
+static wt_status build_payne_tables(const wt_job *work, const wt_sweep *sweep, wt_payne_tables *t,
+                                    wt_error *err)
+{
+    const char *deformation = flow_deformation_name(sweep->deformation);
+    table_writer points = table_begin(&payne_sweep_schema, err),
+                 numbers = table_begin(&payne_schema, err);
+    wt_status status = WT_OK;
+    size_t n_fitted = 0;
+    payne_sweep_set_text(&points, PAYNE_SWEEP_KEY_DEFORMATION, deformation);
+    payne_set_text(&numbers, PAYNE_KEY_DEFORMATION, deformation);
+    for (size_t i = 0; i < sweep->n_strain_sweeps && status == WT_OK; i++) {
+        const wt_strain_sweep *s = &sweep->strain_sweeps[i];
+        arena memory = {0};
+        const usable_points u = select_usable_points(s, &memory, work->log);
+        wt_payne payne;
+        if (u.n > 0) {
+            status = wt_payne_fit(u.strain, u.storage, u.loss_measured ? u.loss : NULL, u.n, &payne,
+                                  err);
+            if (status == WT_OK) {
+                add_sweep_point_rows(&points, s, &payne);
+                TABLE_ADD(payne, &numbers, *s, payne, u.n, u.strain[0], u.strain[u.n - 1]);
+                n_fitted++;
+            }
+        }
+        arena_free(&memory);
+    }
+    if (status == WT_OK && n_fitted == 0) {
+        status = wt_fail(err, WT_E_RANGE, "no strain sweep has a positive modulus");
+        wt_error_place(err, "%s", sweep->strain_sweeps[0].source);
+    }
+    const wt_status first = table_end(&points, &t->payne_sweep),
+                    second = table_end(&numbers, &t->payne);
+    return status != WT_OK ? status : first != WT_OK ? first : second;
+}
+
+wt_status wt_payne_compute(const wt_payne_job *job, const wt_job *work, wt_payne_tables *tables,
+                           wt_error *err)
+{
+    if (job == NULL || work == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no job of strain sweeps");
+    wt_sweep sweep = {0};
+    wt_payne_tables t = {0};
+    wt_status status = flow_sweeps_read(job->sets, job->n_sets, work, &sweep, err);
+    if (status == WT_OK && sweep.n_strain_sweeps == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no strain sweep could be read");
+        wt_error_expected(err, "moduli at one frequency and temperature at rising strain "
+                               "amplitudes, and a column of the amplitude");
+        wt_error_found(err, "isotherms: %zu, temperature sweeps: %zu", sweep.n_isotherms,
+                       sweep.n_ramps);
+    }
+    if (status == WT_OK)
+        status = build_payne_tables(work, &sweep, &t, err);
+    if (status == WT_OK) {
+        cost_report(work, (cost_summary){.items = (double)sweep.n_strain_sweeps});
+        *tables = t;
+        t = (wt_payne_tables){0};
+    }
+    wt_payne_tables_clear(&t);
+    wt_sweep_clear(&sweep);
+    return status;
 }

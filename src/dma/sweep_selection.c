@@ -238,46 +238,52 @@ static size_t compact_points(const exclusion_range *c, sweep_points p)
     return n_left;
 }
 
-/* Excluded sweeps and the number of excluded single points. */
-typedef struct removed_data {
-    wt_sweep sweep;
-    size_t points;
-} removed_data;
-
-static void exclude_isotherms(const exclusion_range *c, wt_sweep *sweep, removed_data *g)
+/* Frees the isotherms and then the temperature sweeps that `drop` marks [n_isotherms + n_ramps].
+ * removed: their numbers. */
+static void remove_sweeps(wt_sweep *sweep, const bool *drop, size_t removed[2])
 {
-    size_t n_left = 0;
-    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+    wt_sweep gone = {.isotherms = wt_alloc(sweep->n_isotherms, sizeof *sweep->isotherms),
+                     .ramps = wt_alloc(sweep->n_ramps, sizeof *sweep->ramps)};
+    size_t isotherms = 0, ramps = 0;
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        if (*drop++)
+            gone.isotherms[gone.n_isotherms++] = sweep->isotherms[i];
+        else
+            sweep->isotherms[isotherms++] = sweep->isotherms[i];
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        if (*drop++)
+            gone.ramps[gone.n_ramps++] = sweep->ramps[i];
+        else
+            sweep->ramps[ramps++] = sweep->ramps[i];
+    sweep->n_isotherms = isotherms;
+    sweep->n_ramps = ramps;
+    removed[0] = gone.n_isotherms;
+    removed[1] = gone.n_ramps;
+    wt_sweep_clear(&gone);
+}
+
+/* Removes the excluded points and marks what is excluded as a whole. Returns the number of single
+ * points. */
+static size_t exclude_points(const exclusion_range *c, wt_sweep *sweep, bool *drop)
+{
+    size_t points = 0;
+    for (size_t i = 0; i < sweep->n_isotherms; i++, drop++) {
         wt_isotherm *t = &sweep->isotherms[i];
         const size_t before = t->n;
         if (c->by_frequency)
             t->n = compact_points(c, isotherm_points(t));
-        if (t->n == 0 || (!c->by_frequency && is_excluded(c, t->temperature))) {
-            g->sweep.isotherms[g->sweep.n_isotherms++] = *t;
-        } else {
-            g->points += before - t->n;
-            sweep->isotherms[n_left++] = *t;
-        }
+        *drop = t->n == 0 || (!c->by_frequency && is_excluded(c, t->temperature));
+        points += *drop ? 0 : before - t->n;
     }
-    sweep->n_isotherms = n_left;
-}
-
-static void exclude_ramps(const exclusion_range *c, wt_sweep *sweep, removed_data *g)
-{
-    size_t n_left = 0;
-    for (size_t i = 0; i < sweep->n_ramps; i++) {
+    for (size_t i = 0; i < sweep->n_ramps; i++, drop++) {
         wt_ramp *t = &sweep->ramps[i];
         const size_t before = t->n;
         if (!c->by_frequency)
             t->n = compact_points(c, ramp_points(t));
-        if (t->n == 0 || (c->by_frequency && is_excluded(c, t->angular_frequency))) {
-            g->sweep.ramps[g->sweep.n_ramps++] = *t;
-        } else {
-            g->points += before - t->n;
-            sweep->ramps[n_left++] = *t;
-        }
+        *drop = t->n == 0 || (c->by_frequency && is_excluded(c, t->angular_frequency));
+        points += *drop ? 0 : before - t->n;
     }
-    sweep->n_ramps = n_left;
+    return points;
 }
 
 static wt_status apply_exclusion(const char *text, wt_sweep *sweep, wt_log *log, wt_error *err)
@@ -289,20 +295,18 @@ static wt_status apply_exclusion(const char *text, wt_sweep *sweep, wt_log *log,
         wt_error_expected(err, c.by_time ? "frequency: for an oscillation"
                                          : "time: for relaxation and creep");
     }
-    removed_data g = {.sweep = {.isotherms = wt_alloc(sweep->n_isotherms, sizeof *sweep->isotherms),
-                                .ramps = wt_alloc(sweep->n_ramps, sizeof *sweep->ramps)}};
-    if (status == WT_OK) {
-        exclude_isotherms(&c, sweep, &g);
-        exclude_ramps(&c, sweep, &g);
-        const size_t isotherms = g.sweep.n_isotherms, ramps = g.sweep.n_ramps;
-        const bool none = isotherms + ramps + g.points == 0;
-        wt_log_action(log, none ? WT_WARNING : WT_NOTE, WT_LEFT_OUT, 0, NULL, NULL, NULL,
-                      "left out by %s: %zu isotherms, %zu temperature sweeps, %zu points of "
-                      "others%s",
-                      text, isotherms, ramps, g.points, none ? "; nothing lies there" : "");
-    }
-    wt_sweep_clear(&g.sweep);
-    return status;
+    if (status != WT_OK)
+        return status;
+    bool *drop = wt_alloc(sweep->n_isotherms + sweep->n_ramps, sizeof *drop);
+    size_t removed[2];
+    const size_t points = exclude_points(&c, sweep, drop);
+    remove_sweeps(sweep, drop, removed);
+    const bool none = removed[0] + removed[1] + points == 0;
+    wt_log_action(log, none ? WT_WARNING : WT_NOTE, WT_LEFT_OUT, 0, NULL, NULL, NULL,
+                  "left out by %s: %zu isotherms, %zu temperature sweeps, %zu points of others%s",
+                  text, removed[0], removed[1], points, none ? "; nothing lies there" : "");
+    free(drop);
+    return WT_OK;
 }
 
 wt_status flow_exclusions_check(const char *const *texts, size_t n, wt_error *err)
@@ -339,7 +343,7 @@ static const double chamber_tolerance = 1.5, frequency_tolerance = 1e-3, amplitu
  * temperature [K] and angular frequency [rad/s]. */
 typedef struct sweep_entry {
     const char *source;
-    bool is_ramp, drop;
+    bool is_ramp;
     double amplitude, temperature[2], frequency[2];
 } sweep_entry;
 
@@ -433,37 +437,24 @@ static void warn_unmatched_strain(const sweep_entry *entries, size_t n, double t
                    100 * target, 100 * nearest->amplitude);
 }
 
-/* Moves the excluded sweeps to a temporary sweep and frees them. Logs the number of excluded
- * sweeps. */
-static void remove_other_amplitudes(wt_sweep *sweep, const sweep_entry *entries, wt_log *log)
+/* Removes the sweeps of other amplitudes and logs their numbers. */
+static void remove_other_amplitudes(wt_sweep *sweep, const sweep_entry *entries, const bool *drop,
+                                    wt_log *log)
 {
-    wt_sweep dropped = {0};
-    const sweep_entry *const ramps = entries + sweep->n_isotherms;
-    size_t isotherms = 0, kept = 0;
-    dropped.isotherms = wt_alloc(sweep->n_isotherms, sizeof *dropped.isotherms);
-    dropped.ramps = wt_alloc(sweep->n_ramps, sizeof *dropped.ramps);
-    for (size_t i = 0; i < sweep->n_isotherms; i++)
-        if (entries[i].drop)
-            dropped.isotherms[dropped.n_isotherms++] = sweep->isotherms[i];
-        else
-            sweep->isotherms[isotherms++] = sweep->isotherms[i];
-    for (size_t i = 0; i < sweep->n_ramps; i++)
-        if (ramps[i].drop)
-            dropped.ramps[dropped.n_ramps++] = sweep->ramps[i];
-        else
-            sweep->ramps[kept++] = sweep->ramps[i];
-    sweep->n_isotherms = isotherms;
-    sweep->n_ramps = kept;
-    if (dropped.n_isotherms > 0)
-        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, dropped.n_isotherms, NULL,
-                      dropped.isotherms[0].source, NULL,
-                      "%zu isotherm%s of other strain amplitudes left out", dropped.n_isotherms,
-                      dropped.n_isotherms > 1 ? "s" : "");
-    if (dropped.n_ramps > 0)
-        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, dropped.n_ramps, NULL, dropped.ramps[0].source,
-                      NULL, "%zu temperature sweep%s of other strain amplitudes left out",
-                      dropped.n_ramps, dropped.n_ramps > 1 ? "s" : "");
-    wt_sweep_clear(&dropped);
+    static const char *const kinds[] = {"isotherm", "temperature sweep"};
+    const char *first[2] = {NULL, NULL};
+    size_t removed[2] = {0, 0};
+    for (size_t i = sweep->n_isotherms + sweep->n_ramps; i-- > 0;)
+        if (drop[i]) {
+            first[entries[i].is_ramp] = entries[i].source;
+            removed[entries[i].is_ramp]++;
+        }
+    for (size_t k = 0; k < 2; k++)
+        if (removed[k] > 0)
+            wt_log_action(log, WT_WARNING, WT_LEFT_OUT, removed[k], NULL, first[k], NULL,
+                          "%zu %s%s of other strain amplitudes left out", removed[k], kinds[k],
+                          removed[k] > 1 ? "s" : "");
+    remove_sweeps(sweep, drop, removed);
 }
 
 wt_status flow_select_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
@@ -472,6 +463,7 @@ wt_status flow_select_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t
     const double target = n_sets > 0 ? sets[0].read.strain : (double)NAN;
     const size_t n = sweep->n_isotherms + sweep->n_ramps;
     sweep_entry *entries = wt_alloc(n, sizeof *entries);
+    bool *drop = wt_alloc(n, sizeof *drop);
     wt_status status = WT_OK;
     list_sweep_entries(sweep, entries);
     for (size_t i = 0; i < n && status == WT_OK; i++)
@@ -481,14 +473,15 @@ wt_status flow_select_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t
             if (isnan(target))
                 status = fail_mixed_amplitudes(&entries[i], &entries[k], err);
             else if (is_closer_to_target(&entries[i], &entries[k], target))
-                entries[k].drop = true;
+                drop[k] = true;
             else
-                entries[i].drop = true;
+                drop[i] = true;
         }
     if (status == WT_OK && !isnan(target))
         warn_unmatched_strain(entries, n, target, log);
     if (status == WT_OK)
-        remove_other_amplitudes(sweep, entries, log);
+        remove_other_amplitudes(sweep, entries, drop, log);
+    free(drop);
     free(entries);
     return status;
 }

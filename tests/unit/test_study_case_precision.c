@@ -148,7 +148,9 @@ static void test_isotherms(void **state)
     wt_result *result = NULL;
     wt_run_options options = wt_run_defaults();
     size_t found = 0, failed = 0;
-    double before = (double)INFINITY;
+    double before = (double)INFINITY, fewest = 0;
+    /* 50 draws tell a standard error to 10 %, so that equal ones may follow in either order */
+    const double resolution = 1 + 1 / sqrt(2 * 49.);
     options.no_provenance = true;
     options.threads = 1;
     options.replicates = 50;
@@ -168,10 +170,12 @@ static void test_isotherms(void **state)
                      reference = number_cell(table, i, "reference_error");
         if (!is(table, i, "layer thickness by isotherms", "weartrack"))
             continue;
-        assert_true(stated <= before && error <= 4 * hypot(stated, reference));
+        assert_true(stated <= resolution * before && error <= 4 * hypot(stated, reference));
+        fewest = found == 0 ? stated : fewest;
         before = stated;
         found++;
     }
+    assert_true(before < 0.5 * fewest);
     assert_int_equal(found, 4); /* 4, 6, 9 and 12 of 12; of a quarter a law is not told */
     const char *answer = wt_table_key(table, "answer");
     assert_non_null(answer);

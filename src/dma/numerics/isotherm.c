@@ -398,14 +398,6 @@ static void add_pair_gaps(const shift_curve *onto, const shift_curve *from, cons
     }
 }
 
-static struct overlap overlap_sums(const struct pair *pair, double a)
-{
-    struct overlap sum = {0};
-    add_pair_gaps(pair->p, pair->s, pair->used, a, 1.0, pair->fixed_b, &sum);
-    add_pair_gaps(pair->s, pair->p, pair->used, -a, -1.0, pair->fixed_b, &sum);
-    return sum;
-}
-
 /* Returns the mean square residual; *b: the corresponding vertical shift. */
 static double mean_square(const struct pair *pair, const struct overlap *sum, double *b)
 {
@@ -413,15 +405,6 @@ static double mean_square(const struct pair *pair, const struct overlap *sum, do
     const double mean = sum->sum / n;
     *b = pair->fixed_b + (pair->free_b ? mean : 0.0);
     return fmax(sum->square / n - (pair->free_b ? mean * mean : 0.0), 0.0);
-}
-
-/* Returns the log likelihood relative to residuals of `indifferent_residual` at all points;
- * smaller is better. The plain mean square would prefer a chance match of a few end points. */
-static double pair_cost(const struct overlap *sum, double square)
-{
-    const double n = (double)(sum->n[STORAGE] + sum->n[LOSS]);
-    return n * log((square + equal_residual * equal_residual) /
-                   (indifferent_residual * indifferent_residual));
 }
 
 /* Returns true if the ordinates overlap by a twentieth of a decade, or a quarter of the flatter
@@ -438,15 +421,6 @@ static bool ordinates_overlap(const struct pair *pair)
     return shared > 0.0 && shared >= fmin(least_overlap, 0.25 * flatter);
 }
 
-/* Returns true if enough points lie on the other curve. */
-static bool has_enough_overlap(const struct pair *pair, const struct overlap *sum)
-{
-    bool enough = true;
-    for (int q = 0; q < MODULI; q++)
-        enough = enough && (!pair->used[q] || sum->n[q] >= SHIFT_MIN_POINTS);
-    return enough;
-}
-
 /* Fits the shift of curve s relative to curve p by least squares of the used moduli in both
  * directions. b is fitted if free_b, otherwise it is an input. Returns false without overlap. */
 static bool shift_pair_fit(const shift_set *set, size_t onto, size_t from, bool free_b, double *a,
@@ -460,12 +434,19 @@ static bool shift_pair_fit(const shift_set *set, size_t onto, size_t from, bool 
     const double step = (highest - lowest) / GRID;
     double best_cost = HUGE_VAL, least_square = HUGE_VAL, closest = 0.0, b_closest = 0.0;
     for (int g = 1; g < GRID; g++) {
-        const struct overlap sum = overlap_sums(&pair, lowest + g * step);
-        if (!has_enough_overlap(&pair, &sum))
+        struct overlap sum = {0};
+        add_pair_gaps(p, s, set->used, lowest + g * step, 1.0, pair.fixed_b, &sum);
+        add_pair_gaps(s, p, set->used, -(lowest + g * step), -1.0, pair.fixed_b, &sum);
+        if ((set->used[STORAGE] && sum.n[STORAGE] < SHIFT_MIN_POINTS) ||
+            (set->used[LOSS] && sum.n[LOSS] < SHIFT_MIN_POINTS))
             continue;
         double vertical;
         const double square = mean_square(&pair, &sum, &vertical);
-        const double cost = pair_cost(&sum, square);
+        /* log likelihood relative to residuals of `indifferent_residual` at all points; the plain
+         * mean square would prefer a chance match of a few end points */
+        const double cost = (double)(sum.n[STORAGE] + sum.n[LOSS]) *
+                            log((square + equal_residual * equal_residual) /
+                                (indifferent_residual * indifferent_residual));
         if (cost < best_cost) {
             best_cost = cost;
             *a = lowest + g * step;

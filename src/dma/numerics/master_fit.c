@@ -180,25 +180,6 @@ void master_work_alloc(master_work *work)
     work->s = &p->frame;
 }
 
-void master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge)
-{
-    const size_t n = work->set.n;
-    arena memory = {0};
-    double *none = arena_numbers(&memory, n), *rubber = arena_numbers(&memory, n);
-    for (size_t i = 0; i < n; i++)
-        rubber[i] = work->physical[i] - work->physical[work->anchor];
-    overlap_chain(&work->set, work->anchor, physical ? rubber : none, physical ? none : rubber,
-                  edge);
-    arena_free(&memory);
-}
-
-/* Uses the vertical shift of rubber elasticity if requested, otherwise none. E' alone does not
- * separate it from the horizontal shift, and a glass has none. */
-void master_find_overlaps(master_work *work)
-{
-    master_overlap_edges(work, work->options.vertical == WT_VERTICAL_PHYSICAL, work->edge);
-}
-
 wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double geometry,
                             double departure, wt_error *err)
 {
@@ -209,11 +190,6 @@ wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double ge
     if (status == WT_OK)
         spectrum_set_prior(work->s, &work->prior);
     return status;
-}
-
-bool master_reference_is_fitted(const master_work *work)
-{
-    return work->at < work->set.n && work->placed[work->at];
 }
 
 /* Creates a spectrum for the placed curves and the arrays of the posterior for each curve. */
@@ -461,4 +437,30 @@ wt_status master_test_superposition(master_work *work, wt_error *err)
         status =
             master_set_widths(work, work->options.vertical, start_geometry, start_departure, err);
     return status;
+}
+
+wt_status master_use_overlap_shifts(master_work *work, wt_error *err)
+{
+    const bool physical = work->options.vertical == WT_VERTICAL_PHYSICAL;
+    shift_set *set = &work->set;
+    for (size_t i = 0; i < set->n; i++) {
+        work->placed[i] = work->edge[i].placed;
+        work->a[i] = work->placed[i] ? work->edge[i].a : 0.0;
+        work->b[i] = physical ? work->physical[i] : 0.0;
+    }
+    (void)spectrum_select_connected(set, work->anchor, work->a, work->placed, work->overlap);
+    if (master_reference_is_fitted(work))
+        (void)spectrum_select_connected(set, work->at, work->a, work->placed, work->overlap);
+    for (size_t i = 0; i < set->n; i++) {
+        set->curves[i].is_shift_fixed = work->placed[i];
+        set->curves[i].fixed_log_a = work->a[i];
+    }
+    work->route = WT_SHIFTS_FROM_OVERLAP;
+    work->options.vertical = physical ? WT_VERTICAL_PHYSICAL : WT_VERTICAL_NONE;
+    work->lines = false;
+    const wt_status status = master_new_spectrum(work, err);
+    if (status != WT_OK)
+        return status;
+    master_set_shift_errors(work);
+    return master_fit_robust(work, err);
 }

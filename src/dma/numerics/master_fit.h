@@ -3,9 +3,22 @@
 #ifndef WT_DMA_NUMERICS_MASTER_FIT_H
 #define WT_DMA_NUMERICS_MASTER_FIT_H
 
-#include "dma/numerics/overlap_chain.h"
+#include "dma/numerics/isotherm.h"
 #include "dma/numerics/posterior.h"
 #include "dma/numerics/spectrum.h"
+
+/* Shift of an isotherm by the overlaps on the way to the anchor [decade]. */
+typedef struct overlap_edge {
+    bool placed;
+    size_t onto;    /* index of the placed isotherm it is linked to; the anchor: itself */
+    double a;       /* shift relative to the anchor */
+    double step;    /* standard error of the step onto it */
+    double error;   /* standard error of a for fully correlated steps */
+    double spread;  /* additional error of a if only one position of each overlap is right, the same
+                       in all */
+    double by_loss; /* change of a by the overlaps of the loss modulus alone */
+    double by_vertical; /* change of a by the other vertical shifts */
+} overlap_edge;
 
 typedef struct master_work {
     arena memory;
@@ -71,9 +84,9 @@ bool master_reference_is_fitted(const master_work *work);
 /* Creates a spectrum for the placed curves at their present shifts, without outliers. */
 wt_status master_new_spectrum(master_work *work, wt_error *err) WT_NODISCARD;
 wt_status master_fit_robust(master_work *work, wt_error *err) WT_NODISCARD;
-/* Fills the edges [set.n] from the overlaps, with the vertical shift of rubber elasticity or
- * with none. */
-void master_overlap_edges(const master_work *work, bool physical, overlap_edge *edge);
+/* Computes log_a [set->n], in decades, 0 at the anchor. It is NaN if no isotherm towards the
+ * anchor shares enough height, or without a storage modulus. */
+void closed_form_shifts(const shift_set *set, size_t anchor, double *log_a);
 /* Fills the edges of the work from the overlaps with the requested vertical shifts. */
 void master_find_overlaps(master_work *work);
 /* Replaces the shifts by those of the overlaps and fits the spectrum to them. */
@@ -88,6 +101,8 @@ void master_store_original_shifts(master_work *work);
 /* Refers overlaps and additional errors of the shifts to the isotherm of the reference temperature.
  */
 void master_refer_errors(master_work *work);
+/* Sets the additional errors of the shifts. */
+void master_set_shift_errors(master_work *work);
 /* Adds the disagreement with the overlaps to the errors of the shifts if superposition fails. */
 void master_uncertainty(master_work *work);
 /* Returns true if no shift of the spectrum remains determined. */

@@ -33,25 +33,10 @@ void wt_master_clear(wt_master *master)
 
 static const wt_interval unknown_interval = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
-static wt_interval transform_interval(wt_interval x, double (*f)(double))
-{
-    wt_interval y = {f(x.value), 0.0, f(x.low), f(x.high)};
-    y.standard_error = 0.5 * (y.high - y.low) / NORMAL_95;
-    return y;
-}
-
 static wt_interval scale_interval(wt_interval x, double factor)
 {
     return (wt_interval){x.value * factor, x.standard_error * factor, x.low * factor,
                          x.high * factor};
-}
-
-static wt_interval offset_interval(wt_interval x, double by)
-{
-    x.value += by;
-    x.low += by;
-    x.high += by;
-    return x;
 }
 
 static wt_interval interpolate_interval(wt_interval a, wt_interval b, double share)
@@ -72,8 +57,8 @@ static bool has_modulus_level(wt_shift_quantity by)
 static wt_interval pole_interval(const wt_posterior *p, double sign)
 {
     const double lead = p->shape.reference - p->shape.coldest;
-    const wt_interval c2 = offset_interval(
-        transform_interval(posterior_constant(p, law_pole_index(&p->shape)), exp), lead);
+    const wt_interval c2 =
+        interval_offset(interval_map(posterior_constant(p, law_pole_index(&p->shape)), exp), lead);
     if (sign > 0.0)
         return c2;
     return (wt_interval){p->shape.reference - c2.value, c2.standard_error,
@@ -354,7 +339,7 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     if (p->frame.liquid || !has_modulus_level(p->by))
         return WT_OK;
     const wt_interval e = posterior_equilibrium(p);
-    m->equilibrium = transform_interval(e, exp);
+    m->equilibrium = interval_map(e, exp);
     double lowest = HUGE_VAL;
     for (size_t i = 0; i < m->n; i++)
         lowest = fmin(lowest, m->loading == WT_OSCILLATION ? m->log_storage[i] : m->log_step[i]);
@@ -383,7 +368,7 @@ static void set_offset(const master_work *work, wt_master *m)
         const wt_interval a = posterior_a_to_reference(work->posterior, work->curve[work->at]);
         m->offset = (wt_interval){-a.value, a.standard_error, -a.high, -a.low};
     } else {
-        m->offset = offset_interval(of_law, m->shifts[work->anchor].log_a.value);
+        m->offset = interval_offset(of_law, m->shifts[work->anchor].log_a.value);
     }
 }
 
@@ -486,7 +471,7 @@ void wt_master_spectrum(const wt_master *master, size_t term, wt_interval *log_d
     const double slope =
         log(p->modulus[after] / p->modulus[before]) / (step * (double)(after - before));
     *log_density = scale_interval(
-        offset_interval(posterior_term(master->posterior, term, slope), -log(step)), 1.0 / M_LN10);
+        interval_offset(posterior_term(master->posterior, term, slope), -log(step)), 1.0 / M_LN10);
 }
 
 wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, wt_prony *prony,

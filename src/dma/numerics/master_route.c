@@ -6,7 +6,6 @@
 #include "core/base/clocale.h"
 #include "core/base/param.h"
 #include "core/math/root.h"
-#include "dma/numerics/overlap_chain.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -7,6 +7,17 @@
 #include "dma/numerics/shift_law.h"
 #include "dma/numerics/spectrum.h"
 
+/* A normal distribution of a mixture. */
+typedef struct mixture_component {
+    double weight, mean, deviation;
+} mixture_component;
+/* Returns the mean, the 95 % limits and the corresponding standard error. The weights must sum
+ * to 1. */
+wt_interval mixture_interval(const mixture_component *part, size_t n);
+/* Returns the interval of x + by, and of a rising function of x. */
+wt_interval interval_offset(wt_interval x, double by);
+wt_interval interval_map(wt_interval x, double (*f)(double));
+
 /* Number of geometry widths times departure widths in master_route.c. */
 enum { POSTERIOR_CELLS = 12 };
 
@@ -73,9 +84,8 @@ wt_status posterior_finish(wt_posterior *p, double reference, wt_error *err) WT_
 /* Finds the column of the shift of a curve. Returns false if it is fixed. */
 bool posterior_column(const wt_posterior *p, size_t curve, size_t *column);
 
-wt_interval posterior_a(const wt_posterior *p, size_t curve); /* decades, relative to the anchor */
 /* Shift of a curve against another one, in decades. */
-wt_interval posterior_a_against(const wt_posterior *p, size_t curve, size_t other);
+wt_interval posterior_a(const wt_posterior *p, size_t curve, size_t other);
 double posterior_fit_error(const wt_posterior *p,
                            size_t curve); /* standard error without the additional error */
 wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve);

@@ -1,9 +1,9 @@
 /* Intervals and draws of the posterior mixture. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dma/numerics/mixture.h"
 #include "dma/numerics/posterior.h"
 
 #include "core/math/arena_gsl.h"
 #include "core/math/cholesky.h"
+#include "core/math/root.h"
 #include "core/math/splitmix64.h"
 #include "core/math/students_t.h"
 
@@ -12,6 +12,69 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- mixtures of normal distributions -------------------------------------------------------- */
+
+/* Relative accuracy of a quantile, and distance from the means [standard deviations] at which a
+ * normal tail is below 1e-19. */
+static const double relative_tolerance = 1e-12, max_deviations = 9.0;
+enum { MOST_HALVINGS = 2200 }; /* more than between the largest and the smallest double */
+
+typedef struct mixture_level {
+    const mixture_component *part;
+    size_t n;
+    double probability;
+} mixture_level;
+
+static bool is_below_quantile(double x, void *user)
+{
+    const mixture_level *l = user;
+    double sum = 0.0;
+    for (size_t i = 0; i < l->n; i++) {
+        const mixture_component *p = &l->part[i];
+        sum += p->weight * (p->deviation > 0.0 ? gsl_cdf_ugaussian_P((x - p->mean) / p->deviation)
+                                               : (x >= p->mean ? 1.0 : 0.0));
+    }
+    return sum < l->probability;
+}
+
+static double normal_mixture_quantile(const mixture_component *part, size_t n, double probability)
+{
+    mixture_level l = {part, n, probability};
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (size_t i = 0; i < n; i++) {
+        low = fmin(low, part[i].mean - max_deviations * part[i].deviation);
+        high = fmax(high, part[i].mean + max_deviations * part[i].deviation);
+    }
+    root_bisect(is_below_quantile, &l, &low, &high, relative_tolerance, MOST_HALVINGS);
+    return 0.5 * (low + high);
+}
+
+wt_interval mixture_interval(const mixture_component *part, size_t n)
+{
+    wt_interval interval = {0};
+    for (size_t i = 0; i < n; i++)
+        interval.value += part[i].weight * part[i].mean;
+    interval.low = normal_mixture_quantile(part, n, 0.025);
+    interval.high = normal_mixture_quantile(part, n, 0.975);
+    interval.standard_error = (interval.high - interval.low) / (2.0 * NORMAL_95);
+    return interval;
+}
+
+wt_interval interval_offset(wt_interval x, double by)
+{
+    x.value += by;
+    x.low += by;
+    x.high += by;
+    return x;
+}
+
+wt_interval interval_map(wt_interval x, double (*f)(double))
+{
+    wt_interval y = {f(x.value), 0.0, f(x.low), f(x.high)};
+    y.standard_error = 0.5 * (y.high - y.low) / NORMAL_95;
+    return y;
+}
 
 /* ---- intervals ------------------------------------------------------------------------------- */
 
@@ -23,27 +86,19 @@ static double extra_variance(const wt_posterior *p, size_t curve)
     return p->extra_error != NULL ? p->extra_error[curve] * p->extra_error[curve] : 0.0;
 }
 
-static wt_interval column_interval(const wt_posterior *p, long column, double held, double variance)
+static wt_interval column_interval(const wt_posterior *p, long column, double held)
 {
-    mixture_component component[MAX_COMPONENTS] = {{1.0, held, sqrt(variance)}};
-    if (column < 0 && variance > 0.0)
-        return mixture_interval(component, 1);
-    if (column < 0)
-        return (wt_interval){held, 0.0, held, held};
+    mixture_component component[MAX_COMPONENTS];
     const size_t c = (size_t)column;
     size_t n = 0;
+    if (column < 0)
+        return (wt_interval){held, 0.0, held, held};
     for (size_t i = 0; i < p->n_cells; i++)
         if (p->cells[i].weight > 0.0)
-            component[n++] = (mixture_component){
-                p->cells[i].weight, p->cells[i].value[c] / M_LN10,
-                sqrt(gsl_matrix_get(p->cells[i].covariance, c, c) / (M_LN10 * M_LN10) + variance)};
+            component[n++] =
+                (mixture_component){p->cells[i].weight, p->cells[i].value[c] / M_LN10,
+                                    sqrt(gsl_matrix_get(p->cells[i].covariance, c, c)) / M_LN10};
     return mixture_interval(component, n);
-}
-
-wt_interval posterior_a(const wt_posterior *p, size_t curve)
-{
-    return column_interval(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10,
-                           extra_variance(p, curve));
 }
 
 /* Returns the value of a shift in a cell and its covariance with that of another curve, in ln. */
@@ -58,7 +113,7 @@ static double cell_shift(const wt_posterior *p, const posterior_cell *cell, size
     return fitted ? cell->value[at] : p->frame.given_a[curve];
 }
 
-wt_interval posterior_a_against(const wt_posterior *p, size_t curve, size_t other)
+wt_interval posterior_a(const wt_posterior *p, size_t curve, size_t other)
 {
     mixture_component component[MAX_COMPONENTS];
     size_t n = 0;
@@ -83,8 +138,7 @@ wt_interval posterior_a_against(const wt_posterior *p, size_t curve, size_t othe
 
 double posterior_fit_error(const wt_posterior *p, size_t curve)
 {
-    return column_interval(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10, 0.0)
-        .standard_error;
+    return column_interval(p, p->frame.column_a[curve], 0.0).standard_error;
 }
 
 /* Returns ln b of a curve with a fixed vertical shift. */
@@ -96,7 +150,7 @@ static double fixed_b(const wt_posterior *p, size_t curve)
 
 wt_interval posterior_b(const wt_posterior *p, size_t curve)
 {
-    return column_interval(p, p->frame.column_b[curve], fixed_b(p, curve) / M_LN10, 0.0);
+    return column_interval(p, p->frame.column_b[curve], fixed_b(p, curve) / M_LN10);
 }
 
 double posterior_a_per_b(const wt_posterior *p, size_t curve)
@@ -317,12 +371,8 @@ wt_interval posterior_term(const wt_posterior *p, size_t term, double slope)
 {
     double mean[LAW_MAX_UNKNOWNS];
     posterior_mean_law(p, mean);
-    wt_interval x = offset_unknown_interval(p, (long)term, 0.0, 0.0, 1.0, slope * M_LN10);
-    const double by = slope * M_LN10 * mean[0];
-    x.value += by;
-    x.low += by;
-    x.high += by;
-    return x;
+    return interval_offset(offset_unknown_interval(p, (long)term, 0.0, 0.0, 1.0, slope * M_LN10),
+                           slope * M_LN10 * mean[0]);
 }
 
 /* ---- means and draws ------------------------------------------------------------------------- */

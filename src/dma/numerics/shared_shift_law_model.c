@@ -3,8 +3,7 @@
 #include "dma/numerics/shared_shift_law_fit.h"
 
 #include "core/base/quantity.h"
-#include "core/math/students_t.h"
-#include "dma/numerics/mixture.h"
+#include "dma/numerics/posterior.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -186,14 +185,6 @@ static double constant_correlation(const solution s[LAW_SPREADS], size_t a, size
     return sum[1] / sqrt(sum[0] * sum[2]);
 }
 
-/* Converts ln of the pole distance to the constant C2. */
-static wt_interval distance_to_c2(wt_interval x, double lead)
-{
-    wt_interval y = {lead + exp(x.value), 0.0, lead + exp(x.low), lead + exp(x.high)};
-    y.standard_error = 0.5 * (y.high - y.low) / NORMAL_95;
-    return y;
-}
-
 void shared_law_fill(const law_samples *c, const solution shared[LAW_SPREADS],
                      wt_shared_shift_law *common)
 {
@@ -207,7 +198,8 @@ void shared_law_fill(const law_samples *c, const solution shared[LAW_SPREADS],
     common->c1 = shared_law_has_pole(c) ? constant : unknown;
     common->activation_energy = shared_law_has_pole(c) ? unknown : constant;
     common->c2 = shared_law_has_pole(c)
-                     ? distance_to_c2(unknown_interval(shared, at[POLE]), c->reference - c->coldest)
+                     ? interval_offset(interval_map(unknown_interval(shared, at[POLE]), exp),
+                                       c->reference - c->coldest)
                      : unknown;
     common->c_correlation =
         shared_law_has_pole(c) ? constant_correlation(shared, at[MAIN], at[POLE]) : (double)NAN;
