@@ -257,7 +257,7 @@ static void remove_copies(const table_view *t, wt_group_data *d, size_t *row_of)
 
 /* ---- table ----------------------------------------------------------------------------------- */
 
-/* Finds the rows of curves with a modulus, accepted or doubtful, without copies. */
+/* Finds the rows of curves with a modulus, accepted, wide or doubtful, without copies. */
 static wt_status find_accepted_rows(const table_view *t, wt_group_data *d, size_t *row_of,
                                     wt_error *err)
 {

@@ -185,6 +185,11 @@ static const expectation measured[] = {
     {&dma_comparison_schema, "temperature", "00"},
     {&dma_comparison_schema, "track_temperature", ".."}, /* not given */
     {&dma_comparison_schema, "dma_complex_modulus", "kn"},
+    {&indentation_schema, "tip_sides", "00"},
+    {&indentation_schema, "tip_half_angle", "nn"}, /* half_angle_error and radius_error have it */
+    {&indentation_schema, "tip_radius", "nn"},
+    {&indentation_schema, "tip_transition_radius", "nn"},
+    {&indentation_schema, "sample_thickness", ".."}, /* a thick sample */
     {&indentation_schema, "spring_constant", "kn"},
     {&indentation_schema, "sensitivity", ".."}, /* that of the files */
     {&indentation_schema, "spring_constant_error", "0."},

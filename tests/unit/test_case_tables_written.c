@@ -560,6 +560,7 @@ static void test_spring_constants(void **state)
     job.curves = looked_at;
     job.n_curves = 1;
     job.choices = "put-choices.tsv";
+    job.tip.sample_thickness = 20e-6;
     if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s", err.message);
     see(tables.indentation);
@@ -569,6 +570,7 @@ static void test_spring_constants(void **state)
     assert_int_equal(unlink("put-choices.tsv"), 0);
     job.n_curves = 0;
     job.choices = NULL;
+    job.tip.sample_thickness = 0;
     job.options.fit_force_fraction = 0.9;
     job.options.contact_estimators = true;
     job.options.fit_retract = true;
