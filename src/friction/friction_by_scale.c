@@ -10,16 +10,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Creates the contact for the stated values, without a layer and without the extrapolated share. */
-static wt_status create_contact(const wt_sliding *sliding, const wt_job *work, sliding_contact *c,
-                                wt_error *err)
-{
-    const wt_layer_state none = {.modulus_ratio = 1};
-    wt_job local_job = *work;
-    local_job.left_out = WT_EXTRA_ALL;
-    return sliding_contact_create(sliding, &local_job, WT_NO_REPLICATE, NULL, none, c, err);
-}
-
 /* ---- contact area ---------------------------------------------------------------------------- */
 
 /* Resolution of a figure. */
@@ -71,7 +61,7 @@ wt_status wt_contact_area_compute(const wt_sliding *sliding, const wt_job *work,
     sliding_contact c = {0};
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
-        status = create_contact(sliding, work, &c, err);
+        status = sliding_contact_create_stated(sliding, work, &c, err);
     if (status != WT_OK)
         return status;
     table_writer t = table_begin(&contact_area_schema, err);
@@ -174,15 +164,11 @@ wt_status wt_friction_by_scale_compute(const wt_sliding *sliding, const wt_job *
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no decades to make");
-    const wt_layer_state none = {.modulus_ratio = 1};
     sliding_contact c = {0};
     decade_contributions d = {.n = 0};
     wt_status status = flow_sliding_check(sliding, work, err);
-    if (status != WT_OK)
-        return status;
-    wt_job local_job = *work;
-    local_job.left_out = WT_EXTRA_ALL;
-    status = sliding_contact_create(sliding, &local_job, WT_NO_REPLICATE, NULL, none, &c, err);
+    if (status == WT_OK)
+        status = sliding_contact_create_stated(sliding, work, &c, err);
     if (status == WT_OK) {
         find_decade_edges(c.roughness, &d);
         table_writer t = table_begin(&friction_decades_schema, err);

@@ -186,6 +186,15 @@ wt_status sliding_contact_create(const wt_sliding *sliding, const wt_job *work, 
     return WT_OK;
 }
 
+wt_status sliding_contact_create_stated(const wt_sliding *sliding, const wt_job *work,
+                                        sliding_contact *contact, wt_error *err)
+{
+    wt_job alone = *work;
+    alone.left_out = WT_EXTRA_ALL;
+    return sliding_contact_create(sliding, &alone, WT_NO_REPLICATE, NULL,
+                                  (wt_layer_state){.modulus_ratio = 1}, contact, err);
+}
+
 wt_layer_state sliding_layer_at_shear_rate(const sliding_contact *contact, wt_layer_state layer,
                                            double velocity)
 {

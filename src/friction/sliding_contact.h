@@ -29,6 +29,9 @@ double flow_reference_velocity(const wt_sliding *sliding);
 wt_status sliding_contact_create(const wt_sliding *sliding, const wt_job *work, size_t replicate,
                                  wt_material_cache *drawn, wt_layer_state layer,
                                  sliding_contact *contact, wt_error *err) WT_NODISCARD;
+/* Variant for the stated values without a layer and without what work.left_out can omit. */
+wt_status sliding_contact_create_stated(const wt_sliding *sliding, const wt_job *work,
+                                        sliding_contact *contact, wt_error *err) WT_NODISCARD;
 /* Statement about results whose relative error exceeds the tolerance. */
 #define TOLERANCE_STATEMENT "the tolerance %.2g is not reached, the numerical error is up to %.2g"
 /* State of the layer with the modulus ratio at its shear frequency, velocity / thickness. This is
