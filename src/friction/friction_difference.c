@@ -14,6 +14,64 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Friction with and without an effect. */
+typedef struct friction_difference {
+    const wt_sliding *sliding;         /* contact with the effect; borrowed */
+    double *velocity;                  /* [n] the last is the reference */
+    wt_friction_point *with, *without; /* [n] */
+    size_t n;
+    double temperature;    /* temperature of the rubber or of its surroundings [K] */
+    double *below, *above; /* [n] shares of the hysteresis from strains below and above the table
+                              of a softening; NULL without one */
+    double strain;         /* largest strain with a softening */
+} friction_difference;
+
+static double *list_velocities(const wt_sliding *sliding)
+{
+    double *const v = wt_alloc(sliding->n_velocity + 1, sizeof *v);
+    memcpy(v, sliding->velocity, sliding->n_velocity * sizeof *v);
+    v[sliding->n_velocity] = flow_reference_velocity(sliding);
+    return v;
+}
+
+/* Computes the friction for the stated values. The caller clears the contact, also on failure. */
+static wt_status compute_points(const wt_sliding *sliding, const wt_job *work,
+                                const double *velocity, wt_friction_point *points,
+                                sliding_contact *contact, wt_error *err)
+{
+    wt_status status = sliding_contact_create_stated(sliding, work, contact, err);
+    if (status == WT_OK)
+        status = wt_friction_compute(contact->workspace, contact->pressure, velocity,
+                                     sliding->n_velocity + 1, points, err);
+    return status;
+}
+
+static void add_cost(cost_summary *cost, const wt_friction_point *points, size_t n)
+{
+    cost->items += (double)n;
+    for (size_t i = 0; i < n; i++)
+        if (points[i].hysteresis.value > 0)
+            cost->error_estimated =
+                fmax(cost->error_estimated,
+                     points[i].hysteresis.numerical_error / points[i].hysteresis.value);
+}
+
+/* Writes the change at one velocity: "at 300 mm/s hysteresis friction +1.0 %, contact area -2.0 %
+ * against AGAINST". */
+static void describe_change(const wt_friction_point *with, const wt_friction_point *without,
+                            const char *against, char *text, size_t size)
+{
+    char velocity[32];
+    wt_format_si(with->velocity, "m/s", 3, velocity, sizeof velocity);
+    clocale_print(text, size,
+                  "at %s hysteresis friction %+.1f %%, contact area %+.1f %% against %s", velocity,
+                  100 * (with->hysteresis.value / without->hysteresis.value - 1),
+                  100 * (with->area_ratio.value / without->area_ratio.value - 1), against);
+}
+
+/* ---- transversely isotropic rubber
+ * ---------------------------------------------------------------- */
+
 enum { NONE, LOSS, STORAGE, BOTH, N_FACTOR_SETS };
 
 static const struct {
@@ -29,8 +87,8 @@ static const struct {
 typedef struct directions {
     const wt_sliding *sliding;
     wt_job work;
-    wt_friction_point
-        *points; /* [N_FACTOR_SETS * n] the last of each n is the reference velocity */
+    double *velocity;          /* [n] the last is the reference velocity */
+    wt_friction_point *points; /* [N_FACTOR_SETS * n] */
     size_t n;
     bool is_computed[N_FACTOR_SETS];
     char left_out[256];
@@ -48,22 +106,13 @@ static wt_transverse select_factors(const wt_transverse *given, size_t k)
 
 static wt_status compute_factor_set(directions *d, size_t k, wt_error *err)
 {
-    const wt_layer_state none = {.modulus_ratio = 1};
     wt_rubber rubber = *d->sliding->rubber;
     wt_sliding sliding = *d->sliding;
-    wt_friction_point *points = d->points + k * d->n;
-    const double reference = flow_reference_velocity(&sliding);
     sliding_contact c = {0};
     rubber.transverse = select_factors(&rubber.transverse, k);
     sliding.rubber = &rubber;
-    wt_status status =
-        sliding_contact_create(&sliding, &d->work, WT_NO_REPLICATE, NULL, none, &c, err);
-    if (status == WT_OK)
-        status = wt_friction_compute(c.workspace, c.pressure, sliding.velocity, sliding.n_velocity,
-                                     points, err);
-    if (status == WT_OK)
-        status =
-            wt_friction_compute(c.workspace, c.pressure, &reference, 1, &points[d->n - 1], err);
+    const wt_status status =
+        compute_points(&sliding, &d->work, d->velocity, d->points + k * d->n, &c, err);
     sliding_contact_clear(&c);
     return status;
 }
@@ -101,14 +150,9 @@ static void add_points(const directions *d, size_t k, table_writer *t)
 
 static void describe_factor_change(const directions *d, size_t k, table_writer *t)
 {
-    const wt_friction_point *p = &d->points[k * d->n + d->n - 1], *none = &d->points[d->n - 1];
-    char text[192], velocity[32];
-    wt_format_si(p->velocity, "m/s", 3, velocity, sizeof velocity);
-    clocale_print(text, sizeof text,
-                  "at %s hysteresis friction %+.1f %%, contact area %+.1f %% against the isotropic "
-                  "material",
-                  velocity, 100 * (p->hysteresis.value / none->hysteresis.value - 1),
-                  100 * (p->area_ratio.value / none->area_ratio.value - 1));
+    char text[192];
+    describe_change(&d->points[k * d->n + d->n - 1], &d->points[d->n - 1], "the isotropic material",
+                    text, sizeof text);
     transverse_isotropy_set_text(t, factor_sets[k].key, text);
 }
 
@@ -129,18 +173,6 @@ static wt_status tabulate_transverse_isotropy(const directions *d, wt_table **ta
     return table_end(&t, table);
 }
 
-static void report_directions_cost(const directions *d, const wt_job *work)
-{
-    cost_summary cost = {.tolerance_asked = work->tolerance};
-    for (size_t k = 0; k < N_FACTOR_SETS; k++)
-        for (size_t i = 0; d->is_computed[k] && i < d->n; i++) {
-            const wt_estimate *h = &d->points[k * d->n + i].hysteresis;
-            cost.items++;
-            cost.error_estimated = fmax(cost.error_estimated, h->numerical_error / fabs(h->value));
-        }
-    cost_report(work, cost);
-}
-
 wt_status wt_transverse_isotropy_compute(const wt_sliding *sliding, const wt_job *work,
                                          wt_table **table, wt_error *err)
 {
@@ -152,159 +184,116 @@ wt_status wt_transverse_isotropy_compute(const wt_sliding *sliding, const wt_job
     if (status != WT_OK)
         return status;
     directions d = {.sliding = sliding, .work = *work, .n = sliding->n_velocity + 1};
-    d.work.left_out = WT_EXTRA_ALL;
     d.work.drawn = NULL; /* the cache is for another material */
+    d.velocity = list_velocities(sliding);
     d.points = wt_alloc(N_FACTOR_SETS * d.n, sizeof *d.points);
     status = compute_factor_sets(&d, err);
     if (status == WT_OK)
         status = tabulate_transverse_isotropy(&d, table, err);
+    cost_summary cost = {.tolerance_asked = work->tolerance};
+    for (size_t k = 0; k < N_FACTOR_SETS; k++)
+        if (d.is_computed[k])
+            add_cost(&cost, d.points + k * d.n, d.n);
     if (status == WT_OK)
-        report_directions_cost(&d, work);
+        cost_report(work, cost);
+    free(d.velocity);
     free(d.points);
     return status;
 }
 
-typedef struct friction_difference {
-    const wt_sliding *sliding;         /* variant with the effect; borrowed */
-    double *velocity;                  /* [n] the last is the reference */
-    wt_friction_point *with, *without; /* [n] */
-    size_t n;
-    double temperature; /* temperature of the rubber or of its surroundings [K] */
-} friction_difference;
+/* ---- an effect
+ * ----------------------------------------------------------------------------------- */
 
-/* Evaluates further quantities of the contact with the effect. */
-typedef wt_status friction_difference_fn(void *user, const friction_difference *c,
-                                         const sliding_contact *contact, wt_error *err);
+typedef struct friction_effect {
+    const char *missing; /* message for a contact without it */
+    bool (*applies)(const wt_sliding *sliding);
+    void (*leave_out)(wt_sliding *sliding);
+    wt_status (*extend)(friction_difference *c, const sliding_contact *with,
+                        wt_error *err); /* NULL: no further quantities */
+    wt_status (*tabulate)(const friction_difference *c, wt_table **table, wt_error *err);
+} friction_effect;
 
-static wt_status compute_points(const friction_difference *c, const wt_sliding *sliding,
-                                const wt_job *work, wt_friction_point *points,
-                                sliding_contact *contact, wt_error *err)
+/* Computes both contacts for the stated values and the table of the effect. */
+static wt_status tabulate_effect(const friction_effect *effect, const wt_sliding *sliding,
+                                 const wt_job *work, wt_table **table, wt_error *err)
 {
-    const wt_layer_state none = {.modulus_ratio = 1};
-    wt_job local_job = *work;
-    local_job.left_out = WT_EXTRA_ALL;
-    wt_status status =
-        sliding_contact_create(sliding, &local_job, WT_NO_REPLICATE, NULL, none, contact, err);
+    if (work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no effect on friction to compute");
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK && !effect->applies(sliding))
+        status = wt_fail(err, WT_E_ARG, "%s", effect->missing);
+    if (status != WT_OK)
+        return status;
+    friction_difference c = {
+        .sliding = sliding, .velocity = list_velocities(sliding), .n = sliding->n_velocity + 1};
+    sliding_contact with = {0}, other = {0};
+    wt_sliding without = *sliding;
+    effect->leave_out(&without);
+    c.with = wt_alloc(2 * c.n, sizeof *c.with);
+    c.without = c.with + c.n;
+    status = compute_points(sliding, work, c.velocity, c.with, &with, err);
+    c.temperature = with.temperature;
+    if (status == WT_OK && effect->extend != NULL)
+        status = effect->extend(&c, &with, err);
+    sliding_contact_clear(&with);
     if (status == WT_OK)
-        status = wt_friction_compute(contact->workspace, contact->pressure, c->velocity, c->n,
-                                     points, err);
-    return status;
-}
-
-static void report_difference_cost(const friction_difference *c, const wt_job *work)
-{
-    cost_summary cost = {.tolerance_asked = work->tolerance, .items = 2 * (double)c->n};
-    for (size_t i = 0; i < c->n; i++) {
-        const wt_estimate *h = &c->with[i].hysteresis;
-        if (h->value > 0)
-            cost.error_estimated = fmax(cost.error_estimated, h->numerical_error / h->value);
-    }
-    cost_report(work, cost);
-}
-
-/* Computes both variants for the stated values and reports the cost. The callback may be NULL. The
- * caller clears the result, also on failure. */
-static wt_status friction_difference_compute(const wt_sliding *with, const wt_sliding *without,
-                                             const wt_job *work, friction_difference_fn *extend,
-                                             void *user, friction_difference *c, wt_error *err)
-{
-    sliding_contact contact = {0}, other = {0};
-    *c = (friction_difference){.sliding = with, .n = with->n_velocity + 1};
-    c->velocity = wt_alloc(c->n, sizeof *c->velocity);
-    c->with = wt_alloc(c->n, sizeof *c->with);
-    c->without = wt_alloc(c->n, sizeof *c->without);
-    for (size_t i = 0; i < with->n_velocity; i++)
-        c->velocity[i] = with->velocity[i];
-    c->velocity[c->n - 1] = flow_reference_velocity(with);
-    wt_status status = compute_points(c, with, work, c->with, &contact, err);
-    c->temperature = contact.temperature;
-    if (status == WT_OK && extend != NULL)
-        status = extend(user, c, &contact, err);
-    sliding_contact_clear(&contact);
-    if (status == WT_OK)
-        status = compute_points(c, without, work, c->without, &other, err);
+        status = compute_points(&without, work, c.velocity, c.without, &other, err);
     sliding_contact_clear(&other);
+    cost_summary cost = {.tolerance_asked = work->tolerance, .items = (double)c.n};
+    add_cost(&cost, c.with, c.n);
     if (status == WT_OK)
-        report_difference_cost(c, work);
+        cost_report(work, cost);
+    if (status == WT_OK)
+        status = effect->tabulate(&c, table, err);
+    free(c.velocity);
+    free(c.with);
+    free(c.below);
     return status;
 }
 
-static void friction_difference_clear(friction_difference *c)
-{
-    free(c->velocity);
-    free(c->with);
-    free(c->without);
-    *c = (friction_difference){.n = 0};
-}
-
-/* Writes the change at one velocity: "at 300 mm/s hysteresis friction +1.0 %, contact area -2.0 %
- * against AGAINST". */
-static void friction_difference_describe(const wt_friction_point *with,
-                                         const wt_friction_point *without, const char *against,
-                                         char *text, size_t size)
-{
-    char velocity[32];
-    wt_format_si(with->velocity, "m/s", 3, velocity, sizeof velocity);
-    clocale_print(text, size,
-                  "at %s hysteresis friction %+.1f %%, contact area %+.1f %% against %s", velocity,
-                  100 * (with->hysteresis.value / without->hysteresis.value - 1),
-                  100 * (with->area_ratio.value / without->area_ratio.value - 1), against);
-}
-
-/* ---- the effects ------------------------------------------------------------------------------
- */
+/* ---- softening
+ * ------------------------------------------------------------------------------------ */
 
 /* Row of the table: both results at one velocity. */
-TABLE_ROW(softening, SOFTENING, wt_friction_point with, without; double below, above;
-          /* shares of the hysteresis from strains below and above the table */)
+TABLE_ROW(softening, SOFTENING, wt_friction_point with, without; double below, above;)
 
 TABLE_KEYS(softening, SOFTENING, char source[256], effect[192]; double strain_factor;
            wt_estimate strain, share_above;)
 
-/* Results of the contact with softening. */
-typedef struct effect {
-    softening_row *rows; /* [n] one for each velocity; the last is the reference */
-    double strain;       /* largest strain */
-    double range[2];
-} effect;
-
 /* Computes the share of the friction up to the first and beyond the last strain of the table. */
-static wt_status compute_shares(void *user, const friction_difference *of, const sliding_contact *c,
-                                wt_error *err)
+static wt_status compute_shares(friction_difference *c, const sliding_contact *with, wt_error *err)
 {
-    effect *e = user;
     wt_status status = WT_OK;
-    e->strain = wt_friction_strain(c->workspace, c->roughness->q1);
-    wt_friction_strain_range(c->workspace, e->range);
-    for (size_t i = 0; i < of->n && status == WT_OK; i++) {
+    double range[2];
+    c->below = wt_alloc(2 * c->n, sizeof *c->below);
+    c->above = c->below + c->n;
+    c->strain = wt_friction_strain(with->workspace, with->roughness->q1);
+    wt_friction_strain_range(with->workspace, range);
+    for (size_t i = 0; i < c->n && status == WT_OK; i++) {
         wt_friction_node nodes[2];
-        softening_row *r = &e->rows[i];
-        status = wt_friction_profile(c->workspace, c->pressure, of->velocity[i], e->range, 2, nodes,
-                                     err);
-        const double all = of->with[i].hysteresis.value;
+        status = wt_friction_profile(with->workspace, with->pressure, c->velocity[i], range, 2,
+                                     nodes, err);
+        const double all = c->with[i].hysteresis.value;
         const double none = (double)NAN; /* the share is undefined without friction */
-        r->below = all > 0 ? fmin(fmax(nodes[0].hysteresis / all, 0), 1) : none;
-        r->above = all > 0 ? fmin(fmax(1 - nodes[1].hysteresis / all, 0), 1) : none;
-        if (all > 0 && !(e->range[1] < c->roughness->q1))
-            r->above = 0; /* the last strain is not reached */
+        c->below[i] = all > 0 ? fmin(fmax(nodes[0].hysteresis / all, 0), 1) : none;
+        c->above[i] = all > 0 ? fmin(fmax(1 - nodes[1].hysteresis / all, 0), 1) : none;
+        if (all > 0 && !(range[1] < with->roughness->q1))
+            c->above[i] = 0; /* the last strain is not reached */
     }
     return status;
 }
 
-static wt_status tabulate_softening(const friction_difference *c, const effect *e, wt_table **table,
-                                    wt_error *err)
+static wt_status tabulate_softening(const friction_difference *c, wt_table **table, wt_error *err)
 {
     table_writer t = table_begin(&softening_schema, err);
     double above = (double)NAN;
     size_t n_without = 0;
     for (size_t i = 0; i < c->n; i++) {
-        e->rows[i].with = c->with[i];
-        e->rows[i].without = c->without[i];
-        above = fmax(above, e->rows[i].above);
+        above = fmax(above, c->above[i]);
         if (i + 1 == c->n)
             break;
-        softening_add_row(&t, &e->rows[i]);
-        n_without += isnan(e->rows[i].above) ? 1 : 0;
+        TABLE_ADD(softening, &t, c->with[i], c->without[i], c->below[i], c->above[i]);
+        n_without += isnan(c->above[i]) ? 1 : 0;
     }
     if (n_without > 0)
         softening_set_print(&t, SOFTENING_KEY_UNKNOWN,
@@ -312,44 +301,41 @@ static wt_status tabulate_softening(const friction_difference *c, const effect *
                             "could be a share",
                             n_without, c->n - 1);
     softening_keys keys = {.strain_factor = c->sliding->strain_factor,
-                           .strain = {e->strain, (double)NAN, (double)NAN, NULL},
+                           .strain = {c->strain, (double)NAN, (double)NAN, NULL},
                            .share_above = {above, (double)NAN, (double)NAN, NULL}};
     strain_softening_describe(c->sliding->strain_softening, keys.source, sizeof keys.source);
-    friction_difference_describe(&c->with[c->n - 1], &c->without[c->n - 1],
-                                 "the moduli at small strain", keys.effect, sizeof keys.effect);
+    describe_change(&c->with[c->n - 1], &c->without[c->n - 1], "the moduli at small strain",
+                    keys.effect, sizeof keys.effect);
     softening_set_keys(&t, &keys);
     return table_end(&t, table);
+}
+
+static bool softens(const wt_sliding *sliding)
+{
+    return sliding->strain_softening != NULL;
+}
+
+static void leave_out_softening(wt_sliding *sliding)
+{
+    sliding->strain_softening = NULL;
 }
 
 wt_status wt_softened_friction_compute(const wt_sliding *sliding, const wt_job *work,
                                        wt_table **table, wt_error *err)
 {
-    if (work == NULL || table == NULL)
-        return wt_fail(err, WT_E_ARG, "no softening to compute");
-    wt_status status = flow_sliding_check(sliding, work, err);
-    if (status == WT_OK && sliding->strain_softening == NULL)
-        status = wt_fail(err, WT_E_ARG, "the material does not soften with strain");
-    if (status != WT_OK)
-        return status;
-    friction_difference c = {.n = 0};
-    wt_sliding without = *sliding;
-    without.strain_softening = NULL;
-    effect e = {.rows = wt_alloc(sliding->n_velocity + 1, sizeof *e.rows)};
-    status = friction_difference_compute(sliding, &without, work, compute_shares, &e, &c, err);
-    if (status == WT_OK)
-        status = tabulate_softening(&c, &e, table, err);
-    friction_difference_clear(&c);
-    free(e.rows);
-    return status;
+    static const friction_effect effect = {"the material does not soften with strain", softens,
+                                           leave_out_softening, compute_shares, tabulate_softening};
+    return tabulate_effect(&effect, sliding, work, table, err);
 }
+
+/* ---- flash temperature
+ * --------------------------------------------------------------------------- */
 
 TABLE_ROW(flash, FLASH, double velocity; wt_friction_point with, without;)
 
 TABLE_KEYS(flash, FLASH, wt_estimate surroundings;
            double contact_size, heat_capacity, diffusivity, macroscopic;
            char effect[192], branches[192], unsettled[192], law_range[192];)
-
-/* ---- text ------------------------------------------------------------------------------------ */
 
 /* Number of points in a subset, with their slowest and fastest velocity. */
 typedef struct velocity_extent {
@@ -405,8 +391,6 @@ void flash_describe(const wt_sliding *sliding, const wt_friction_point *points, 
                     sizeof none);
     clocale_print(text, 256, "contacts of %.3g m%s%s", sliding->flash.contact_size, two, none);
 }
-
-/* ---- the job --------------------------------------------------------------------------------- */
 
 static void describe_flash_effect(const friction_difference *e, char text[192])
 {
@@ -466,25 +450,26 @@ static wt_status tabulate_flash(const friction_difference *e, wt_table **table, 
     return table_end(&t, table);
 }
 
+static bool is_warmed(const wt_sliding *sliding)
+{
+    return sliding->flash.on;
+}
+
+static void leave_out_flash(wt_sliding *sliding)
+{
+    sliding->flash.on = false;
+}
+
 wt_status wt_flash_temperature_compute(const wt_sliding *sliding, const wt_job *work,
                                        wt_table **table, wt_error *err)
 {
-    if (work == NULL || table == NULL)
-        return wt_fail(err, WT_E_ARG, "no flash temperature to compute");
-    wt_status status = flow_sliding_check(sliding, work, err);
-    if (status == WT_OK && !sliding->flash.on)
-        status = wt_fail(err, WT_E_ARG, "no flash temperature was asked for");
-    if (status != WT_OK)
-        return status;
-    friction_difference e;
-    wt_sliding without = *sliding;
-    without.flash.on = false;
-    status = friction_difference_compute(sliding, &without, work, NULL, NULL, &e, err);
-    if (status == WT_OK)
-        status = tabulate_flash(&e, table, err);
-    friction_difference_clear(&e);
-    return status;
+    static const friction_effect effect = {"no flash temperature was asked for", is_warmed,
+                                           leave_out_flash, NULL, tabulate_flash};
+    return tabulate_effect(&effect, sliding, work, table, err);
 }
+
+/* ---- anisotropy
+ * ---------------------------------------------------------------------------------- */
 
 /* Row of the table: both results at one velocity. */
 TABLE_ROW(anisotropy, ANISOTROPY, wt_friction_point with, without;)
@@ -512,7 +497,7 @@ static void describe_effect(const wt_friction_point *with, const wt_friction_poi
                   "roughness that is the same in all directions; the force of the hysteresis turns "
                   "by %.1f deg to the side",
                   atan2(with->lateral.value, with->hysteresis.value) * 180 / M_PI);
-    friction_difference_describe(with, without, against, text, size);
+    describe_change(with, without, against, text, size);
 }
 
 static wt_status tabulate_anisotropy(const friction_difference *c, wt_table **table, wt_error *err)
@@ -529,22 +514,21 @@ static wt_status tabulate_anisotropy(const friction_difference *c, wt_table **ta
     return table_end(&t, table);
 }
 
+static bool is_anisotropic(const wt_sliding *sliding)
+{
+    return anisotropy_is_present(&sliding->anisotropy);
+}
+
+static void leave_out_anisotropy(wt_sliding *sliding)
+{
+    sliding->anisotropy = (wt_anisotropy){{0}, {0}};
+}
+
 wt_status wt_anisotropic_friction_compute(const wt_sliding *sliding, const wt_job *work,
                                           wt_table **table, wt_error *err)
 {
-    if (work == NULL || table == NULL)
-        return wt_fail(err, WT_E_ARG, "no anisotropy to compute");
-    wt_status status = flow_sliding_check(sliding, work, err);
-    if (status == WT_OK && !anisotropy_is_present(&sliding->anisotropy))
-        status = wt_fail(err, WT_E_ARG, "the roughness is the same in all directions");
-    if (status != WT_OK)
-        return status;
-    friction_difference c;
-    wt_sliding without = *sliding;
-    without.anisotropy = (wt_anisotropy){{0}, {0}};
-    status = friction_difference_compute(sliding, &without, work, NULL, NULL, &c, err);
-    if (status == WT_OK)
-        status = tabulate_anisotropy(&c, table, err);
-    friction_difference_clear(&c);
-    return status;
+    static const friction_effect effect = {"the roughness is the same in all directions",
+                                           is_anisotropic, leave_out_anisotropy, NULL,
+                                           tabulate_anisotropy};
+    return tabulate_effect(&effect, sliding, work, table, err);
 }

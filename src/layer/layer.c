@@ -120,14 +120,11 @@ wt_status wt_energy_density_compute(const wt_sliding *sliding, const wt_layer_jo
         return wt_fail(err, WT_E_ARG, "no energy density to make");
     sliding_contact c = {0};
     layer_energy energy = {.source = {.n = 0}};
-    wt_job own = *work;
-    own.left_out = WT_EXTRA_ALL;
-    const wt_layer_state none = {.modulus_ratio = 1};
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
         status = wt_layer_job_check(job, err);
     if (status == WT_OK)
-        status = sliding_contact_create(sliding, &own, WT_NO_REPLICATE, NULL, none, &c, err);
+        status = sliding_contact_create_stated(sliding, work, &c, err);
     const double velocity = status == WT_OK ? layer_sliding_velocity(sliding, job) : 0;
     if (status == WT_OK)
         status = layer_energy_compute(sliding, job, &c, velocity, &energy, err);

@@ -6,7 +6,7 @@
 #include "core/base/param.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
-#include "friction/layer_observation.h"
+#include "friction/sliding_contact.h"
 #include "job/cost.h"
 #include "job/random_draws.h"
 

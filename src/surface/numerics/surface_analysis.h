@@ -24,7 +24,7 @@ void surface_height_statistics(const wt_height_map *map, wt_surface_heights *to)
  * below half the curvature of the tip. It is 0 if none does. radius [m]. */
 double surface_tip_limit(const wt_height_map *map, double radius);
 
-/* ---- artefacts of a scanner: scan_lines.c ---------------------------------------------------- */
+/* ---- artefacts of a scanner: heights.c ------------------------------------------------------- */
 
 /* What was found in a map of at least 16 rows of 16 points. */
 typedef struct scan_line_faults {
@@ -50,23 +50,17 @@ wt_status surface_transform(const wt_height_map *map, wt_surface_window window, 
                             const surface_bins *bins, wt_surface_spectrum *to,
                             wt_error *err) WT_NODISCARD;
 
-/* ---- scatter of a spectrum: spectrum_scatter.c ----------------------------------------------- */
+/* ---- scatter of a spectrum: spectrum_stitching.c --------------------------------------------- */
 
 /* Mean bias and variance of ln of a mean of exponential variables with `freedom` degrees of
  * freedom, and the degrees of freedom for a given variance. */
 double surface_log_bias(double freedom);
 double surface_log_variance(double freedom);
 double surface_variance_freedom(double variance);
-/* Returns the 95 % interval of the true value for a mean. */
-wt_interval surface_interval(double mean, double freedom);
-
 /* Returns ln C of a bin without the mean bias. */
 double surface_bin_log_density(const wt_spectrum_bin *bin);
 /* Returns the bin of this index if it is reliable, otherwise NULL. */
 const wt_spectrum_bin *surface_reliable_bin(const wt_surface_spectrum *s, int index);
-/* Finds the scan sizes and their weights from the weights of the scans in each bin of `to`,
- * [n_scans] for each bin. */
-void surface_set_position_weights(const double *weights, size_t n_scans, wt_surface_spectrum *to);
 /* Standard error of ln C of a bin due to the places of one size, or of all sizes, divided by
  * place_reach. Without stored weights all scans count equally. */
 double surface_position_weight(const wt_surface_spectrum *s, size_t bin, size_t size);
