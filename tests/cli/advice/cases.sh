@@ -121,6 +121,25 @@ case_file w.xml "<dma><poisson-ratio>0.5</poisson-ratio><files>one.csv</files></
 cause '(in a case: the attribute temperature=' run --no-report w.xml -o a.h5
 case_file w.xml '<dma><poisson-ratio>0.5</poisson-ratio><files temperature="25degC">one.csv</files></dma>'
 helps run --no-report w.xml -o a.h5
+# each attribute that a message advises is one of the case
+for attribute in 'sheet="first"' 'frequency="10Hz"' 'temperature-in-name="*_#C*"' 'temperature="20degC"' 'units="a=MPa"' \
+  'deformation="tension"' 'strain="1%"' 'sample="all"' 'format="table-units"' 'sample-by="file"'; do
+  case_file w.xml "<dma><poisson-ratio>0.5</poisson-ratio><files $attribute>three.csv</files></dma>"
+  cause 'Shift factors, WLF law, master curve' run --plan w.xml
+done
+cp "$here/advice/sweeps.xlsx" "$here/advice/profiles.xlsx" "$here/advice/curves.xlsx" .
+case_file w.xml '<dma><poisson-ratio>0.5</poisson-ratio><files>sweeps.xlsx</files></dma>'
+cause '(in a case: the attribute sheet="..." where the file is named)' run --no-report w.xml -o a.h5
+case_file w.xml '<dma><poisson-ratio>0.5</poisson-ratio><files sheet="first">sweeps.xlsx</files></dma>'
+helps run --no-report w.xml -o a.h5
+case_file w.xml "<indentation>$stylus<bulk spring-constant=\"0.3N/m\" sheet=\"a\"><files>curves.xlsx</files></bulk></indentation>"
+helps run --no-report w.xml -o a.h5
+case_file w.xml '<roughness><files sheet="left">profiles.xlsx</files></roughness>'
+leads run --no-report w.xml -o a.h5
+case_file w.xml '<dma><poisson-ratio>0.5</poisson-ratio><files>ramp.csv</files></dma>'
+cause '(in a case: the attribute frequency="..." where the file is named)' run --no-report w.xml -o a.h5
+case_file w.xml '<dma><poisson-ratio>0.5</poisson-ratio><files frequency="10Hz">ramp.csv</files></dma>'
+leads run --no-report w.xml -o a.h5
 piece 'give <profile>, <track-area> or <mass-loss> in <record>'
 case_file w.xml "$rubber$rough$slides<layer><critical-energy>2e10J/m^3</critical-energy>$ratio</layer>$measured"
 cause 'give <profile>, <track-area> or <mass-loss> in <record>' run --no-report w.xml -o a.h5

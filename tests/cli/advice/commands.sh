@@ -14,6 +14,9 @@ helps master --help
 piece "unknown option '%s'; did you mean --%s?"
 cause 'did you mean --poisson-ratio?' master --poison-ratio 0.5 three.csv -o a.h5
 helps master --poisson-ratio 0.5 three.csv -o a.h5
+piece 'hold a record against the growing layer: weartrack validate'
+cause 'weartrack validate' friction $slide --running-in-friction
+helps validate --help
 piece '; did you mean '
 cause 'did you mean table-units' master --format table-unit three.csv -o a.h5
 helps master --poisson-ratio 0.5 --format table-units three.csv -o a.h5

@@ -127,3 +127,27 @@ piece 'the size of the image is not known; --pixel-size gives it'
 for i in 1 2 3 4 5 6 7 8; do echo '1e-9 2e-9 3e-9 1e-9 5e-9 2e-9 1e-9 4e-9'; done > rows; cp rows sizeless.txt
 cause 'the size of the image is not known; --pixel-size gives it' psd --units z=m sizeless.txt
 leads psd --pixel-size 1um --units z=m sizeless.txt
+
+# Spreadsheets of two sheets, made with the module zipfile of Python.
+piece 'choose one with --sheet NAME, or take all of them'
+cp "$here"/advice/*.xlsx .
+cause 'choose one with --sheet NAME' master sweeps.xlsx -o a.h5
+helps master --poisson-ratio 0.5 --sheet first sweeps.xlsx -o a.h5
+helps convert --sheet first sweeps.xlsx -o a.tsv
+number sweep storage_modulus 4.99526e6 1e-4 a.tsv
+cause 'with --sheet all' master sweeps.xlsx -o a.h5
+helps master --poisson-ratio 0.5 --sheet all sweeps.xlsx -o a.h5
+cause 'choose one with --sheet NAME' info sweeps.xlsx
+helps info --sheet first sweeps.xlsx
+says '^next: weartrack master --sheet first sweeps.xlsx'
+for command in master ramp payne indent dwell sensitivity thermal psd spot record convert info; do
+  "$weartrack" $command --help all > help
+  grep -q -e '--sheet ' help || fail "weartrack $command has no --sheet"
+done
+cause 'choose one with --sheet NAME' psd profiles.xlsx -o a.h5
+leads psd --sheet left profiles.xlsx -o a.h5
+cause 'choose one with --sheet NAME' indent --tip sphere:radius=5um --spring-constant 0.3N/m curves.xlsx -o a.h5
+helps indent --tip sphere:radius=5um --spring-constant 0.3N/m --sheet a curves.xlsx -o a.h5
+piece 'a table of data begins with the names of its columns'
+cause '`weartrack formats list` shows what is known' master neither.xlsx -o a.h5
+helps formats list

@@ -13,8 +13,5 @@ no_input 'a Poisson' 'an obstacle in a table: tests/unit/test_study_track_layer.
 no_input 'the same curves once more through this version of weartrack indent' 'a result of an older version'
 no_input 'a sample on something hard (thinner than' 'a list of possible causes in a warning'
 no_input 'the spectrum departs from an oscillator on a white floor' 'a list of possible causes in a warning'
-no_input 'choose one with --sheet NAME' 'a spreadsheet of two sheets'
-no_input 'a table of data begins with the names of its columns' 'a spreadsheet of two sheets'
 no_input 'that of --pixel-size is taken' 'says what was done'
-no_input 'hold a record against the growing layer: weartrack validate' 'see the removed options'
 not_advice 'a result of weartrack run, beside which those of curves stand' 'what is expected: taken with collect'
