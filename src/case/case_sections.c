@@ -235,10 +235,6 @@ wt_status case_read_sliding(wt_case *c, const xmlNode *section, wt_error *err)
         return case_add_location(section, WT_E_RANGE, err);
     if (status == WT_OK && softening != NULL && case_child(softening, "file") != NULL)
         status = case_read_files(c, softening, "file", &c->softening, err);
-    if (status == WT_OK && softening == NULL && case_child(section, "strain-factor") != NULL) {
-        wt_fail(err, WT_E_ARG, "<strain-factor> goes with <strain-softening>");
-        return case_add_location(case_child(section, "strain-factor"), WT_E_ARG, err);
-    }
     return status;
 }
 

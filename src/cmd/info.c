@@ -89,13 +89,13 @@ static bool is_taken_by(const char *subcommand, const char *word)
     } taken[] = {
         {"convert", OF_SWEEPS " height-unit pixel-size sensitivity spectrum-convention "
                               "spring-constant strain temperature temperature-in-name "},
-        {"indent --tip", " columns format formats sensitivity spring-constant units "},
+        {"indent --tip", " columns format formats sensitivity sheet spring-constant units "},
         {"master", OF_SWEEPS " strain temperature temperature-in-name "},
         {"new-case", " formats "},
         {"payne", OF_SWEEPS " temperature temperature-in-name "},
         {"ramp", OF_SWEEPS " strain temperature-in-name "},
         {"record", " columns format formats sheet units "},
-        {"thermal", " columns format formats sensitivity units "},
+        {"thermal", " columns format formats sensitivity sheet units "},
     };
 #undef OF_SWEEPS
     char name[64];

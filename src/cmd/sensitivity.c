@@ -18,8 +18,9 @@ int cmd_sensitivity(int argc, char **argv)
         .n_files = CMD_ONE_OR_MORE};
     wt_sensitivity_job job = wt_sensitivity_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    cmd_option_group parts[] = {{wt_sensitivity_job_params(), &job, NULL, 0},
-                                {wt_read_params(), &set.read, "spring-constant units format", 0}};
+    cmd_option_group parts[] = {
+        {wt_sensitivity_job_params(), &job, NULL, 0},
+        {wt_read_params(), &set.read, "spring-constant units format sheet", 0}};
     cmd_session s = cmd_session_defaults();
     wt_sensitivity_tables made = {0};
     wt_table **const tables[] = {&made.sensitivity, &made.sensitivity_curves};

@@ -19,7 +19,7 @@ int cmd_spot(int argc, char **argv)
     cmd_option_group parts[] = {
         {wt_indent_job_params(), &indent, "tip", 0},
         {wt_spot_job_params(), &job, NULL, 0},
-        {wt_read_params(), &job.read, "units pixel-size height-unit format", 0}};
+        {wt_read_params(), &job.read, "units pixel-size height-unit format sheet", 0}};
     cmd_session s = cmd_session_defaults();
     wt_spot_tables made = {0};
     wt_table **const tables[] = {&made.spot, &made.spot_map};

@@ -6,10 +6,10 @@
 
 function ends_literal(  before) {
   before = code
-  if (text ~ /(^|[^-a-z])--[a-z]|weartrack [a-z]|<[a-z][a-z-]*>|new-case/ &&
+  if (text ~ /(^|[^-a-z]|%s)--[a-z]|weartrack [a-z]|<[a-z][a-z-]*>|new-case|did you mean/ &&
       text ~ / / &&
       before !~ /\.(help|description|notes|arguments|common) = [^;]*$/ &&
-      before !~ /text_(html|add|format)\([^;]*$/ && text !~ /<?xml/)
+      before !~ /text_(html|add|format)\([^;]*$/ && text !~ /<\?xml|^(\\n)? +<|^\\n<|<\/[a-z0-9-]*>(\\n|$)/)
     printf "%s:%d\t%s\n", FILENAME, line, text
   text = ""; open = 0
 }
@@ -29,8 +29,8 @@ FNR == 1 { if (open) ends_literal(); comment = 0; code = "" }
     }
     if (!match(rest, /"|'|\/\*|\/\//)) { piece = rest; rest = "" }
     else { piece = substr(rest, 1, RSTART - 1); rest = substr(rest, RSTART) }
-    # Blanks, a macro such as PRIu64 and a continued line do not end a literal.
-    if (open && piece !~ /^[ \t\\]*(PRI[a-z0-9]+)?[ \t\\]*$/) ends_literal()
+    # Blanks, a macro such as PRIu64 or of a text and a continued line do not end a literal.
+    if (open && piece !~ /^[ \t\\]*([A-Z][A-Za-z0-9_]+)?[ \t\\]*$/) ends_literal()
     if (!open) code = substr(code " " piece, length(code " " piece) > 200 ? length(code " " piece) - 199 : 1)
     if (rest == "") break
     if (rest ~ /^\/\*/) { comment = 1; rest = substr(rest, 3) }

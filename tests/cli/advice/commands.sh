@@ -1,0 +1,149 @@
+# What the command line itself says. SPDX-License-Identifier: GPL-3.0-or-later
+
+piece 'there is no subcommand' 'it is called %s, see weartrack %s --help' 'did you mean %s? See weartrack --help' 'weartrack %s: %s; see weartrack %s --help'
+cause 'it is called report, see weartrack report --help' plot a.h5
+helps report --help
+cause 'it is called info' show a.h5
+helps info --help
+cause 'did you mean master? See weartrack --help' mastre
+helps --help
+cause 'see weartrack --help' nothingofthesort
+helps --help
+cause 'see weartrack master --help' master --nothing
+helps master --help
+piece "unknown option '%s'; did you mean --%s?"
+cause 'did you mean --poisson-ratio?' master --poison-ratio 0.5 three.csv -o a.h5
+helps master --poisson-ratio 0.5 three.csv -o a.h5
+piece 'hold a record against the growing layer: weartrack validate'
+cause 'weartrack validate' friction $slide --running-in-friction
+helps validate --help
+piece '; did you mean '
+cause 'did you mean table-units' master --format table-unit three.csv -o a.h5
+helps master --poisson-ratio 0.5 --format table-units three.csv -o a.h5
+piece "did you mean '%.*s'?"
+cause "did you mean 'shear'?" master --deformation sheer unnamed.csv -o a.h5
+helps master --deformation shear unnamed.csv -o a.h5
+piece 'did you mean %s? Write it like %s'
+cause 'did you mean sphere' indent --tip shpere:radius=5um --spring-constant 0.3N/m "$curve"
+helps indent --tip sphere:radius=5um --spring-constant 0.3N/m "$curve" -o a.h5
+piece 'did you mean %s%s?' 'did you mean %s?' 'did you mean %.*s?'
+cause 'did you mean' master --poisson-ratio 0.5 --shift-law wlff:reference-temperature=20degC,c1=8.86,c2=101.6K three.csv -o a.h5
+helps master --poisson-ratio 0.5 --shift-law wlf:reference-temperature=20degC,c1=8.86,c2=101.6K three.csv -o a.h5
+
+piece 'did you mean %s? `weartrack table --list %s` shows all' '`weartrack table --list %s` shows them'
+cause 'did you mean prony? `weartrack table --list three.h5`' table three.h5 pronny
+helps table --list three.h5
+helps table three.h5 prony
+cause '`weartrack table --list three.h5` shows them' table three.h5
+helps table --list three.h5
+
+piece 'no %s is written; write the result as .h5 or .tsv, then `weartrack table RESULT NAME -o %s'
+cause 'then `weartrack table RESULT NAME -o TABLE.csv`' master --poisson-ratio 0.5 three.csv -o a.xlsx
+helps master --poisson-ratio 0.5 three.csv -o a.h5
+helps table a.h5 prony -o a.csv
+cause 'a table as a database' master --poisson-ratio 0.5 three.csv -o a.sqlite
+helps table a.h5 prony -o a.sqlite
+piece '--files-from %s: it names no file'
+: > names
+cause '--files-from names: it names no file' info --files-from names
+echo three.csv > names
+helps info --files-from names
+not_advice 'help        the same' 'part of the help'
+not_advice 'of DMA files, as in weartrack master --help all' 'part of the help'
+not_advice '--help all has every one' 'part of the help'
+cause '--help all has every one' master --help
+helps master --help all
+not_advice 'a whole case from one case file; --plan' 'part of the help'
+piece '-o is required: NAME.html or a folder' 'standard output with --methods, none with'
+cause '--sheets FILE.pdf' report three.h5
+helps report three.h5 -o page.html
+not_advice 'standard output with --methods' 'part of the help'
+piece '--methods is a call of its own'
+cause '--methods is a call of its own' report --methods --browse a.html three.h5
+helps report --methods three.h5
+piece '--columns: %s; %s'
+cause '--columns: ' master --columns "a=nothing:MPa" foreign.csv -o a.h5
+leads master --columns "Stor=storage_modulus:MPa" foreign.csv -o a.h5
+piece 'no file was read by the columns of --columns' '--units %s: no file has such a column' '--units %s does not apply'
+cause 'of --columns: none has such names' master --columns "Stor=storage_modulus:MPa" "$dma" -o a.h5
+helps master --poisson-ratio 0.5 three.csv -o a.h5
+cause '--units foo=MPa: no file has such a column' friction --units foo=MPa --poisson-ratio 0.5 --dma three.csv --roughness $surface --pressure 0.4MPa --velocity 0.1m/s
+helps friction --poisson-ratio 0.5 --dma three.csv --roughness $surface --pressure 0.4MPa --velocity 0.1m/s
+no_input '--units %s does not apply' 'tests/cli/remarks.txt'
+not_advice 'give --units' 'text by which the program finds its own advice'
+piece 'exit status 1 (--strict)'
+cause '(--strict)' master --strict --poisson-ratio 0.5 --units foo=MPa three.csv -o a.h5
+helps master --poisson-ratio 0.5 --units foo=MPa three.csv -o a.h5
+piece 'weartrack report draws it' '-o - to print them; --verbose has the reasons' 'more rows: --verbose' 'in full: --verbose' 'more kinds: --verbose'
+cause '(weartrack report draws it)' master --poisson-ratio 0.5 three.csv -o a.h5
+helps report a.h5 -o page-a.html
+not_advice 'more rows: --verbose' 'only in a terminal: tests/unit'
+advice='no such text'
+helps master --verbose --poisson-ratio 0.5 three.csv -o a.h5
+
+piece '\nnext: weartrack new-case' ' --units' 'table --list' 'indent --tip'
+cause 'next: weartrack new-case' info "$curve" three.csv
+helps new-case "$curve" three.csv -o case.xml
+cause 'next: weartrack table --list three.h5' info three.h5
+helps table --list three.h5
+cause 'next: weartrack indent --tip' info "$curve"
+helps indent --tip pyramid:half-angle=35deg,radius=20nm "$curve" -o a.h5
+
+piece 'force curves go to `weartrack indent` first'
+mkdir bulk track; cp "$curve" bulk; cp "$track" track
+cause '`weartrack indent` first' compare bulk track
+helps indent --tip "$tip" --spring-constant 0.3N/m bulk -o b.h5
+helps indent --tip "$tip" --spring-constant 0.3N/m --group track track -o t.h5
+helps compare b.h5 t.h5
+piece 'its curves are called bulk and are taken for those of the track'
+"$weartrack" indent -q --tip "$tip" --spring-constant 0.3N/m "$track" -o unnamed.h5 2> err
+cause '`weartrack indent --group track`' compare bulk.h5 unnamed.h5
+leads compare bulk.h5 track.h5
+piece 'two files are needed, BULK and TRACK' '--at-temperature, --at-frequency and --sample-error are for materials' '--poisson-ratio is of materials, or of --master' '--temperature, --units, --format, --sheet'
+cause 'two files are needed' compare bulk.h5
+helps compare bulk.h5 track.h5
+cause 'are for materials, not for BULK and TRACK' compare --at-temperature 20degC bulk.h5 track.h5
+helps compare bulk.h5 track.h5
+cause '--poisson-ratio is of materials' compare --poisson-ratio 0.5 bulk.h5 track.h5
+helps compare bulk.h5 track.h5
+cause 'are for measured isotherms' compare --sheet a bulk.h5 track.h5
+helps compare bulk.h5 track.h5
+piece '--sample goes with --master'
+cause '--sample goes with --master' indent --sample a --tip "$tip" --spring-constant 0.3N/m "$curve"
+helps indent --sample a --master samples.h5 --poisson-ratio 0.5 --tip "$tip" --spring-constant 0.3N/m "$curve" -o a.h5
+not_advice 'no curve has a modulus; the column verdict' 'begins with the name of the program'
+
+piece '--layer-thickness and --modulus-ratio (or a file of it) go together' 'give one of --modulus-ratio and --layer-comparison'
+cause 'go together' friction $slide --layer-thickness 1um
+helps friction $slide --layer-thickness 1um --modulus-ratio 0.5
+"$weartrack" compare -q bulk.h5 track.h5 -o comparison.h5 2> err
+cause 'give one of --modulus-ratio' friction $slide --layer-thickness 1um --modulus-ratio 0.5 --layer-comparison comparison.h5
+helps friction $slide --layer-thickness 1um --modulus-ratio 0.5
+piece 'files go with --material or --dma' 'give either --material FILE or --dma FILE' "the rubber's while it slides is --sliding-temperature" '--roughness takes a spectrum, height maps or'
+cause 'files go with --material or --dma' friction $slide three.csv
+helps friction --poisson-ratio 0.5 --dma three.csv --roughness $surface --pressure 0.4MPa --velocity 0.1m/s
+cause 'give either --material FILE or --dma FILE' friction --roughness $surface --pressure 0.4MPa --velocity 0.1m/s
+helps friction $slide
+cause 'it slides is --sliding-temperature' friction $slide --temperature 30degC
+helps friction $slide --sliding-temperature 20degC
+cause 'self-affine:q0=..,qr=..,q1=..,hurst=..,c0=..' friction --material three.h5 --roughness selfaffine --pressure 0.4MPa --velocity 0.1m/s
+helps friction --material three.h5 --roughness self-affine:q0=2e3rad/m,qr=4e3rad/m,q1=2e6rad/m,hurst=0.8,c0=2e-17m^4 --pressure 0.4MPa --velocity 0.1m/s
+
+piece 'what weartrack indent or weartrack master wrote' 'a weartrack text stream or HDF5 result'
+cp empty.txt none.txt
+cause 'what weartrack' friction --material three.h5 --roughness $surface --pressure 0.4MPa --velocity 0.1m/s --layer-thickness 1um --layer-comparison empty.txt
+advice='no such text'
+leads compare bulk.h5 track.h5
+piece 'what weartrack run wrote' 'give what weartrack run wrote; beside it, weartrack indent with'
+cause 'what weartrack run wrote' collect empty.txt empty.txt
+cause 'weartrack indent with --curves median' collect bulk.h5 track.h5
+for g in bulk track; do
+  helps indent --tip "$tip" --curves median --group $g --spring-constant 0.3N/m "$fixtures/case/$g-1.jpk-force-map" -o median-$g.h5
+done
+leads collect median-bulk.h5 median-track.h5
+says 'a result of weartrack run, beside which'
+piece 'what weartrack indent or weartrack run wrote of these curves' 'give the result that weartrack indent made of this file'
+cause 'what weartrack indent or weartrack run wrote' convert --contact empty.txt "$curve"
+leads convert --contact bulk.h5 "$curve"
+cause 'give the result that weartrack indent made of this file' convert --contact bulk.h5 "$track"
+leads convert --contact track.h5 "$track"

@@ -1,0 +1,63 @@
+# Force curves, images of spots and thermal noise. SPDX-License-Identifier: GPL-3.0-or-later
+
+volts=$fixtures/formats/table-force/volts.csv
+piece '--spring-constant 0.1N/m' '--sensitivity 120nm/V'
+cause '--spring-constant 0.1N/m' indent --tip "$tip" "$fixtures/formats/afm-workshop/curve.csv"
+leads indent --tip "$tip" --spring-constant 0.1N/m --sensitivity 120nm/V "$fixtures/formats/afm-workshop/curve.csv"
+cause '--sensitivity 120nm/V' indent --tip "$tip" "$volts"
+leads indent --tip "$tip" --spring-constant 0.1N/m --sensitivity 120nm/V "$volts"
+cause 'give --spring-constant 0.1N/m' info "$fixtures/formats/afm-workshop/curve.csv"
+helps info --spring-constant 0.1N/m --sensitivity 60nm/V "$fixtures/formats/afm-workshop/curve.csv"
+says '^next: weartrack indent .*--spring-constant 0.1N/m --sensitivity 60nm/V'
+not_advice 'see what the file holds with: weartrack info FILE' 'of a segment that the readers never make'
+no_input 'give it, e.g. --sensitivity 120nm/V' 'the library only: readers refuse such a file before'
+no_input 'give it, e.g. --spring-constant 0.1N/m' 'the library only: readers refuse such a file before'
+
+piece "Poisson's ratio of %g or more, or --unbonded"
+cause '--unbonded' indent --tip sphere:radius=5um --poisson-ratio 0.3 --sample-thickness 2um --spring-constant 0.3N/m "$curve"
+helps indent --tip sphere:radius=5um --poisson-ratio 0.3 --sample-thickness 2um --unbonded --spring-constant 0.3N/m "$curve" -o a.h5
+
+piece 'a table of choices, as report --browse writes it'
+piece 'a table of choices, as report --browse writes it'
+cause 'as report --browse writes it' indent --tip "$tip" --overrides empty.txt --spring-constant 0.3N/m "$curve"
+"$weartrack" indent -q --tip "$tip" --curves all --spring-constant 0.3N/m "$curve" -o curves.h5 2> err
+helps report --browse browse.html curves.h5
+
+piece 'a force without a spring constant: give --spring-constant 0.1N/m'
+cause '--spring-constant 0.1N/m' sensitivity "$fixtures/formats/table-force/turning.txt"
+leads sensitivity --spring-constant 0.1N/m "$fixtures/formats/table-force/turning.txt"
+
+piece '`weartrack info FILE` shows what a file holds' '`weartrack info FILE` shows them'
+cause '`weartrack info FILE`' master "$curve" -o a.h5
+helps info "$curve"
+cause '`weartrack info FILE` shows them' psd --image none "$road"
+helps info "$road"
+not_advice '`weartrack formats list` shows the formats' 'the library only: the program has looked before'
+
+sed 1d "$fixtures/formats/table-noise/detector.txt" > detector.txt
+piece 'give it, e.g. --sensitivity 60nm/V'
+cause '--sensitivity 60nm/V' thermal detector.txt
+helps thermal --sensitivity 60nm/V detector.txt
+says '92\.5 mN/m' # 208.2 mN/m x (40 / 60)^2
+piece '25 degC is taken, and 3 K off are 1 %% of the spring constant; give --lever-temperature'
+cause 'give --lever-temperature' thermal --sensitivity 60nm/V detector.txt
+helps thermal --sensitivity 60nm/V --lever-temperature 23degC detector.txt
+piece 'that of --sensitivity is not used'
+cause 'that of --sensitivity is not used' thermal --sensitivity 60nm/V "$fixtures/formats/table-noise/deflection.csv"
+helps thermal --lever-temperature 23degC "$fixtures/formats/table-noise/deflection.csv"
+piece "Sader's method takes both: --length 225um --width 40um" 'give --length and --width, or --sader-coefficient'
+cause '--length 225um --width 40um' thermal --length 225um "$fixtures/formats/table-noise/deflection.csv"
+helps thermal --length 225um --width 40um "$fixtures/formats/table-noise/deflection.csv"
+cause 'or --sader-coefficient' thermal --length 225um --width 40um --sader-coefficient 1e-9 "$fixtures/formats/table-noise/deflection.csv"
+helps thermal --sader-coefficient 1e-9 "$fixtures/formats/table-noise/deflection.csv"
+helps thermal --length 225um --width 40um "$fixtures/formats/table-noise/deflection.csv"
+
+piece '--sensitivity %.6gnm/V' '--sensitivity-error %.2g'
+"$weartrack" thermal -q "$fixtures/formats/jpk-thermal/noise.tnd" -o noise.h5 2> err || :
+piece '--spring-constant %.6gN/m' '--spring-constant-error %.2g' 'for weartrack indent: %s' 'for weartrack compare: %s'
+"$weartrack" thermal -q "$fixtures/formats/jpk-thermal/noise.tnd" -o noise.h5 2> err || :
+given=$("$weartrack" table noise.h5 thermal --keys 2> err | sed -n 's/.*\(--spring-constant [^ ]*N\/m\).*/\1/p' | head -n 1)
+cause '' thermal "$fixtures/formats/jpk-thermal/noise.tnd"
+[ -n "$given" ] || fail "thermal gives no option"
+advice='no such text'
+helps indent --tip "$tip" $given "$curve" -o a.h5
