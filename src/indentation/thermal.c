@@ -124,6 +124,7 @@ static wt_status find_sensitivity(const wt_job *work, cantilever_result *l, cons
     const wt_status status = wt_fail(err, WT_E_MISSING, "the spectrum is in volts");
     wt_error_expected(err, "a deflection sensitivity");
     wt_error_advice(err, "give it, e.g. --sensitivity 60nm/V");
+    wt_error_options(err, "sensitivity");
     return status;
 }
 

@@ -119,9 +119,10 @@ static size_t add_heading_lines(text_buffer *to, const figure_drawing *d, const 
     text_add(to, verdict);
     if (c->kind != CURVE_REFUSED && isfinite(modulus.value))
         text_format(to, ", E = %s", ESTIMATE(&modulus));
-    const char *const doubtful = curve_verdict_text(WT_CURVE_DOUBTFUL);
-    if (strncmp(reason, doubtful, strlen(doubtful)) == 0)
-        reason += strlen(doubtful) + strspn(reason + strlen(doubtful), ": ");
+    if (closed_list_find(&curve_verdict_list, reason) == WT_CURVE_DOUBTFUL) {
+        reason += length_without_reason(reason);
+        reason += strspn(reason, ": ");
+    }
     if (c->kind != CURVE_ACCEPTED && reason[0] != '\0') {
         text_add(to, "\n");
         lines += add_wrapped_lines(to, reason, REASON_LINES);
