@@ -184,7 +184,7 @@ WT_API wt_status wt_layer_load_events(const wt_layer_load *stages, size_t n_stag
 WT_API wt_status wt_layer_first_event(const wt_layer_load *stages, size_t n_stages,
                                       wt_layer_event *event, wt_error *err) WT_NODISCARD;
 
-/* ---- a layer that acts back on its energy --------------------------------------------------- */
+/* ---- a layer with feedback on its energy --------------------------------------------------- */
 
 /* Callback for a layer with feedback on its energy: computes the energy source and the parameters
  * under a layer of a thickness [m]. The caller clears the source. */

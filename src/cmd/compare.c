@@ -66,7 +66,7 @@ static void run_group_comparison(compare_call *call, const char *master)
             wt_fail(&s->err, WT_E_ARG, "BULK and TRACK are two files, %zu are given", s->n_files);
     if (status == WT_OK && has_table_name(job->track, names[0]))
         wt_log_add(s->log, WT_WARNING, s->files[1], NULL,
-                   "its curves are called bulk and are taken for those of the track; "
+                   "its curves are called bulk and are treated as those of the track; "
                    "`weartrack indent --group track` names them");
     if (status == WT_OK && master != NULL) {
         status = cmd_rubber_read(master, call->set.read.sample, call->master.poisson_ratio,

@@ -146,8 +146,9 @@ static wt_status fit_common_law(cmd_session *s, wt_shared_shift_law_job *job,
     const wt_status status = wt_shared_shift_law_compute(job, table, &failure);
     free(names);
     free(of);
-    return status == WT_OK ? WT_OK
-                           : wt_job_add_failure(&s->work, "common law", status, &failure, &s->err);
+    return status == WT_OK
+               ? WT_OK
+               : wt_job_add_failure(&s->work, "shared shift law", status, &failure, &s->err);
 }
 
 void fit_sample_masters(cmd_session *s, wt_master_job *job, wt_shared_shift_law_job *common,

@@ -38,11 +38,11 @@ static void add_offset_error(comparison_inputs *k, double error, const char *wor
     include_error(k, ", ", words);
 }
 
-static bool has_two_cantilevers(const compare_pair *p, wt_cantilever_sharing levers)
+static bool has_two_cantilevers(const compare_pair *p, wt_cantilever_sharing cantilevers)
 {
     const double bulk = p->data[0].spring_constant.value, track = p->data[1].spring_constant.value;
-    if (levers != WT_CANTILEVERS_AUTO)
-        return levers == WT_CANTILEVERS_SEPARATE;
+    if (cantilevers != WT_CANTILEVERS_AUTO)
+        return cantilevers == WT_CANTILEVERS_SEPARATE;
     const char *const tip[2] = {p->data[0].tip, p->data[1].tip};
     if (tip[0] != NULL && tip[1] != NULL && strcmp(tip[0], tip[1]) != 0)
         return true;

@@ -1,4 +1,4 @@
-/* Analysis of the retract of one force curve: pull-off force and lost work.
+/* Analysis of the retract of one force curve: pull-off force and hysteresis loss.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */

@@ -152,7 +152,7 @@ wt_status wt_layer_feedback_solve(wt_layer_energy_fn energy, void *user, double 
                                   size_t grid, wt_layer_feedback *loop, wt_error *err)
 {
     if (energy == NULL || loop == NULL || !(low > 0) || !(high > low) || grid < 3)
-        return wt_fail(err, WT_E_ARG, "a layer that acts back needs a range of thickness");
+        return wt_fail(err, WT_E_ARG, "a layer with feedback needs a range of thickness");
     loop_search s = {.energy = energy, .user = user, .err = err};
     double *x = wt_alloc(2 * grid, sizeof *x);
     double *value = x + grid;
@@ -220,7 +220,7 @@ wt_status wt_layer_feedback_history(wt_layer_energy_fn energy, void *user,
                                     wt_layer_point *points, wt_error *err)
 {
     if (energy == NULL || loop == NULL || (n > 0 && (time == NULL || points == NULL)))
-        return wt_fail(err, WT_E_ARG, "a layer that acts back needs its roots and times");
+        return wt_fail(err, WT_E_ARG, "a layer with feedback needs its roots and times");
     wt_status status = layer_times_check(time, n, err);
     if (status != WT_OK)
         return status;
@@ -234,7 +234,7 @@ wt_status wt_layer_feedback_history(wt_layer_energy_fn energy, void *user,
             points[i] = (wt_layer_point){time[i], {.unit = "m"}, bare.formation, bare.wear};
         if (!(loop->ratio > 1) || loop->n_roots > 0)
             return WT_OK;
-        wt_fail(err, WT_E_RANGE, "a layer that acts back grows beyond the longest waves");
+        wt_fail(err, WT_E_RANGE, "a layer with feedback grows beyond the longest waves");
         wt_error_expected(err, "a balance below %.3g um", 1e6 * loop->high);
         wt_error_found(err, "none, with R = %.3g on a bare surface", loop->ratio);
         wt_error_advice(err, "without wear, or with little, it has no balance: leave out feedback");

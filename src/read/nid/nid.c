@@ -261,7 +261,7 @@ static wt_status read_line_length(const nid_file *file, const nid_channel *c, si
         return WT_OK;
     wt_fail(err, WT_E_CORRUPT, "length of a line is missing or not understood");
     wt_error_place(err, "[%s] %s", c->section, key);
-    wt_error_expected(err, "a whole number up to %zu", c->points);
+    wt_error_expected(err, "an integer up to %zu", c->points);
     const char *found = nid_get(&file->header, c->section, key);
     if (known)
         wt_error_found(err, "%zu", *n);
