@@ -121,11 +121,12 @@ typedef struct wt_error {
     char expected[192]; /* expected value or form */
     char found[192];    /* value found */
     char advice[256];   /* remedy */
+    char options[64];   /* options that the remedy names, without "--", separated by blanks */
 } wt_error;
 
 #define WT_ERROR_INIT                                                                              \
     {                                                                                              \
-        WT_OK, "", "", "", "", "", ""                                                              \
+        WT_OK, "", "", "", "", "", "", ""                                                          \
     }
 
 /* Starts an error: sets status and message and clears the other parts. Returns `status`. err may be
@@ -138,6 +139,7 @@ WT_API void wt_error_place(wt_error *err, const char *format, ...) WT_PRINTF(2, 
 WT_API void wt_error_expected(wt_error *err, const char *format, ...) WT_PRINTF(2, 3);
 WT_API void wt_error_found(wt_error *err, const char *format, ...) WT_PRINTF(2, 3);
 WT_API void wt_error_advice(wt_error *err, const char *format, ...) WT_PRINTF(2, 3);
+WT_API void wt_error_options(wt_error *err, const char *format, ...) WT_PRINTF(2, 3);
 /* Formats an error as one line: "FILE: PLACE: MESSAGE; expected ...; found ...; ADVICE". Returns
  * the required length, as snprintf does. */
 WT_API size_t wt_error_format(const wt_error *err, char *buffer, size_t size);

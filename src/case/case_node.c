@@ -23,18 +23,18 @@ static const wt_param rows[] = {SPRING_CONSTANT(case_files, PARAM_NO_OPTION, ind
 
 PARAM_TABLE(case_group_params, case_files, rows, case_files_defaults, NO_PARTS)
 
-/* The attributes of a node override the values that `set` and `lever` have already. */
+/* The attributes of a node override the values that `set` and `cantilever` have already. */
 static wt_status read_attributes(wt_case *c, const xmlNode *node, wt_file_set *set,
-                                 case_files *lever, wt_error *err)
+                                 case_files *cantilever, wt_error *err)
 {
     case_files *stated = arena_alloc(&c->memory, 1, sizeof *stated);
-    *stated = *lever;
+    *stated = *cantilever;
     wt_status status = case_read_params(c, node, case_group_params(), stated, err);
     if (status == WT_OK)
         status = case_read_params(c, node, wt_file_set_params(), set, err);
-    *lever = *stated;
-    set->read.spring_constant = lever->spring_constant.value;
-    set->read.sensitivity = lever->sensitivity.value;
+    *cantilever = *stated;
+    set->read.spring_constant = cantilever->spring_constant.value;
+    set->read.sensitivity = cantilever->sensitivity.value;
     return status;
 }
 
@@ -78,15 +78,15 @@ wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, c
     const xmlNode *node = case_child(parent, name);
     for (size_t i = 0; status == WT_OK && i < n; i++, node = case_next(node, name)) {
         wt_file_set *set = &files->sets[i];
-        case_files lever = group;
+        case_files cantilever = group;
         *set = *common;
-        status = read_attributes(c, node, set, &lever, err);
+        status = read_attributes(c, node, set, &cantilever, err);
         patterns[i] = case_node_text(c, node);
         set->patterns = &patterns[i];
         set->n_patterns = 1;
-        merge_file_estimate(&files->spring_constant, &files->lever_error, lever.spring_constant,
-                            i == 0);
-        merge_file_estimate(&files->sensitivity, &files->sensitivity_error, lever.sensitivity,
+        merge_file_estimate(&files->spring_constant, &files->lever_error,
+                            cantilever.spring_constant, i == 0);
+        merge_file_estimate(&files->sensitivity, &files->sensitivity_error, cantilever.sensitivity,
                             i == 0);
     }
     return status;

@@ -153,8 +153,30 @@
     X(FACTS_ITEM, "item", "what is known", TEXT)                                                   \
     X(FACTS_VALUE, "value", "its value", TEXT)                                                     \
     X(FACTS_UNIT, "unit", "unit of the value", TEXT)                                               \
-    X(FACTS_SOURCE, "source", "where in the file it stands, or how it is known", TEXT)
+    X(FACTS_SOURCE, "source", "where in the file it stands, or how it is known", TEXT)             \
+    X(FACTS_OPTIONS, "options", "options that give what is missing", TEXT, SPARSE)                 \
+    X(FACTS_KIND, "kind", "number of the item in the list of those on which code acts", NUMBER)
 #define FACTS_KEYS(X)
+
+/* Items on which code acts. The first ones are whole items, the others begin an item that has
+ * a number or a name: "table 1". */
+#define FACT_ITEMS(X)                                                                              \
+    X(FACT_FORMAT, "format")                                                                       \
+    X(FACT_CURVES, "curves")                                                                       \
+    X(FACT_NOISE, "thermal noise")                                                                 \
+    X(FACT_RECORD, "record of friction")                                                           \
+    X(FACT_SPRING_CONSTANT, "spring constant")                                                     \
+    X(FACT_SENSITIVITY, "deflection sensitivity")                                                  \
+    X(FACT_ISOTHERMS, "isotherms")                                                                 \
+    X(FACT_RAMPS, "temperature sweeps")                                                            \
+    X(FACT_STRAIN_SWEEPS, "strain sweeps")                                                         \
+    X(FACT_DEFORMATION, "deformation")                                                             \
+    X(FACT_SPECTRUM, "power spectrum")                                                             \
+    X(FACT_UNREADABLE, "not readable as it is")                                                    \
+    X(FACT_MISSING, "missing")                                                                     \
+    X(FACT_TABLE, "table")                                                                         \
+    X(FACT_COLUMN, "column")                                                                       \
+    X(FACT_PROFILE, "profile")
 
 #define DESCRIPTION_COLUMNS(X)                                                                     \
     X(DESCRIPTION_COLUMN, "column", "name in the file", TEXT)                                      \

@@ -21,7 +21,7 @@ static size_t read_collected_cases(cmd_session *s, wt_collected_result *cases, w
             wt_error_file(&s->err, path);
             wt_error_advice(&s->err, "give what weartrack run wrote; beside it, weartrack indent "
                                      "with --curves median; a hard particle tells a modulus only "
-                                     "under a stiff lever");
+                                     "under a stiff cantilever");
         }
         if (read != WT_OK) {
             wt_error_file(&s->err, path);

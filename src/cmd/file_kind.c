@@ -37,55 +37,53 @@ void format_metadata_value(const char *value, const char *unit, char *out, size_
 
 /* Metadata items that show the content of a file or that a case needs. */
 static const struct {
-    const char *item;
+    fact_item item;
     unsigned kind;    /* WT_KIND_* of a file with this item; 0: any */
     const char *next; /* subcommand for the file if the item is the first; NULL: by its kind */
-} metadata_items[] = {{"curves", WT_KIND_FORCE, NULL},
-                      {"thermal noise", WT_KIND_NOISE, "thermal"},
-                      {"record of friction", WT_KIND_RECORD, "record"},
-                      {"spring constant", 0, NULL},
-                      {"deflection sensitivity", 0, NULL},
-                      {"isotherms", WT_KIND_SWEEP, NULL},
-                      {"temperature sweeps", WT_KIND_SWEEP, "ramp"},
-                      {"strain sweeps", WT_KIND_SWEEP, "payne"},
-                      {"deformation", 0, NULL},
-                      {"power spectrum", WT_KIND_SPECTRUM, NULL}};
+} shown_items[] = {{FACT_CURVES, WT_KIND_FORCE, NULL},
+                   {FACT_NOISE, WT_KIND_NOISE, "thermal"},
+                   {FACT_RECORD, WT_KIND_RECORD, "record"},
+                   {FACT_SPRING_CONSTANT, 0, NULL},
+                   {FACT_SENSITIVITY, 0, NULL},
+                   {FACT_ISOTHERMS, WT_KIND_SWEEP, NULL},
+                   {FACT_RAMPS, WT_KIND_SWEEP, "ramp"},
+                   {FACT_STRAIN_SWEEPS, WT_KIND_SWEEP, "payne"},
+                   {FACT_DEFORMATION, 0, NULL},
+                   {FACT_SPECTRUM, WT_KIND_SPECTRUM, NULL}};
 
-static void read_metadata_item(const char *item, const char *value, const char *unit,
-                               const char *source, file_kind *found)
+/* Row of the metadata table. */
+typedef struct metadata_row {
+    fact_item kind; /* FACT_ITEM_UNKNOWN for other items */
+    const char *item, *value, *unit, *options;
+} metadata_row;
+
+static metadata_row read_row(const wt_table *metadata, size_t row)
+{
+    return (metadata_row){
+        (fact_item)wt_table_number(metadata, row, FACTS_KIND),
+        wt_table_text(metadata, row, FACTS_ITEM), wt_table_text(metadata, row, FACTS_VALUE),
+        wt_table_text(metadata, row, FACTS_UNIT), wt_table_text(metadata, row, FACTS_OPTIONS)};
+}
+
+/* Adds an item to the description. A second one is the header value of a converted value. */
+static void read_shown_item(const metadata_row *row, file_kind *found)
 {
     const size_t used = strlen(found->description);
-    for (size_t i = 0; i < COUNT_OF(metadata_items); i++) {
-        char shown[160];
-        if (strcmp(item, metadata_items[i].item) != 0 || strcmp(value, "0") == 0 ||
-            strstr(found->description, item) != NULL) /* header value and converted value */
-            continue;
-        if (found->kind == 0) {
-            found->kind = metadata_items[i].kind;
-            found->next = metadata_items[i].next;
-        }
-        format_metadata_value(value, unit, shown, sizeof shown);
-        snprintf(found->description + used, sizeof found->description - used, "%s%s %s",
-                 strchr(found->description, ',') != NULL || strchr(found->description, ' ') != NULL
-                     ? ", "
-                     : ": ",
-                 item, shown);
+    char shown[160];
+    size_t i = 0;
+    while (i < COUNT_OF(shown_items) && shown_items[i].item != row->kind)
+        i++;
+    const uint64_t bit = i < COUNT_OF(shown_items) ? SCHEMA_BIT(row->kind) : 0;
+    if (bit == 0 || strcmp(row->value, "0") == 0 || (found->items & bit) != 0)
+        return;
+    if (found->kind == 0) {
+        found->kind = shown_items[i].kind;
+        found->next = shown_items[i].next;
     }
-    static const char radius[] = "tip radius, "; /* followed by the unit */
-    if (strncmp(item, radius, sizeof radius - 1) == 0) {
-        const char *of = item + sizeof radius - 1;
-        snprintf(found->tip, sizeof found->tip, "sphere:radius=%s%.*s", value,
-                 (int)strcspn(of, " "), of);
-    }
-    const bool unread = strcmp(item, "not readable as it is") == 0;
-    found->unread = found->unread || unread;
-    found->nothing = found->nothing || (unread && strstr(value, " not read;") != NULL);
-    const char *advice = unread ? value : strcmp(item, "missing") == 0 ? source : "";
-    for (size_t i = 0; i < FILE_KIND_N_MISSING; i++) {
-        char option[32];
-        snprintf(option, sizeof option, "--%s", file_kind_missing_rows[i].name);
-        found->missing[i] = found->missing[i] || strstr(advice, option) != NULL;
-    }
+    format_metadata_value(row->value, row->unit, shown, sizeof shown);
+    snprintf(found->description + used, sizeof found->description - used, "%s%s %s",
+             found->items != 0 ? ", " : ": ", row->item, shown);
+    found->items |= bit;
 }
 
 static bool starts_with(const char *text, const char *begin)
@@ -93,15 +91,40 @@ static bool starts_with(const char *text, const char *begin)
     return strncmp(text, begin, strlen(begin)) == 0;
 }
 
-/* Reads the quantities of the columns, and detects heights along one line. */
-static void read_column_items(const char *item, const char *value, file_kind *found)
+static void read_tip(const metadata_row *row, file_kind *found)
 {
-    found->has_x |= starts_with(value, "position_x");
-    found->has_y |= starts_with(value, "position_y");
-    found->has_force |= starts_with(value, "friction_force");
+    static const char radius[] = "tip radius, "; /* name in a format description, then the unit */
+    if (starts_with(row->item, radius)) {
+        const char *of = row->item + sizeof radius - 1;
+        snprintf(found->tip, sizeof found->tip, "sphere:radius=%s%.*s", row->value,
+                 (int)strcspn(of, " "), of);
+    }
+}
+
+/* True if the names, which are separated by blanks, contain the name. */
+static bool has_option(const char *options, const char *name)
+{
+    const size_t length = strlen(name);
+    for (const char *p = options; *p != '\0'; p += strcspn(p, " "), p += strspn(p, " "))
+        if (strcspn(p, " ") == length && strncmp(p, name, length) == 0)
+            return true;
+    return false;
+}
+
+/* Reads the quantity of a column, which begins the value, and stores the name of a column without a
+ * unit, which needs its own --units. */
+static void read_column(const metadata_row *row, file_kind *found)
+{
+    found->has_x |= starts_with(row->value, "position_x");
+    found->has_y |= starts_with(row->value, "position_y");
+    found->has_force |= starts_with(row->value, "friction_force");
     found->has_load |=
-        starts_with(value, "normal_force") || starts_with(value, "friction_coefficient");
-    found->one_row |= starts_with(item, "image ") && strstr(value, " x 1 pixels") != NULL;
+        starts_with(row->value, "normal_force") || starts_with(row->value, "friction_coefficient");
+    const char *const quote = strchr(row->item, '"'); /* column "NAME" */
+    const size_t used = strlen(found->unitless), length = quote != NULL ? strlen(quote) : 0;
+    if (row->options[0] != '\0' && length > 1 && length + used < sizeof found->unitless)
+        snprintf(found->unitless + used, sizeof found->unitless - used, "%.*s\n", (int)length - 2,
+                 quote + 1);
 }
 
 bool file_kind_is_missing(const file_kind *found, size_t missing)
@@ -111,45 +134,38 @@ bool file_kind_is_missing(const file_kind *found, size_t missing)
     return found->missing[missing] && !by_column;
 }
 
-/* Stores the name of a column without a unit, which needs its own --units. */
-static void read_unitless_column(const char *item, const char *value, file_kind *found)
-{
-    static const char column[] = "column \"";
-    const size_t used = strlen(found->unitless), begin = sizeof column - 1, length = strlen(item);
-    if (strncmp(item, column, begin) == 0 && strstr(value, "give --units") != NULL &&
-        length - begin + used < sizeof found->unitless)
-        snprintf(found->unitless + used, sizeof found->unitless - used, "%.*s\n",
-                 (int)(length - begin - 1), item + begin);
-}
-
 static void read_metadata(const wt_formats *formats, const wt_table *metadata, file_kind *found)
 {
     const wt_format_info *format = NULL;
-    for (size_t row = 0; row < wt_table_n_rows(metadata); row++) {
-        const char *item = wt_table_text(metadata, row, FACTS_ITEM);
-        const char *value = wt_table_text(metadata, row, FACTS_VALUE);
-        if (format == NULL && strcmp(item, "format") == 0) {
-            format = wt_formats_find(formats, value);
-            snprintf(found->description, sizeof found->description, "%s", value);
+    for (size_t i = 0; i < wt_table_n_rows(metadata); i++) {
+        const metadata_row row = read_row(metadata, i);
+        if (format == NULL && row.kind == FACT_FORMAT) {
+            format = wt_formats_find(formats, row.value);
+            snprintf(found->description, sizeof found->description, "%s", row.value);
         }
-        found->is_result = found->is_result || strncmp(item, "table ", 6) == 0;
-        read_unitless_column(item, value, found);
-        read_column_items(item, value, found);
-        read_metadata_item(item, value, wt_table_text(metadata, row, FACTS_UNIT),
-                           wt_table_text(metadata, row, FACTS_SOURCE), found);
+        found->is_result |= row.kind == FACT_TABLE;
+        found->one_row |= row.kind == FACT_PROFILE;
+        found->unread |= row.kind == FACT_UNREADABLE;
+        if (row.kind == FACT_COLUMN)
+            read_column(&row, found);
+        else
+            for (size_t k = 0; k < FILE_KIND_N_MISSING; k++)
+                found->missing[k] |= has_option(row.options, file_kind_missing_rows[k].name);
+        read_shown_item(&row, found);
+        read_tip(&row, found);
     }
     /* no command reads a file whose fault no option mends */
     bool can_mend = *found->unitless != '\0';
     for (size_t i = 0; i < FILE_KIND_N_MISSING; i++)
         can_mend = can_mend || found->missing[i];
-    found->nothing = found->nothing || (found->unread && found->kind == 0 && !can_mend);
+    found->nothing = found->unread && found->kind == 0 && !can_mend;
     found->is_result =
         found->is_result && format != NULL && strncmp(format->id, "weartrack-", 10) == 0;
     /* a file that is not readable yet does not show its kind */
     if (found->kind == 0 && format != NULL && !found->is_result)
         found->kind = format->kinds & (~format->kinds + 1);
     if (format != NULL && found->kind == WT_KIND_FORCE && (format->kinds & WT_KIND_IMAGE) != 0 &&
-        strstr(found->description, "curves") == NULL)
+        (found->items & SCHEMA_BIT(FACT_CURVES)) == 0)
         found->kind = WT_KIND_IMAGE;
 }
 

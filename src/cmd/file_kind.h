@@ -24,6 +24,7 @@ typedef struct file_kind {
     bool has_force, has_load;          /* friction force; normal force or coefficient of friction */
     bool unread;                       /* a part of it is not readable as it is */
     bool nothing;                      /* it has no readable data, whatever the options */
+    uint64_t items;                    /* bits of the fact_items in the description */
     char description[512];             /* "jpk: curves 12, spring constant 300 mN/m" */
 } file_kind;
 

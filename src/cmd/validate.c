@@ -9,7 +9,7 @@ static const char requested_tables[] =
 
 static wt_status fail_missing_validation(cmd_session *s)
 {
-    wt_fail(&s->err, WT_E_MISSING, "nothing could be held against the record");
+    wt_fail(&s->err, WT_E_MISSING, "nothing could be compared with the record");
     wt_error_file(&s->err, s->files[0]);
     wt_error_expected(&s->err, "a case with a material, a counter surface and sliding conditions, "
                                "and a record");
@@ -49,7 +49,7 @@ int cmd_validate(int argc, char **argv)
         .arguments = "[OPTION]... CASE.xml [RECORD]...",
         .description =
             "Does the theory explain the friction that was measured? Records of a tribometer, "
-            "or results of weartrack record, are held against what a case predicts at their "
+            "or results of weartrack record, are compared with what a case predicts at their "
             "velocities, with and without the layer: explains, does not, or inconclusive; the "
             "shear stress that the record asks for; where the error comes from; and which "
             "choices of the model the record leaves.",

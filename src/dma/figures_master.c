@@ -433,7 +433,7 @@ const figure_description figures_master[] = {
      .empty_reason = "there is no vertical shift",
      .caption_text =
          "Vertical shift factors of the isotherms with one standard error, what is smooth in "
-         "them, which is taken for the material, and what density and temperature alone would "
+         "them, which is treated as the material, and what density and temperature alone would "
          "give.",
      .draw = draw_vertical_shifts,
      .caption = caption_vertical_shifts},

@@ -180,7 +180,7 @@ static void caption_material_ratio(figure_drawing *d)
     text_format(&d->caption, " Do they differ? %s.",
                 material_ratio_key_text(d->table, MATERIAL_RATIO_KEY_DIFFERS));
     if (settled != NULL)
-        text_format(&d->caption, " What would settle it: %s.", settled);
+        text_format(&d->caption, " How to decide it: %s.", settled);
 }
 
 /* ---- one law for samples --------------------------------------------------------------------- */
@@ -230,7 +230,7 @@ static void caption_shared_shift_law(figure_drawing *d)
                 shared_shift_law_key_text(d->table, SHARED_SHIFT_LAW_KEY_MOVED),
                 shared_shift_law_key_text(d->table, SHARED_SHIFT_LAW_KEY_AGREE));
     if (settled != NULL)
-        text_format(&d->caption, " What would settle it: %s.", settled);
+        text_format(&d->caption, " How to decide it: %s.", settled);
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */
@@ -279,7 +279,7 @@ const figure_description figures_materials[] = {
      .curves = {CURVE(SHARED_SHIFT_LAW_LOG_A, OWN, .with_errors = true),
                 CURVE(SHARED_SHIFT_LAW_LAW_LOG_A, OWN, .with_errors = true),
                 CURVE(SHARED_SHIFT_LAW_DIFFERENCE, OWN, .with_errors = true, .panel = 1)},
-     .empty_reason = "no sample has shift factors about a common law",
+     .empty_reason = "no sample has shift factors about a shared shift law",
      .caption_text =
          "Shift factors of the samples (bars: standard error without that of the temperature) "
          "about the one law fitted to all (lines; bands: 95 % intervals) and, below, what the "

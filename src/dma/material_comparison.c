@@ -128,6 +128,7 @@ static wt_status find_comparison_temperature(const wt_materials_job *job, compar
             wt_fail(err, WT_E_MISSING, "the temperature of the material is not known");
             wt_error_file(err, m->name);
             wt_error_advice(err, "--temperature says it");
+            wt_error_options(err, "temperature");
             return WT_E_MISSING;
         }
         s->temperature = range_intersection(s->temperature, measured_temperatures(m->rubber));

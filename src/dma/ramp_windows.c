@@ -222,6 +222,7 @@ static wt_status check_frequency_count(const wt_sweep *sweep, wt_error *err)
     wt_error_expected(err, "sweeps at two frequencies or more, or isotherms beside it");
     wt_error_advice(err, "give the law of the shifts (--shift-law wlf:...); `weartrack ramp FILE` "
                          "tells the glass transition");
+    wt_error_options(err, "shift-law");
     return WT_E_MISSING;
 }
 

@@ -75,6 +75,7 @@ static wt_status horizontal_shift(const wt_shift_law *law, double reference, dou
     if (isnan(from)) {
         wt_fail(err, WT_E_MISSING, "the reference temperature of the material is not known");
         wt_error_advice(err, "give --reference-temperature");
+        wt_error_options(err, "reference-temperature");
         return WT_E_MISSING;
     }
     if (law->kind == WT_LAW_NONE) {

@@ -198,7 +198,7 @@ wt_status wt_shared_shift_law_compute(const wt_shared_shift_law_job *job, wt_tab
                                       wt_error *err)
 {
     if (job == NULL || table == NULL || job->names == NULL)
-        return wt_fail(err, WT_E_ARG, "no samples for a common law");
+        return wt_fail(err, WT_E_ARG, "no samples for a shared shift law");
     wt_shared_shift_law law = {0};
     wt_status status = param_check(wt_shared_shift_law_job_params(), job, err);
     if (status == WT_OK)

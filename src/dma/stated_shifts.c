@@ -278,6 +278,7 @@ static wt_status set_vertical_shift(const wt_table *table, size_t row, wt_vertic
         wt_error_place(err, "shifts");
         wt_error_found(err, "log_b = %g at %.2f degC", b, t->temperature - WT_ZERO_CELSIUS);
         wt_error_advice(err, "leave out its column log_b, or give another --vertical-shift");
+        wt_error_options(err, "vertical-shift");
         return WT_E_ARG;
     }
     t->vertical_shift_is_stated = isfinite(b);

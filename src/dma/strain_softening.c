@@ -112,6 +112,7 @@ static wt_status select_sample(const table_view *v, wt_strain_softening_choice *
         wt_fail(err, WT_E_NOT_FOUND, "no strain sweep is of the sample \"%s\"", choice->sample);
         wt_error_found(err, "%s", first);
         wt_error_advice(err, "--sample is of moduli and strain sweeps alike");
+        wt_error_options(err, "sample");
         return WT_E_NOT_FOUND;
     }
     return WT_OK;

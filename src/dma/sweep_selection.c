@@ -138,6 +138,7 @@ wt_status flow_require_one_sample(const wt_sweep *sweep, const wt_file_set *sets
         wt_error_found(err, "%s", found);
         wt_error_advice(err,
                         "choose one with --sample NAME; --sample all if they are of one material");
+        wt_error_options(err, "sample");
     }
     wt_sample_names_clear(&samples);
     return status;
@@ -409,6 +410,7 @@ static wt_status fail_mixed_amplitudes(const sweep_entry *a, const sweep_entry *
     wt_error_found(err, "%.3g %% and %.3g %% at %.1f degC", low, high,
                    fmax(a->temperature[0], b->temperature[0]) - WT_ZERO_CELSIUS);
     wt_error_advice(err, "choose one with --strain %.3g%%", low);
+    wt_error_options(err, "strain");
     return WT_E_AMBIGUOUS;
 }
 

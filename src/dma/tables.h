@@ -98,12 +98,12 @@
     X(SHARED_SHIFT_LAW_TEMPERATURE, IN(point, temperature), "temperature of the isotherm",         \
       SI(TEMPERATURE), LABEL("Temperature"), DECIMALS(1), SPARSE)                                  \
     X(SHARED_SHIFT_LAW_LOG_A, IN(point, log_a),                                                    \
-      "log10 of the horizontal shift factor from the reference of the common law", NUMBER,         \
+      "log10 of the horizontal shift factor from the reference of the shared shift law", NUMBER,   \
       LABEL("log₁₀ a"), STANDARD_ERROR(SHARED_SHIFT_LAW_LOG_A), DECIMALS(3), SPARSE)               \
     X(SHARED_SHIFT_LAW_LOG_A_STANDARD_ERROR, "log_a_standard_error",                               \
       "its standard error, without that of the temperature [decade]", NUMBER,                      \
       SHOWS(point.log_a_error), LABEL("Standard error"), DECIMALS(3), SPARSE)                      \
-    X(SHARED_SHIFT_LAW_LAW_LOG_A, "law_log_a", "log10 a of the common law", NUMBER,                \
+    X(SHARED_SHIFT_LAW_LAW_LOG_A, "law_log_a", "log10 a of the shared shift law", NUMBER,          \
       SHOWS(point.law), LABEL("log₁₀ a of the law"),                                               \
       INTERVAL(SHARED_SHIFT_LAW_LAW_LOG_A_LOW, SHARED_SHIFT_LAW_LAW_LOG_A_HIGH), DECIMALS(3),      \
       SPARSE)                                                                                      \
@@ -131,8 +131,7 @@
 #define SHARED_SHIFT_LAW_KEYS(X)                                                                   \
     X(SHARED_SHIFT_LAW_KEY_AGREE, "agree", TEXT, LABEL("Have the samples one law"),                \
       HEADLINE("Have the samples one law"))                                                        \
-    X(SHARED_SHIFT_LAW_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("What would settle it"),          \
-      OPTIONAL)                                                                                    \
+    X(SHARED_SHIFT_LAW_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("How to decide it"), OPTIONAL)    \
     X(SHARED_SHIFT_LAW_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Samples left out of it, and why"),   \
       OPTIONAL)                                                                                    \
     X(SHARED_SHIFT_LAW_KEY_P, "p", PLAIN, LABEL("One law, p"), OPTIONAL)                           \
@@ -356,8 +355,7 @@
 #define MATERIAL_RATIO_KEYS(X)                                                                     \
     X(MATERIAL_RATIO_KEY_DIFFERS, AS(differs), TEXT, LABEL("Do the materials differ"),             \
       HEADLINE("Do the materials differ"))                                                         \
-    X(MATERIAL_RATIO_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle it"),          \
-      OPTIONAL)                                                                                    \
+    X(MATERIAL_RATIO_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("How to decide it"), OPTIONAL)    \
     X(MATERIAL_RATIO_KEY_FIRST, AS(first_material), TEXT, LABEL("Divided by"))                     \
     X(MATERIAL_RATIO_KEY_TEMPERATURE, AS(temperature), SI(TEMPERATURE),                            \
       LABEL("Temperature, over frequency"))                                                        \

@@ -476,8 +476,9 @@ static wt_status fit_shifted_source(const refit *f, size_t item, int side, unsig
     return status;
 }
 
-/* Effect of an assumed error of the cantilever without a fit: force and lever scale together with
- * the spring constant, and the fit has the gain of the sensitivity. NaN without a lever. */
+/* Effect of an assumed error of the cantilever without a fit: force and cantilever scale together
+ * with the spring constant, and the fit has the gain of the sensitivity. NaN without a cantilever.
+ */
 static void set_assumed_gain(const common_curve *curve, wt_systematic_source source, double *gain)
 {
     if (curve->spring_constant > 0 && isfinite(curve->spring_constant))

@@ -59,8 +59,8 @@ void calibration_errors_clear(calibration_errors *errors);
  * share; it is NaN if one of them is unknown. */
 wt_status modulus_budget_interval(const wt_group_data *group, wt_group_summary *summary,
                                   wt_error *err) WT_NODISCARD;
-/* Creates the table modulus_budget. The table is NULL if no group has a shared error. names: [n]; a
- * group without curves has no row. */
+/* Creates the table modulus_budget. The table is NULL if no group has a systematic error. names:
+ * [n]; a group without curves has no row. */
 wt_status modulus_budget_create(const wt_group_data *groups, const char *const *names, size_t n,
                                 wt_table **table, wt_error *err) WT_NODISCARD;
 

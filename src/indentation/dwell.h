@@ -7,8 +7,8 @@
 #include "weartrack/indentation.h"
 
 /* Mean at one frequency over curves, or over files if there are three or more. The interval
- * includes the scatter and the systematic error. The interval of a single curve includes its own
- * error. It is NaN if no curve is described. */
+ * includes the scatter and the systematic error. The interval of a single curve includes its
+ * standard error. It is NaN if no curve is described. */
 typedef struct dwell_mean {
     double angular_frequency;
     size_t n, n_units;

@@ -249,7 +249,7 @@
       SI(LENGTH))                                                                                  \
     X(CURVES_FORCE, AS(force),                                                                     \
       "force above the baseline; of a curve without a contact point as measured", SI(FORCE))       \
-    X(CURVES_INDENTATION, AS(indentation), "displacement less the bending of the lever",           \
+    X(CURVES_INDENTATION, AS(indentation), "displacement less the bending of the cantilever",      \
       SI(LENGTH))                                                                                  \
     X(CURVES_FITTED_FORCE, AS(fitted_force), "fit to the approach at the same indentation",        \
       SI(FORCE))                                                                                   \

@@ -100,7 +100,7 @@
     X(THERMAL_DEFLECTION, "deflection", "root mean square of the deflection as measured",          \
       SI(DEFLECTION), LABEL("Deflection"), SPARSE)                                                 \
     X(THERMAL_FLOOR, "floor", "density of the white floor", SI(SPECTRAL_DENSITY), SPARSE)          \
-    X(THERMAL_TEMPERATURE, "temperature", "temperature of the lever", SI(TEMPERATURE),             \
+    X(THERMAL_TEMPERATURE, "temperature", "temperature of the cantilever", SI(TEMPERATURE),        \
       LABEL("Temperature"))                                                                        \
     X(THERMAL_OF_FILE, "spring_constant_of_file", "spring constant that the file says",            \
       SI(SPRING_CONSTANT), LABEL("Of the file"), SPARSE)                                           \

@@ -52,17 +52,18 @@ wt_thermal_job wt_thermal_job_defaults(void)
 static const wt_param rows[] = {
     {PARAM("lever-temperature", wt_thermal_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
      .value = "T", .unset = "that of the file, else 25degC with a warning", .flags = PARAM_NO_CASE,
-     .help = "temperature of the lever, such as \"23degC +- 1K\""},
+     .help = "temperature of the cantilever, such as \"23degC +- 1K\""},
     {PARAM("sensitivity-error", wt_thermal_job, sensitivity_error, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "X", .flags = PARAM_NO_CASE,
      .help = "relative standard error of the deflection sensitivity, such as 0.02"},
     {PARAM("mode-shape", wt_thermal_job, mode_shape, WT_Q_NONE, ABOVE(0)), .value = "X",
      .flags = PARAM_NO_CASE,
-     .help = "share of the first mode in the thermal energy of the lever's end: 0.971 of a "
-             "rectangular lever, 1 to leave it out"},
+     .help = "share of the first mode in the thermal energy of the cantilever's end: 0.971 of a "
+             "rectangular cantilever, 1 to leave it out"},
     {PARAM("chi", wt_thermal_job, chi, WT_Q_NONE, ABOVE(0)), .value = "X", .flags = PARAM_NO_CASE,
-     .help = "deflection sensitivity of the free lever over that on a hard surface: 1.09 of a "
-             "rectangular lever with the laser at its end; 1 if it is in the spectrum already"},
+     .help =
+         "deflection sensitivity of the free cantilever over that on a hard surface: 1.09 of a "
+         "rectangular cantilever with the laser at its end; 1 if it is in the spectrum already"},
     {PARAM("fit-from", wt_thermal_job, from, WT_Q_FREQUENCY, AT_LEAST(0)), .value = "F",
      .unset = "40 widths of the peak below it, at least a quarter of its frequency",
      .flags = PARAM_NO_CASE, .help = "beginning of the range of the fit, such as 50kHz"},
@@ -71,16 +72,18 @@ static const wt_param rows[] = {
      .help = "end of the range of the fit"},
     {PARAM("length", wt_thermal_job, length, WT_Q_LENGTH, ABOVE(0)), .value = "L", .unset = "",
      .flags = PARAM_NO_CASE,
-     .help = "length of a rectangular lever, such as \"225um +- 2%\": with --width its spring "
+     .help = "length of a rectangular cantilever, such as \"225um +- 2%\": with --width its spring "
              "constant by Sader's method stands beside that of the noise"},
     {PARAM("width", wt_thermal_job, width, WT_Q_LENGTH, ABOVE(0)), .value = "B", .unset = "",
-     .flags = PARAM_NO_CASE, .help = "width of a rectangular lever, such as 40um"},
+     .flags = PARAM_NO_CASE, .help = "width of a rectangular cantilever, such as 40um"},
     {PARAM_CHOICE_OF("medium", wt_thermal_job, medium, "air|water"), .flags = PARAM_NO_CASE,
-     .help = "what surrounds the lever, at its temperature and 1013 hPa; for --length and --width"},
+     .help = "what surrounds the cantilever, at its temperature and 1013 hPa; for --length and "
+             "--width"},
     {PARAM("sader-coefficient", wt_thermal_job, sader_coefficient, WT_Q_NONE, ABOVE(0)),
      .value = "A", .unset = "", .flags = PARAM_NO_CASE,
-     .help = "coefficient of a kind of lever of any shape, k = A Q f^1.3 with k in N/m and f in "
-             "kHz, as of one that was calibrated; instead of --length and --width"},
+     .help =
+         "coefficient of a kind of cantilever of any shape, k = A Q f^1.3 with k in N/m and f in "
+         "kHz, as of one that was calibrated; instead of --length and --width"},
 };
 PARAM_TABLE(wt_thermal_job_params, wt_thermal_job, rows, wt_thermal_job_defaults, NO_PARTS)
 
@@ -124,6 +127,7 @@ static wt_status find_sensitivity(const wt_job *work, cantilever_result *l, cons
     const wt_status status = wt_fail(err, WT_E_MISSING, "the spectrum is in volts");
     wt_error_expected(err, "a deflection sensitivity");
     wt_error_advice(err, "give it, e.g. --sensitivity 60nm/V");
+    wt_error_options(err, "sensitivity");
     return status;
 }
 
@@ -140,7 +144,7 @@ static void find_cantilever_temperature(const wt_thermal_job *job, const wt_job 
     wt_log_add(work->log, WT_WARNING, file->name, NULL,
                "the file %s: 25 degC is taken, and 3 K off are 1 %% of the spring constant; "
                "give --lever-temperature",
-               isnan(l->spectrum.temperature) ? "does not say the temperature of the lever"
+               isnan(l->spectrum.temperature) ? "does not say the temperature of the cantilever"
                                               : "says a temperature below absolute zero");
 }
 
@@ -182,7 +186,7 @@ static void report_spectrum_misfit(const wt_job *work, const flow_file *file, ca
     if (stated_averages > max_averages_ratio * l->fit.averages)
         append_cantilever_note(l, "scatters more than so many averages do");
     if (l->spectrum.amplitudes)
-        append_cantilever_note(l, "amplitudes are taken for roots of averaged power");
+        append_cantilever_note(l, "amplitudes are treated as roots of averaged power");
 }
 
 static void find_spring_constant(const wt_thermal_job *job, cantilever_result *l)
@@ -228,7 +232,7 @@ static void find_sader_constant(const wt_thermal_job *job, cantilever_result *l)
             l, "no spring constant by Sader's method: water is not liquid at this temperature");
     if (slenderness < min_slenderness || slenderness > max_slenderness)
         append_cantilever_note(
-            l, "Sader's method was tried on levers 3.3 to 13.7 times as long as wide");
+            l, "Sader's method was tried on cantilevers 3.3 to 13.7 times as long as wide");
 }
 
 /* Describes possible causes if the spring constant from noise is `ratio` times another one. */
@@ -240,11 +244,12 @@ static void describe_inconsistency(cantilever_result *l, const char *other, doub
     clocale_print(l->inconsistency, sizeof l->inconsistency,
                   "the noise gives %.3g times the spring constant %s; what could be the cause: a "
                   "deflection sensitivity %.3g times too %s, %s, or the other one (nominal, or of "
-                  "a plan view or quality factor that is not this lever's)",
+                  "a plan view or quality factor that is not this cantilever's)",
                   ratio, other, small ? sqrt(1 / ratio) : sqrt(ratio), small ? "large" : "small",
-                  small ? "densities of peak values (a factor 2) or with the width of a window in "
-                          "them (1.5 of Hann's)"
-                        : "two-sided densities (a factor 2) or a peak that is not the lever's");
+                  small
+                      ? "densities of peak values (a factor 2) or with the width of a window in "
+                        "them (1.5 of Hann's)"
+                      : "two-sided densities (a factor 2) or a peak that is not the cantilever's");
 }
 
 static void compare_spring_constants(const wt_job *work, const flow_file *file,

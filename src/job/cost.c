@@ -11,6 +11,7 @@
 
 typedef struct cost_row {
     char stage[64], because[256];
+    cost_stage_kind kind;
     bool runs;
     double wall, cpu;
     cost_summary reported;
@@ -18,7 +19,7 @@ typedef struct cost_row {
 } cost_row;
 
 typedef struct cost_part_row {
-    const char *words;
+    size_t part;
     double seconds;
 } cost_part_row;
 
@@ -86,13 +87,14 @@ static cost_row *add_cost_row(wt_cost *cost, const char *stage, const char *beca
     return row;
 }
 
-void cost_begin(wt_cost *cost, const char *stage, const char *because)
+void cost_begin(wt_cost *cost, const char *stage, cost_stage_kind kind, const char *because)
 {
     cost_end(cost);
     cost_row *row = cost != NULL ? add_cost_row(cost, stage, because) : NULL;
     if (row == NULL)
         return;
     cost->open = row->runs = true;
+    row->kind = kind;
     row->wall = cost_clock(cost);
     row->cpu = cost->timed ? wt_time_cpu() : (double)NAN;
 }
@@ -124,7 +126,7 @@ void cost_skip_stage(wt_cost *cost, const char *stage, const char *because)
 
 void wt_cost_begin_stage(wt_cost *cost, const char *stage)
 {
-    cost_begin(cost, stage, "runs because it is asked for");
+    cost_begin(cost, stage, COST_OTHER, "runs because it is asked for");
 }
 
 /* ---- parts ----------------------------------------------------------------------------------- */
@@ -134,31 +136,29 @@ double cost_clock(const wt_cost *cost)
     return cost != NULL && cost->timed ? wt_time_wall() : (double)NAN;
 }
 
-void cost_set_part(wt_cost *cost, const char *words, double seconds)
+void cost_set_part(wt_cost *cost, size_t part, double seconds)
 {
-    cost_part_row *parts =
-        cost != NULL ? array_grow(cost->parts, cost->n_parts, sizeof *parts) : NULL;
-    if (parts == NULL)
-        return; /* reported like a part without times */
-    cost->parts = parts;
-    parts[cost->n_parts++] = (cost_part_row){words, seconds};
+    if (cost == NULL)
+        return;
+    cost->parts = array_grow(cost->parts, cost->n_parts, sizeof *cost->parts);
+    cost->parts[cost->n_parts++] = (cost_part_row){part, seconds};
 }
 
-double cost_part_seconds(const wt_cost *cost, const char *words)
+double cost_part_seconds(const wt_cost *cost, size_t part)
 {
     for (size_t i = 0; cost != NULL && i < cost->n_parts; i++)
-        if (strcmp(cost->parts[i].words, words) == 0)
+        if (cost->parts[i].part == part)
             return cost->parts[i].seconds;
     return (double)NAN;
 }
 
-stage_cost_sum cost_sum_stages(const wt_cost *cost, const char *beginning)
+stage_cost_sum cost_sum_stages(const wt_cost *cost, cost_stage_kind kind)
 {
     stage_cost_sum sum = {(double)NAN, (double)NAN};
     const size_t ended = cost != NULL ? cost->n_rows - cost->open : 0;
     for (size_t i = 0; i < ended; i++) {
         const cost_row *row = &cost->rows[i];
-        if (!row->runs || strncmp(row->stage, beginning, strlen(beginning)) != 0)
+        if (!row->runs || row->kind != kind)
             continue;
         sum.seconds = isnan(sum.seconds) ? row->wall : sum.seconds + row->wall;
         if (row->reported.tolerance_asked > 0)

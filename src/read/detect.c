@@ -17,12 +17,13 @@ typedef struct file_signature {
     size_t length;
     const char *label;
     const char *advice;
-    bool measured; /* may contain measured data */
+    bool measured;       /* may contain measured data */
+    const char *options; /* options that the advice names; "" if none */
 } file_signature;
 
 #define SIGNATURE_AT(at, bytes, label, advice, measured)                                           \
     {                                                                                              \
-        at, bytes, sizeof bytes - 1, label, advice, measured                                       \
+        at, bytes, sizeof bytes - 1, label, advice, measured, ""                                   \
     }
 #define SIGNATURE(bytes, label, advice) SIGNATURE_AT(0, bytes, label, advice, false)
 #define SIGNATURE_MEASURED(bytes, label, advice) SIGNATURE_AT(0, bytes, label, advice, true)
@@ -66,12 +67,13 @@ static const file_signature signatures[] = {
     SIGNATURE("<?xml", "an XML document", "a case file is for `weartrack run`; " ADVICE_EXPORT),
     SIGNATURE("<!DOCTYPE", "an HTML or XML document", ADVICE_EXPORT),
     SIGNATURE("<html", "an HTML page", ADVICE_EXPORT),
-    SIGNATURE("\377\376", "UTF-16 text of no known layout", ADVICE_DESCRIBE),
-    SIGNATURE("\376\377", "UTF-16 text of no known layout", ADVICE_DESCRIBE),
+    {0, "\377\376", 2, "UTF-16 text of no known layout", ADVICE_DESCRIBE, false, "columns"},
+    {0, "\376\377", 2, "UTF-16 text of no known layout", ADVICE_DESCRIBE, false, "columns"},
 };
-static const file_signature empty = {0, "", 0, "an empty file", "export it again", true};
-static const file_signature binary = {0, "", 0, "unknown binary data", ADVICE_TEXT, false};
-static const file_signature text = {0, "", 0, "text of no known layout", ADVICE_DESCRIBE, false};
+static const file_signature empty = {0, "", 0, "an empty file", "export it again", true, ""};
+static const file_signature binary = {0, "", 0, "unknown binary data", ADVICE_TEXT, false, ""};
+static const file_signature text = {0,     "",       0, "text of no known layout", ADVICE_DESCRIBE,
+                                    false, "columns"};
 
 static const file_signature *classify_bytes(const unsigned char *bytes, size_t length)
 {
@@ -236,11 +238,14 @@ static wt_status fail_unknown(wt_input *input, unsigned kinds, wt_error *err)
     status = like->measured ? wt_fail(err, WT_E_UNSUPPORTED, "such a file is not read")
                             : wt_fail(err, WT_E_FORMAT, "file format not recognised");
     wt_error_found(err, "%s", like->label);
-    if (like == &binary && (kinds & WT_KIND_IMAGE) != 0)
+    if (like == &binary && (kinds & WT_KIND_IMAGE) != 0) {
+        wt_error_options(err, "format");
         wt_error_advice(err, "--format gwyddion has the program Gwyddion read it, which knows many "
                              "height maps; or export it as .x3p, .gwy or .gsf");
-    else
+    } else {
+        wt_error_options(err, "%s", like->options);
         wt_error_advice(err, "%s", like->advice);
+    }
     return status;
 }
 
@@ -249,6 +254,7 @@ static wt_status fail_ambiguous(const file_reader *a, const file_reader *b, wt_e
     wt_fail(err, WT_E_AMBIGUOUS, "two formats describe this file equally well");
     wt_error_found(err, "%s and %s", a->info.id, b->info.id);
     wt_error_advice(err, "choose with --format %s or --format %s", a->info.id, b->info.id);
+    wt_error_options(err, "format");
     return WT_E_AMBIGUOUS;
 }
 

@@ -4,6 +4,7 @@
 #include "core/base/array.h"
 #include "core/base/memory.h"
 #include "core/data/force_curve.h"
+#include "core/table/registry.h"
 #include "read/bytes/samples.h"
 #include "read/metadata.h"
 
@@ -293,6 +294,8 @@ static wt_status fail_uncalibrated(const force_signal *signal, const wt_cantilev
     wt_error_place(err, "%s", place != NULL ? place : "");
     wt_error_advice(err, "give %s%s%s", no_constant ? "--spring-constant 0.1N/m" : "",
                     both ? " and " : "", no_sensitivity ? "--sensitivity 120nm/V" : "");
+    wt_error_options(err, "%s%s%s", no_constant ? "spring-constant" : "", both ? " " : "",
+                     no_sensitivity ? "sensitivity" : "");
     return WT_E_MISSING;
 }
 
@@ -355,7 +358,7 @@ static void warn_value_not_applied(const wt_force_source *source, const force_me
 }
 
 /* Adds the column of a quantity if a signal exists from which it can be computed. */
-static wt_status plan_column(const wt_force_source *source, const force_metadata *metadata,
+static wt_status assign_column(const wt_force_source *source, const force_metadata *metadata,
                              wt_quantity wanted, force_plan *plan, wt_error *err)
 {
     const force_signal *signal = select_signal(metadata, &source->options, wanted);
@@ -465,7 +468,7 @@ wt_status force_add_segment(wt_force_source *source, const force_metadata *metad
                                    force_find_signal(metadata, WT_Q_DEFLECTION), err);
     for (size_t i = 0; i < metadata->n_offers && status == WT_OK; i++)
         if (is_quantity_requested(&source->options, metadata, metadata->offers[i]))
-            status = plan_column(source, metadata, metadata->offers[i], &plan, err);
+            status = assign_column(source, metadata, metadata->offers[i], &plan, err);
     if (status != WT_OK)
         return status;
     sort_columns(&plan);
@@ -547,9 +550,9 @@ void force_describe_calibration(const force_metadata *metadata, const wt_read_op
     const wt_cantilever used = select_cantilever(&metadata->cantilever, options);
     const force_signal *signal = select_signal(metadata, options, WT_Q_FORCE);
     wt_error missing = WT_ERROR_INIT;
-    metadata_add_number(list, "spring constant", used.spring_constant, "N/m",
+    metadata_add_number(list, fact_item_text(FACT_SPRING_CONSTANT), used.spring_constant, "N/m",
                         used.spring_constant_is_overridden ? given : spring_constant_source);
-    metadata_add_number(list, "deflection sensitivity", used.sensitivity, "m/V",
+    metadata_add_number(list, fact_item_text(FACT_SENSITIVITY), used.sensitivity, "m/V",
                         used.sensitivity_is_overridden ? given : sensitivity_source);
     /* both constants are needed, because the tip position is the height less the deflection */
     if (signal != NULL &&
@@ -557,6 +560,7 @@ void force_describe_calibration(const force_metadata *metadata, const wt_read_op
          (isnan(used.spring_constant) && signal->quantity == WT_Q_FORCE &&
           select_convertible_signal(metadata, options, WT_Q_DEFLECTION) == NULL))) {
         fail_uncalibrated(signal, &used, NULL, &missing);
-        metadata_add(list, "missing", "", missing.advice, "%s", missing.message);
+        metadata_add(list, fact_item_text(FACT_MISSING), "", missing.advice, "%s", missing.message);
+        facts_put_text(list, FACTS_OPTIONS, missing.options);
     }
 }

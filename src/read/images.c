@@ -3,6 +3,7 @@
 #include "read/images.h"
 #include "core/base/memory.h"
 #include "core/base/utf8.h"
+#include "core/table/registry.h"
 #include "read/reader.h"
 
 #include <math.h>
@@ -274,7 +275,8 @@ wt_status images_add_metadata(const file_reader *reader, wt_input *input,
         char item[32], width[32], height[32];
         wt_format_si(images[i].width, "m", 4, width, sizeof width);
         wt_format_si(images[i].height, "m", 4, height, sizeof height);
-        snprintf(item, sizeof item, "image %zu", i);
+        snprintf(item, sizeof item, "%s %zu",
+                 images[i].n_rows == 1 ? fact_item_text(FACT_PROFILE) : "image", i);
         metadata_add(metadata, item, images[i].unit, "", "%s, %zu x %zu pixels, %s x %s",
                      images[i].name, images[i].n_columns, images[i].n_rows, width, height);
         wt_image_clear(&images[i]);

@@ -8,6 +8,14 @@
 #include <math.h>
 #include <string.h>
 
+/* Returns FACT_ITEM_UNKNOWN for an item on which no code acts. */
+static fact_item find_kind(const char *item)
+{
+    const int kind = closed_list_find(&fact_item_list, item);
+    const bool is_longer = strcmp(item, fact_item_text((fact_item)kind)) != 0;
+    return kind < FACT_TABLE && is_longer ? FACT_ITEM_UNKNOWN : (fact_item)kind;
+}
+
 void metadata_add(table_writer *metadata, const char *item, const char *unit, const char *source,
                   const char *format, ...)
 {
@@ -24,6 +32,7 @@ void metadata_add(table_writer *metadata, const char *item, const char *unit, co
     facts_put_text(metadata, FACTS_VALUE, value);
     facts_put_text(metadata, FACTS_UNIT, unit);
     facts_put_text(metadata, FACTS_SOURCE, source);
+    facts_put(metadata, FACTS_KIND, (double)find_kind(item));
     free(value);
 }
 

@@ -24,7 +24,7 @@ wt_status wt_input_describe(const wt_formats *formats, wt_input *input,
     table_writer w = table_begin(&facts_schema, err);
     metadata_add(&w, "file", "", "", "%s", wt_input_name(input));
     metadata_add(&w, "size", "byte", "", "%zu", length);
-    metadata_add(&w, "format", "",
+    metadata_add(&w, fact_item_text(FACT_FORMAT), "",
                  r.options.format != NULL ? "chosen with --format" : "recognised by its content",
                  "%s", r.reader->info.id);
     metadata_add(&w, "format title", "", "", "%s", r.reader->info.title);

@@ -133,6 +133,7 @@ static wt_status choose_by_content(const sheet_choice *c)
         wt_error_found(c->err, "%s", names);
         wt_error_advice(c->err, "choose one with --sheet NAME, or take all of them as one "
                                 "measurement with --sheet all");
+        wt_error_options(c->err, "sheet");
         return WT_E_AMBIGUOUS;
     }
     /* A single visible sheet is read in any case; its reader reports what is wrong. */

@@ -29,7 +29,7 @@ static const struct {
     {FLOW_DRAW_SOFT_STORAGE, "softening with strain", "more strain sweeps"},
     {FLOW_DRAW_SOFT_LOSS, "softening with strain", "more strain sweeps"},
     {FLOW_DRAW_THICKNESS, "thickness of the layer", "the layer measured at more places"},
-    {FLOW_DRAW_RATIO, "modulus ratio", "more spots indented, one lever for bulk and track"},
+    {FLOW_DRAW_RATIO, "modulus ratio", "more spots indented, one cantilever for bulk and track"},
     {FLOW_DRAW_RATIO_SLOPE, "slope of the modulus ratio",
      "bulk and track indented at rates further apart"},
     {FLOW_DRAW_WEAR, "specific wear rate", "the track profiled or the sample weighed"},

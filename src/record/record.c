@@ -343,7 +343,7 @@ static void warn_pauses(const wt_job *work, const record_pauses *pauses, const c
                       pauses->n > 1 ? "the first" : "behind which it goes on", pauses->of[0].at);
     if (pauses->alike > 0)
         wt_log_add(work->log, WT_WARNING, file, NULL,
-                   "%zu gaps in the time that are alike are taken for those of a recorder that "
+                   "%zu gaps in the time that are alike are treated as those of a recorder that "
                    "is off between while sliding goes on; no column of distance, laps or "
                    "velocity tells",
                    pauses->alike);
@@ -370,7 +370,7 @@ static wt_status measure_wear(const wt_record_job *job, const wt_job *work, cons
         radius.value = track_radius_from_laps(record);
         if (!isnan(radius.value))
             wt_log_add(work->log, WT_WARNING, file, NULL,
-                       "the track is %.4g mm long by distance and laps, taken for that of a disc; "
+                       "the track is %.4g mm long by distance and laps, treated as that of a disc; "
                        "if it is not, give its length with --track-length",
                        2e3 * M_PI * radius.value);
     }

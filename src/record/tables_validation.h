@@ -68,7 +68,7 @@
     X(VALIDATION_KEY_WITH, "verdict_with_layer", TEXT, LABEL("With the layer"), OPTIONAL)          \
     X(VALIDATION_KEY_JUDGED, "judged", TEXT, LABEL("The verdict is on"))                           \
     X(VALIDATION_KEY_TEST, "test", TEXT, LABEL("Test"))                                            \
-    X(VALIDATION_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("What would settle it"), OPTIONAL)      \
+    X(VALIDATION_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("How to decide it"), OPTIONAL)          \
     X(VALIDATION_KEY_RATIO, "ratio", UNIT("1"), HEADLINE("Friction, measured over predicted"),     \
       OPTIONAL)                                                                                    \
     KEY_BOUNDS(X, VALIDATION_KEY_RATIO, "ratio", NUMBER, "Measured over predicted")                \
@@ -105,7 +105,7 @@
       LABEL("Slope of the modulus ratio with the frequency"), OPTIONAL)                            \
     X(VALIDATION_KEY_STEPS, "n_steps", PLAIN, LABEL("Steps that were compared"))                   \
     X(VALIDATION_KEY_LEFT_OUT, "n_left_out", PLAIN, LABEL("Steps that were not"))                  \
-    X(VALIDATION_KEY_REMARKS, "remarks", TEXT, LABEL("What was taken for granted"), OPTIONAL)
+    X(VALIDATION_KEY_REMARKS, "remarks", TEXT, LABEL("Assumed"), OPTIONAL)
 
 /* Each row is a row of the table "what_if" with the likelihood of the record. */
 #define VALIDATION_CHOICES_COLUMNS(X)                                                              \
@@ -152,8 +152,7 @@
       NUMBER, LABEL("Moved by the record"), SPARSE)                                                \
     X(VALIDATION_SOURCES_PULL_ERROR, AS(pull_error), "what is left of its standard error then",    \
       NUMBER, LABEL("Left of its error"), SPARSE)                                                  \
-    X(VALIDATION_SOURCES_REMEDY, AS(remedy), "what makes it smaller", TEXT,                        \
-      LABEL("What makes it smaller"))
+    X(VALIDATION_SOURCES_REMEDY, AS(remedy), "what reduces it", TEXT, LABEL("What reduces it"))
 #define VALIDATION_SOURCES_KEYS(X)                                                                 \
     X(VALIDATION_SOURCES_KEY_ADVICE, "advice", TEXT, LABEL("What would narrow it most"))
 
@@ -191,7 +190,7 @@
     X(VALIDATION_RUNNING_IN_KEY_VERDICT, "verdict", TEXT,                                          \
       HEADLINE("Running-in with the layer against the record"))                                    \
     X(VALIDATION_RUNNING_IN_KEY_TEST, "test", TEXT, LABEL("Test"))                                 \
-    X(VALIDATION_RUNNING_IN_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("What would settle it"),     \
+    X(VALIDATION_RUNNING_IN_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("How to decide it"),         \
       OPTIONAL)                                                                                    \
     X(VALIDATION_RUNNING_IN_KEY_TIME_RATIO, "time_ratio", UNIT("1"),                               \
       HEADLINE("Running-in time, measured over predicted"), OPTIONAL)                              \
@@ -212,7 +211,7 @@
       LABEL("That wear rate against the one that was measured"), OPTIONAL)                         \
     X(VALIDATION_RUNNING_IN_KEY_RUNS, "n_runs", PLAIN, LABEL("Running-ins compared"))              \
     X(VALIDATION_RUNNING_IN_KEY_INCLUDES, "includes", TEXT, LABEL("Errors in the prediction"))     \
-    X(VALIDATION_RUNNING_IN_KEY_REMARKS, "remarks", TEXT, LABEL("Taken for granted"), OPTIONAL)
+    X(VALIDATION_RUNNING_IN_KEY_REMARKS, "remarks", TEXT, LABEL("Assumed"), OPTIONAL)
 
 /* Friction during the running-in: each row is a time, each block is a record. */
 #define VALIDATION_COURSE_COLUMNS(X)                                                               \

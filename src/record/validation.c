@@ -174,7 +174,7 @@ wt_validation_job wt_validation_job_defaults(void)
 
 static const wt_param rows[] = {
     {PARAM("margin", wt_validation_job, margin, WT_Q_NONE, FROM_TO(0.01, 1)), .value = "X",
-     .help = "measured over predicted friction that is taken for agreement: 0.2 is from 1/1.2 to "
+     .help = "measured over predicted friction that is treated as agreement: 0.2 is from 1/1.2 to "
              "1.2, about what laboratories differ by (ASTM G99)"},
     {PARAM("plausible-shear-from", wt_validation_job, plausible_low, WT_Q_STRESS, AT_LEAST(0)),
      .value = "TAU",
@@ -185,8 +185,8 @@ static const wt_param rows[] = {
      .value = "TAU", .help = "largest that is plausible"},
     {PARAM("running-in-margin", wt_validation_job, running_in_margin, WT_Q_NONE, FROM_TO(0.05, 20)),
      .value = "X",
-     .help = "time and change of a running-in over those predicted with the layer that are taken "
-             "for agreement: 1 is from 1/2 to 2, as a wear rate is hardly known better"},
+     .help = "time and change of a running-in over those predicted with the layer that are treated "
+             "as agreement: 1 is from 1/2 to 2, as a wear rate is hardly known better"},
     {PARAM_FLAG_OF("validate", wt_validation_job, wanted), .flags = PARAM_NO_OPTION,
      .help = "whether a run holds the records against what the case predicts, also where figures "
              "or results are listed"},

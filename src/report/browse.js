@@ -1,4 +1,4 @@
-/* Goes through force curves: list, map, histogram, curve with its fit, choices by hand.
+/* Goes through force curves: list, map, histogram, curve with its fit, manual overrides.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 'use strict';
 (() => {
@@ -62,7 +62,7 @@
   const largest = (values) => values.reduce((most, v) => v === null ? most :
     Math.max(most, Math.abs(v)), 0);
 
-  /* ---- choices by hand ----------------------------------------------------------------------- */
+  /* ---- manual overrides ----------------------------------------------------------------------- */
 
   const keyOf = (curve) => curve.group + '\t' + curve.index;
   let chosen = {}; /* by key: {out, contact, note} */
@@ -424,7 +424,7 @@
     else draw(curve, samples);
   };
   /* At this displacement from the fitted contact point; in an axis of indentation the two agree
-   * where the lever is straight, which is where contact begins. */
+   * where the cantilever is straight, which is where contact begins. */
   const place = (x) => {
     moving = false;
     choose(current, {contact: current.contact + x * metres});

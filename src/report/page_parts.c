@@ -303,7 +303,7 @@ static void add_error_text(text_buffer *text, double error, const display_unit *
         const double size = fabs(error) * lab->factor;
         const int decimals = 1 - (int)floor(log10(size));
         text_format(text, "± %s", NUMBER(round_to_power_of_ten(size, decimals), 2));
-        add_unit_label(text, strcmp(lab->label, "°C") == 0 ? "K" : lab->label);
+        add_unit_label(text, lab->offset != 0 ? "K" : lab->label);
     }
 }
 

@@ -284,7 +284,7 @@ static double shared_error(const result_value_tables *tables, const char *group)
     return sqrt(variance);
 }
 
-/* Interval of a rate: the scatter of the spots, widened by the shared errors. */
+/* Interval of a rate: the scatter of the spots, widened by the systematic errors. */
 static wt_interval rate_modulus(const collected_case *c, const char *group, size_t row)
 {
     const table_view *rates = &c->tables.rates;

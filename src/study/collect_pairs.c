@@ -219,7 +219,7 @@ static void advise_pair(const pair_list *list, double margin, char *text, size_t
     if (nearest != NULL)
         clocale_print(text, size,
                       "about %.0f times as many spots in every group, or smaller errors that the "
-                      "groups do not share, would settle the nearest of them, %s: %s against %s",
+                      "groups do not share, would decide the nearest of them, %s: %s against %s",
                       fmax(2, ceil(least)), nearest->of, differing_name(nearest, nearest->a),
                       differing_name(nearest, nearest->b));
 }

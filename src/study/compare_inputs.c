@@ -31,11 +31,11 @@ static void cancel_error(comparison_inputs *k, const char *words)
     clocale_append(k->cancels, sizeof k->cancels, "%s%s", k->cancels[0] != '\0' ? ", " : "", words);
 }
 
-static bool has_two_cantilevers(const compare_pair *p, wt_cantilever_sharing levers)
+static bool has_two_cantilevers(const compare_pair *p, wt_cantilever_sharing cantilevers)
 {
     const double bulk = p->data[0].spring_constant.value, track = p->data[1].spring_constant.value;
-    if (levers != WT_CANTILEVERS_AUTO)
-        return levers == WT_CANTILEVERS_SEPARATE;
+    if (cantilevers != WT_CANTILEVERS_AUTO)
+        return cantilevers == WT_CANTILEVERS_SEPARATE;
     if (p->data[0].has_tip && p->data[1].has_tip && tips_differ(&p->data[0].tip, &p->data[1].tip))
         return true;
     if (p->data[0].has_several_tips ||

@@ -115,10 +115,10 @@ static const char *curve_remedy(wt_curve_verdict main_rejection)
     case WT_CURVE_IMPRECISE:
         return "curves that are pressed further, or with less noise";
     case WT_CURVE_SATURATED:
-        return "curves that are pressed less far, or a stiffer lever";
+        return "curves that are pressed less far, or a stiffer cantilever";
     case WT_CURVE_NEGATIVE:
     case WT_CURVE_RIGID:
-        return "the sign of the deflection and the deflection sensitivity, or a stiffer lever";
+        return "the sign of the deflection and the deflection sensitivity, or a stiffer cantilever";
     default:
         return "curves whose approach is there as a whole";
     }

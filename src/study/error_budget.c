@@ -336,12 +336,13 @@ static void add_model_rows(const error_budget_run *b, case_quantity k, const tab
     const double value = b->values.number[k].value;
     for (size_t r = 1; r < what_if->n_rows;) {
         choice_range range;
+        const double seconds = cost_part_seconds(b->work.cost, r);
         r = find_choice_range(what_if, r, numbers[k].column, &range);
         if (!(range.half > 0))
             continue;
         add_budget_row(case_quantity_names[k], value,
                        (row){range.words, ERROR_MODEL, "a measurement that settles the choice",
-                             range.half, (double)NAN, cost_part_seconds(b->work.cost, range.words)},
+                             range.half, (double)NAN, seconds},
                        t);
         if (range.half > v->widest.half)
             v->widest = range;
@@ -418,7 +419,7 @@ static void add_modulus_ratio_row(const error_budget_run *b, table_writer *t)
     const wt_layer_observation *observation = &b->case_variant.layer_observation;
     const wt_estimate ratio = observation->modulus_ratio;
     const bool measured = observation->modulus_ratio_df > 0;
-    const stage_cost_sum curves = cost_sum_stages(b->work.cost, "indentation");
+    const stage_cost_sum curves = cost_sum_stages(b->work.cost, COST_INDENTATION);
     const double spots = 1 - observation->calibration_share, error = ratio.standard_error;
     const char *own = measured ? "scatter of the spots" : "stated error";
     const char *remedy = measured ? "more spots: four times as many halve it" : "a measurement";

@@ -263,7 +263,7 @@ const figure_description figures_collection[] = {
      .empty_reason = "no case has moduli at known indentation rates",
      .caption_text =
          "Geometric mean of the modulus at each indentation rate, a panel for each sample "
-         "(bars: 95 % intervals, with what is stated of levers and tips).",
+         "(bars: 95 % intervals, with what is stated of cantilevers and tips).",
      .draw = draw_moduli},
     {.name = "collected_friction",
      .title = "Friction of all samples against velocity",

@@ -193,7 +193,7 @@ static void advise_shared_row(const shared_rows *list, char *text, size_t size)
     if (nearest != NULL)
         clocale_print(
             text, size,
-            "errors smaller by a factor of about %.2g, of each case, would settle the nearest of "
+            "errors smaller by a factor of about %.2g, of each case, would decide the nearest of "
             "them, the %s of %s%s%s",
             fmax(1.1, least), shared_constant_names[nearest->constant],
             sharing_level_text(nearest->common), nearest->of[0] != '\0' ? " " : "", nearest->of);

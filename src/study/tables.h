@@ -118,7 +118,7 @@
 #define COMPARISON_KEYS(X)                                                                         \
     X(COMPARISON_KEY_DIFFERS, AS(differs), ENUM(stated_verdict),                                   \
       LABEL("Does the wear track differ"))                                                         \
-    X(COMPARISON_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle it"), OPTIONAL)    \
+    X(COMPARISON_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("How to decide it"), OPTIONAL)        \
     X(COMPARISON_KEY_WOULD_EXPLAIN, AS(would_explain), TEXT,                                       \
       LABEL("What else would make this ratio"), OPTIONAL)                                          \
     X(COMPARISON_KEY_UNIT_OF_ANALYSIS, "unit_of_analysis", ENUM(analysis_unit), SHOWS(unit),       \
@@ -162,7 +162,7 @@
 #define TRACK_LAYER_KEYS(X)                                                                        \
     X(TRACK_LAYER_KEY_ALLOWED, AS(allowed), TEXT, LABEL("Thickness that the curves allow"))        \
     X(TRACK_LAYER_KEY_AGREE, AS(agree), TEXT, LABEL("Do curves and theory agree on it"), OPTIONAL) \
-    X(TRACK_LAYER_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle it"), OPTIONAL)   \
+    X(TRACK_LAYER_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("How to decide it"), OPTIONAL)       \
     X(TRACK_LAYER_KEY_DEPTH, AS(deepest), SI(INDENTATION),                                         \
       LABEL("Indentation, mean of the track"), OPTIONAL)                                           \
     X(TRACK_LAYER_KEY_RADIUS, AS(contact_radius), SI(LENGTH), LABEL("Contact radius there"),       \

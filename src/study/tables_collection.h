@@ -105,12 +105,12 @@
     X(SHARED_CONSTANTS_KEY_DIFFERENT, "constants_that_differ", NUMBER, SHOWS(different),           \
       LABEL("Constants that differ"))                                                              \
     X(SHARED_CONSTANTS_KEY_UNDECIDED, AS(undecided), NUMBER,                                       \
-      LABEL("Constants of which it cannot be said"))                                               \
+      LABEL("Constants with an inconclusive verdict"))                                             \
     X(SHARED_CONSTANTS_KEY_INCLUDES, AS(includes), TEXT, LABEL("The intervals include"))           \
     X(SHARED_CONSTANTS_KEY_LEFT_OUT, AS(left_out), TEXT, LABEL("Cases that are not in them"),      \
       OPTIONAL)                                                                                    \
-    X(SHARED_CONSTANTS_KEY_SETTLED_BY, AS(settled_by), TEXT,                                       \
-      LABEL("What would settle the others"), OPTIONAL)                                             \
+    X(SHARED_CONSTANTS_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("How to decide the others"),    \
+      OPTIONAL)                                                                                    \
     X(SHARED_CONSTANTS_KEY_MARGIN, "constant_margin", PLAIN, SHOWS(margin),                        \
       LABEL("Margin within which they are alike"))
 
@@ -182,7 +182,7 @@
     X(SHARED_PAIRS_KEY_TESTS, "tests", NUMBER, SHOWS(tests), LABEL("Tests"))                       \
     X(SHARED_PAIRS_KEY_LEFT_OUT, AS(left_out), TEXT, LABEL("Cases that are not in them"),          \
       OPTIONAL)                                                                                    \
-    X(SHARED_PAIRS_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle the others"),    \
+    X(SHARED_PAIRS_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("How to decide the others"),        \
       OPTIONAL)                                                                                    \
     X(SHARED_PAIRS_KEY_MARGIN, "constant_margin", PLAIN, SHOWS(margin),                            \
       LABEL("Margin within which they are alike"))
@@ -214,9 +214,10 @@
     X(RATIO_PAIRS_KEY_PAIRS, AS(pairs), NUMBER, LABEL("Pairs compared"))                           \
     X(RATIO_PAIRS_KEY_DIFFERENT, "pairs_that_differ", NUMBER, SHOWS(different),                    \
       LABEL("Pairs that differ"), HEADLINE("Pairs that differ"))                                   \
-    X(RATIO_PAIRS_KEY_UNDECIDED, AS(undecided), NUMBER, LABEL("Pairs of which it cannot be said")) \
+    X(RATIO_PAIRS_KEY_UNDECIDED, AS(undecided), NUMBER,                                            \
+      LABEL("Pairs with an inconclusive verdict"))                                                 \
     X(RATIO_PAIRS_KEY_INCLUDES, AS(includes), TEXT, LABEL("The intervals include"))                \
-    X(RATIO_PAIRS_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle the others"),     \
+    X(RATIO_PAIRS_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("How to decide the others"),         \
       OPTIONAL)                                                                                    \
     X(RATIO_PAIRS_KEY_MARGIN, "equivalence_margin", PLAIN, SHOWS(margin),                          \
       LABEL("Margin within which they are alike"))

@@ -20,8 +20,7 @@
       NUMBER, LABEL("Share of the variance"))                                                      \
     X(ERROR_BUDGET_SECONDS, IN(of, seconds), "elapsed time to know it, of all numbers together",   \
       SI(TIME), LABEL("Time"))                                                                     \
-    X(ERROR_BUDGET_REMEDY, IN(of, remedy), "what makes it smaller", TEXT,                          \
-      LABEL("What makes it smaller"))
+    X(ERROR_BUDGET_REMEDY, IN(of, remedy), "what reduces it", TEXT, LABEL("What reduces it"))
 
 #define ERROR_BUDGET_KEYS(X)                                                                       \
     X(ERROR_BUDGET_KEY_HYSTERESIS, "hysteresis_advice", TEXT, LABEL("Hysteresis part"), OPTIONAL)  \

@@ -146,7 +146,7 @@ static void write_remedy(const track_layer_result *f, char *text, size_t size)
     else if (p->bound_kind == WT_LAYER_BOUND_UNKNOWN)
         clocale_print(
             text, size,
-            "12 curves without adhesion in the bulk and in the track, with one tip, lever "
+            "12 curves without adhesion in the bulk and in the track, with one tip, cantilever "
             "and depth, better on three spots or more each");
     else if (p->bound_kind == WT_LAYER_BOUND_OUTSIDE_LAW)
         clocale_print(text, size,
@@ -345,8 +345,8 @@ static track_obstacle find_obstacle(const depth_group *g, bool has_tip, double k
                                 "the same curves once more through this version of weartrack "
                                 "indent, which writes it"};
     if (!(k > 0))
-        return (track_obstacle){"curves of one group have several levers, or none is stated",
-                                "one lever in a group, its spring constant stated"};
+        return (track_obstacle){"curves of one group have several cantilevers, or none is stated",
+                                "one cantilever in a group, its spring constant stated"};
     if (!has_tip)
         return (track_obstacle){"curves of one group have several tips, or none is stated",
                                 "one tip in bulk and track, its shape stated"};

@@ -142,7 +142,7 @@ static double largest_radius(const wt_group_data *d, const wt_compare_job *job, 
     return job->tip_error > 0 ? tip->radius : worn_radius;
 }
 
-/* True if the lack of fit is closer to that of a worn tip than to zero. Few curves give only a p
+/* True if the lack of fit is closer to that of tip wear than to zero. Few curves give only a p
  * value. A stated tip is accepted unless the curves contradict it. */
 static bool shows_wear(const wt_group_data *d, const wt_compare_job *job, double misfit,
                        double chance)

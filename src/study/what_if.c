@@ -464,17 +464,19 @@ static wt_status make_what_if_table(const what_if_run *w, wt_table **table, wt_e
     return table_end(&t, table);
 }
 
-/* Reports the time of each choice, for the error budget, and of the stage. */
+/* Reports the time of each choice, for the error budget, and of the stage. The number of a choice
+ * is its first row in the table. */
 static void report_choice_cost(const what_if_run *w, const wt_job *work)
 {
     cost_summary cost = {.items = (double)w->n, .tolerance_asked = work->tolerance};
     for (size_t i = 0; i < w->n; i++)
         cost.error_estimated = fmax(cost.error_estimated, w->outcomes[i].error);
-    for (size_t i = 0; i < COUNT_OF(choices); i++) {
+    for (size_t i = 1, end; i < w->n; i = end) {
         double seconds = 0;
-        for (size_t k = 1; k < w->n; k++)
-            seconds += w->outcomes[k].model_choice == &choices[i] ? w->outcomes[k].seconds : 0;
-        cost_set_part(work->cost, choices[i].words, seconds);
+        for (end = i; end < w->n && w->outcomes[end].model_choice == w->outcomes[i].model_choice;
+             end++)
+            seconds += w->outcomes[end].seconds;
+        cost_set_part(work->cost, i, seconds);
     }
     cost_report(work, cost);
 }

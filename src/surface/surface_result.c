@@ -145,9 +145,9 @@ void surface_describe_profiles(const surface_result *w, char *to, size_t size)
         clocale_append(to, size, "%sthey share no waves with the height maps", separator);
     else if (isnan(r->standard_error))
         clocale_append(to, size,
-                       "%swhere both tell, C by them is %.2g of that by the height maps; it cannot "
-                       "be said whether they agree, for how places differ is not known: a second "
-                       "map or profile would tell",
+                       "%swhere both tell, C by them is %.2g of that by the height maps; their "
+                       "agreement is inconclusive, because how places differ is not known: add a "
+                       "second map or profile",
                        separator, r->value);
     else
         clocale_append(to, size,

@@ -51,9 +51,9 @@ if [ "$(verdicts)" != "$expected" ]; then
   exit 1
 fi
 # what would settle a pair of which it cannot be said; where all are judged there is none
-! "$program" table --keys study.h5 ratio_pairs | grep 'would settle'
+! "$program" table --keys study.h5 ratio_pairs | grep 'would decide'
 "$program" collect -q --equivalence-margin 0.001 HC-*.h5 HS-*.h5 -o fine.h5
-"$program" table --keys fine.h5 ratio_pairs | grep -q 'settle the nearest of them, severe: HC against HS'
+"$program" table --keys fine.h5 ratio_pairs | grep -q 'decide the nearest of them, severe: HC against HS'
 # the number is that of an interval beside 1, which 0.1 % leave no room for
 "$program" table fine.h5 ratio_pairs >fine.tsv
 needed=$(awk -F '\t' '$1 == "severe" { half = (log($6) - log($5)) / 2; off = log($4)

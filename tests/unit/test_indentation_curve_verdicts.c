@@ -195,11 +195,11 @@ static void too_stiff_for_the_lever(void **state)
     t.modulus = 70e9; /* silica */
     t.spring_constant = 0.1;
     curve_make(&t, 1, &data);
-    expect(&t, WT_CURVE_RIGID, "bending of the lever");
+    expect(&t, WT_CURVE_RIGID, "bending of the cantilever");
     /* Sensitivity 1 % too large: the tip seems to go back. */
     for (size_t i = 0; i < t.n; i++)
         data.force[i] *= 1.01;
-    expect(&t, WT_CURVE_RIGID, "bending of the lever");
+    expect(&t, WT_CURVE_RIGID, "bending of the cantilever");
 }
 
 /* No sample bends the lever by more than the piezo moves, however soft: that of a technician who

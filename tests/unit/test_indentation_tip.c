@@ -90,7 +90,7 @@ static void refused_in_clear_words(void **state)
         {"pyramid:half-angle=35deg,radius=20", WT_E_UNIT, "radius"},
         {"pyramid:half-angle=35deg,radius=20deg", WT_E_UNIT, "radius"},
         {"sphere:radius=1e300m", WT_E_RANGE, "at most 1e+06 m"},
-        {"pyramid:half-angle=35deg,radius=20nm,sides=3.5", WT_E_RANGE, "whole number"},
+        {"pyramid:half-angle=35deg,radius=20nm,sides=3.5", WT_E_RANGE, "integer"},
         {"pyramid:half-angle=35deg,radius=20nm,sides=2", WT_E_RANGE, "3 or more"},
         {"pyramid:half-angle=35deg,radius=20nm,sides=-4", WT_E_RANGE, "3 or more"},
         {"pyramid:half-angle=65deg,radius=20nm,transition=9nm", WT_E_RANGE, "transition=8.39nm"},

@@ -841,7 +841,7 @@ static void test_none_accepted(void **state)
     } cases[] = {{WT_CURVE_POOR_FIT, "whether it wore"},
                  {WT_CURVE_DRIFT, "begin farther from the sample"},
                  {WT_CURVE_NO_CONTACT, "pressed further"},
-                 {WT_CURVE_SATURATED, "or a stiffer lever"},
+                 {WT_CURVE_SATURATED, "or a stiffer cantilever"},
                  {WT_CURVE_NEGATIVE, "the sign of the deflection"},
                  {WT_CURVE_UNREADABLE, "whose approach is there"}};
     const wt_job common = wt_job_defaults();

@@ -223,7 +223,7 @@ void flow_plan_create(const wt_case *c, flow_plan *plan)
             continue;
         char reason[128];
         if (record_validations(c) & FLOW_BIT(t))
-            snprintf(reason, sizeof reason, "the case has a record, which is held against it");
+            snprintf(reason, sizeof reason, "the case has a record, which is compared with it");
         else
             snprintf(reason, sizeof reason, "%s is asked for", flow_resource_rows[t].label);
         choose_stage(plan, able, (flow_resource)t, reason);

@@ -24,16 +24,14 @@ static bool is_case_param(const wt_params *params, const char *name, size_t leng
     return false;
 }
 
-/* Extends advice that names an option by the spelling in a case file. */
+/* Extends advice that names an option by the spelling in a case file. The options are cleared, so
+ * that an error that is passed on is extended once. */
 static void flow_add_case_advice(wt_error *failure)
 {
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyz-";
-    const char *const option = strstr(failure->advice, "--");
-    const char *const name = option != NULL ? option + 2 : "";
-    const size_t length = strspn(name, letters), end = strlen(failure->advice);
-    char hint[96] = "";
-    if (strstr(failure->advice, "(in a case: ") != NULL)
-        return; /* The advice concerns a file that an earlier step has reported already. */
+    char name[sizeof failure->options], hint[96] = "";
+    memcpy(name, failure->options, sizeof name);
+    const size_t length = strcspn(name, " "), end = strlen(failure->advice);
+    failure->options[0] = '\0';
     if (is_case_param(wt_read_params(), name, length))
         snprintf(hint, sizeof hint,
                  " (in a case: the attribute %.*s=\"...\" where the file is named)", (int)length,
@@ -131,7 +129,8 @@ static wt_status run_stage(run_execution *d, size_t i, unsigned level, const cha
     wt_status status = report_stage_progress(d, i, title, err);
     if (status != WT_OK)
         return status;
-    cost_begin(d->cost, flow_stages[i].id, because);
+    const bool curves = i == FLOW_STAGE_INDENTATION_BULK || i == FLOW_STAGE_INDENTATION_TRACK;
+    cost_begin(d->cost, flow_stages[i].id, curves ? COST_INDENTATION : COST_OTHER, because);
     d->run.level = plan->achieved_level[i] = level;
     status = steps[i](&d->run, &failure);
     cost_end(d->cost);

@@ -358,7 +358,7 @@ wt_status flow_run_layer_observation(const flow_run *run, wt_layer_observation *
     if (!isnan(observation->modulus_ratio.value))
         return WT_OK;
     wt_fail(err, WT_E_MISSING, "the modulus ratio of track and bulk is not known");
-    wt_error_advice(err, "the table comparison says why, and what would settle it; or give the "
+    wt_error_advice(err, "the table comparison says why, and how to decide it; or give the "
                          "ratio as modulus-ratio of the layer");
     return WT_E_MISSING;
 }

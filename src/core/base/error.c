@@ -87,6 +87,7 @@ DEFINE_ERROR_SETTER(place)
 DEFINE_ERROR_SETTER(expected)
 DEFINE_ERROR_SETTER(found)
 DEFINE_ERROR_SETTER(advice)
+DEFINE_ERROR_SETTER(options)
 #undef DEFINE_ERROR_SETTER
 
 size_t wt_error_format(const wt_error *err, char *buffer, size_t size)

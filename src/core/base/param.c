@@ -204,7 +204,7 @@ static wt_status parse_count_member(const bound_member *s, const char *text, wt_
         value = value * 10 + digit;
     }
     if (!good)
-        return wt_fail(err, WT_E_ARG, "'%s' is not a whole number, or too large", text);
+        return wt_fail(err, WT_E_ARG, "'%s' is not an integer, or too large", text);
     wt_status status = check_read_value(s->param, (double)value, text, err);
     if (status == WT_OK)
         write_unsigned_member(s, value);

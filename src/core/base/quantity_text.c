@@ -156,7 +156,7 @@ static wt_status parse_range(const char *text, char *const *part, wt_quantity qu
         return fail_list(text, "the spacing is neither log nor lin", err);
     if (!wt_number_parse(part[3], strlen(part[3]), '.', &count) || count < 2 || count > MAX_LIST ||
         floor(count) < count)
-        return fail_list(text, "the count is not a whole number from 2 to 100000", err);
+        return fail_list(text, "the count is not an integer from 2 to 100000", err);
     if (!(last > first) || (logarithmic && !(first > 0)))
         return fail_list(text, "the values do not rise (and are positive for log)", err);
     out->n = (size_t)count;

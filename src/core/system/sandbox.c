@@ -276,11 +276,11 @@ static wt_status sandbox_reported_error(const char *what, const char *bytes,
         return WT_OK;
     if (reported.status == WT_E_MEMORY)
         return fail_memory_limit(what, limits, err);
-    char *const texts[] = {reported.message,  reported.file,  reported.place,
-                           reported.expected, reported.found, reported.advice};
-    const size_t sizes[] = {sizeof reported.message, sizeof reported.file,
-                            sizeof reported.place,   sizeof reported.expected,
-                            sizeof reported.found,   sizeof reported.advice};
+    char *const texts[] = {reported.message, reported.file,   reported.place,  reported.expected,
+                           reported.found,   reported.advice, reported.options};
+    const size_t sizes[] = {sizeof reported.message,  sizeof reported.file,  sizeof reported.place,
+                            sizeof reported.expected, sizeof reported.found, sizeof reported.advice,
+                            sizeof reported.options};
     for (size_t i = 0; i < COUNT_OF(texts); i++)
         texts[i][sizes[i] - 1] = '\0';
     if (reported.status <= WT_END || reported.status > WT_E_INTERNAL)

@@ -216,6 +216,7 @@
     X(finding_verdict, FINDING_VERDICTS, FINDING_VERDICT_UNKNOWN)                                  \
     X(finding_basis, FINDING_BASES, FINDING_BASIS_UNKNOWN)                                         \
     X(limit_subject, LIMIT_SUBJECTS, LIMIT_SUBJECT_UNKNOWN)                                        \
+    X(fact_item, FACT_ITEMS, FACT_ITEM_UNKNOWN)                                                    \
     X(tip_form, TIP_FORMS, TIP_FORM_UNKNOWN)                                                       \
     X(tip_shape, TIP_SHAPES, TIP_SHAPE_UNKNOWN)                                                    \
     X(error_source, ERROR_SOURCES, ERROR_SOURCE_UNKNOWN)                                           \

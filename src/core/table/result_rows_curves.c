@@ -101,7 +101,7 @@ static void add_ratio(rows_source *s, const table_view *v)
                                                                    : ", stiffer");
     }
     rows_reason(row, "is the track different", verdict);
-    rows_reason(row, "what would settle it", ratio.remedy);
+    rows_reason(row, "how to decide it", ratio.remedy);
     rows_reason(row, "what else would explain it",
                 comparison_key_text(v, COMPARISON_KEY_WOULD_EXPLAIN));
 }

@@ -117,7 +117,7 @@ static void add_shared_law(rows_source *s, const table_view *v)
     const char *agree = shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_AGREE);
     const wt_estimate c1 = shared_shift_law_value(v, SHARED_SHIFT_LAW_KEY_WLF_C1);
     result_row *row = rows_add_verdict(s, 0, agree != NULL ? agree : "not tested", "one law");
-    rows_reason(row, "what would settle it",
+    rows_reason(row, "how to decide it",
                 shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_SETTLED_BY));
     rows_reason(row, "left out", shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_LEFT_OUT));
     rows_reason(row, "reference temperature",
@@ -134,8 +134,7 @@ static void add_material_ratio(rows_source *s, const table_view *v)
     const char *differs = material_ratio_key_text(v, MATERIAL_RATIO_KEY_DIFFERS);
     result_row *row =
         rows_add_verdict(s, 0, differs != NULL ? differs : "not tested", "materials differ");
-    rows_reason(row, "what would settle it",
-                material_ratio_key_text(v, MATERIAL_RATIO_KEY_SETTLED_BY));
+    rows_reason(row, "how to decide it", material_ratio_key_text(v, MATERIAL_RATIO_KEY_SETTLED_BY));
     rows_reason(row, "the interval includes",
                 material_ratio_key_text(v, MATERIAL_RATIO_KEY_INCLUDES));
     rows_reason(row, "no error known of", material_ratio_key_text(v, MATERIAL_RATIO_KEY_LACKS));

@@ -214,8 +214,8 @@ static void add_validation(rows_source *s, const table_view *v)
     const char *judged = validation_key_text(v, VALIDATION_KEY_JUDGED);
     if (judged != NULL)
         rows_note(row, "%s", judged);
-    rows_reason(row, "what would settle it", validation_key_text(v, VALIDATION_KEY_SETTLED_BY));
-    rows_reason(row, "taken for granted", validation_key_text(v, VALIDATION_KEY_REMARKS));
+    rows_reason(row, "how to decide it", validation_key_text(v, VALIDATION_KEY_SETTLED_BY));
+    rows_reason(row, "assumed", validation_key_text(v, VALIDATION_KEY_REMARKS));
     rows_add_number(s, 0,
                     rows_number(validation_value(v, VALIDATION_KEY_RATIO).value,
                                 validation_value(v, VALIDATION_KEY_RATIO_LOW).value,
@@ -244,7 +244,7 @@ static void add_validation_running_in(rows_source *s, const table_view *v)
                       wear = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR);
     result_row *row =
         rows_add_verdict(s, 0, verdict != NULL ? verdict : "not tested", "explains running-in");
-    rows_reason(row, "what would settle it",
+    rows_reason(row, "how to decide it",
                 validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_SETTLED_BY));
     if (!isnan(ratio.value))
         rows_add_number(
@@ -313,7 +313,7 @@ static void add_constants(rows_source *s, const table_view *v)
                   *shared_constants_text(v, i, SHARED_CONSTANTS_OF) != '\0' ? " " : "",
                   shared_constants_text(v, i, SHARED_CONSTANTS_OF),
                   shared_constants_text(v, i, SHARED_CONSTANTS_SUFFICES));
-        rows_reason(row, "what would settle it",
+        rows_reason(row, "how to decide it",
                     shared_constants_key_text(v, SHARED_CONSTANTS_KEY_SETTLED_BY));
     }
 }
@@ -338,8 +338,7 @@ static void add_pairs(rows_source *s, const table_view *v)
             rows_add_text(s, 0, shared_pairs_text(v, i, SHARED_PAIRS_ONE_PAIR),
                           "one U_c and k of %.0f cases", shared_pairs_get(v, i, SHARED_PAIRS_N));
         rows_note(row, "by %s", shared_pairs_text(v, i, SHARED_PAIRS_BY));
-        rows_reason(row, "what would settle it",
-                    shared_pairs_key_text(v, SHARED_PAIRS_KEY_SETTLED_BY));
+        rows_reason(row, "how to decide it", shared_pairs_key_text(v, SHARED_PAIRS_KEY_SETTLED_BY));
         row = rows_add_number(s, 1, shared_number(v, i, SHARED_PAIRS_ENERGY, "J/m^3"),
                               "critical energy U_c");
         rows_note(row, "%s", shared_pairs_text(v, i, SHARED_PAIRS_ONE_ENERGY));

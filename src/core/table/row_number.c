@@ -118,12 +118,13 @@ static void format_with_own_unit(double value, const char *unit, char *text, siz
     clocale_print(text, size, "%s %s", number, scale.unit);
 }
 
-static void format_limits(const row_number *n, double low, double high, const row_scale *scale,
+/* Returns true if limits that differ have the same text. */
+static bool format_limits(const row_number *n, double low, double high, const row_scale *scale,
                           int decimals, char *text, size_t size)
 {
     char first[48], second[48];
     if (isnan(low) || isnan(high))
-        return;
+        return false;
     const double at[2] = {low * scale->factor + scale->offset,
                           high * scale->factor + scale->offset},
                  center = n->value * scale->factor + scale->offset;
@@ -141,6 +142,7 @@ static void format_limits(const row_number *n, double low, double high, const ro
         clocale_print(text, size, ">= %s%s%s", first, blank, unit);
     else
         clocale_print(text, size, "%s to %s%s%s", first, second, blank, unit);
+    return low < high && isfinite(high) && strcmp(first, second) == 0;
 }
 
 row_number_text row_number_format(const row_number *n)
@@ -158,17 +160,14 @@ row_number_text row_number_format(const row_number *n)
     for (int decimals;; digits++) {
         decimals = digits - 1 - magnitude(isfinite(x) ? x : of * scale.factor);
         out.interval[0] = '\0';
-        format_limits(n, n->low, n->high, &scale, decimals, out.interval, sizeof out.interval);
+        const bool alike =
+            format_limits(n, n->low, n->high, &scale, decimals, out.interval, sizeof out.interval);
         if (isfinite(x))
             format_scaled(x, decimals, number, sizeof number);
         out.range[0] = '\0';
-        format_limits(n, n->range_low, n->range_high, &scale, decimals, out.range,
-                      sizeof out.range);
-        /* limits that differ do not print alike */
-        const char *to = strstr(out.interval, " to ");
-        const size_t length = to != NULL ? (size_t)(to - out.interval) : 0;
-        if (to == NULL || !(n->low < n->high) || digits >= MOST_DIGITS ||
-            strlen(to + 4) != length || strncmp(out.interval, to + 4, length) != 0)
+        (void)format_limits(n, n->range_low, n->range_high, &scale, decimals, out.range,
+                            sizeof out.range);
+        if (!alike || digits >= MOST_DIGITS)
             break;
     }
     if (isnan(n->value))

@@ -348,7 +348,7 @@ double curve_modulus_change(const shift_set *set, size_t curve)
 static const double least_overlap = 0.05;
 
 /* A point outside the overlap counts with this residual [decade]. A smaller residual favours
- * more overlap, a larger one less residual. At half this value noise of 5 % is taken for a wrong
+ * more overlap, a larger one less residual. At half this value noise of 5 % is treated as a wrong
  * position. */
 static const double indifferent_residual = 0.05;
 

@@ -309,7 +309,7 @@ static wt_status gather_samples(law_samples *c, const wt_master *const *masters,
         size_t without = 0;
         while (common->members[without].reason[0] == '\0')
             without++;
-        wt_fail(err, WT_E_RANGE, "a common law needs two samples or more with a law");
+        wt_fail(err, WT_E_RANGE, "a shared shift law needs two samples or more with a law");
         wt_error_found(err, "%zu of %zu; of sample %zu %s", c->n_members, n, without + 1,
                        common->members[without].reason);
         return WT_E_RANGE;
@@ -360,7 +360,7 @@ wt_status wt_shared_shift_law_fit(const wt_master *const *masters, size_t n,
                                   wt_shared_shift_law *common_law, wt_error *err)
 {
     if (masters == NULL || common_law == NULL || n < MIN_SAMPLES || sharing == WT_SHARED_LAW_NONE)
-        return wt_fail(err, WT_E_ARG, "a common law needs two samples or more");
+        return wt_fail(err, WT_E_ARG, "a shared shift law needs two samples or more");
     law_samples c = {
         .sharing = sharing, .reference = reference, .kind = shared_law_kind(masters, n)};
     wt_shared_shift_law made = {.n_members = n, .members = wt_alloc(n, sizeof *made.members)};

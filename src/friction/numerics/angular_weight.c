@@ -23,7 +23,7 @@ bool anisotropy_is_present(const wt_anisotropy *a)
 /* Amplitudes of cos(m phi) and of sin(m phi). */
 static void split_harmonic(const wt_anisotropy *a, size_t k, double *even, double *odd)
 {
-    /* a whole number of turns off, so that grooves across and along are exact */
+    /* an integer of turns off, so that grooves across and along are exact */
     const double turn = remainder(anisotropy_order(k) * a->angle[k], 2 * M_PI);
     *even = a->amplitude[k] * cos(turn);
     *odd = a->amplitude[k] * sin(turn);

@@ -98,6 +98,7 @@ wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *
                 "the modulus ratio is of a temperature, and that of the rubber "
                 "is not known");
         wt_error_advice(err, "give --reference-temperature");
+        wt_error_options(err, "reference-temperature");
         return WT_E_MISSING;
     }
     const double log_a = wt_shift_law_log_a(law, from) - wt_shift_law_log_a(law, to);

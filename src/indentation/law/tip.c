@@ -311,7 +311,7 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
         (param_check_number(&tip_dimensions[TIP_SIDES], values[TIP_SIDES].value, NULL) != WT_OK ||
          floor(values[TIP_SIDES].value) != values[TIP_SIDES].value)) {
         status = wt_fail(err, WT_E_RANGE, "tip \"%s\": sides is not usable", text);
-        wt_error_expected(err, "a whole number of 3 or more");
+        wt_error_expected(err, "an integer of 3 or more");
         wt_error_found(err, "%g", values[TIP_SIDES].value);
         return status;
     }

@@ -48,7 +48,7 @@ typedef struct curve_fitting {
     double snap_in_pull; /* pull before contact [N]; 0 if none is significant */
     double pull_off;   /* pull of the retract [N]; 0 if none is significant, NaN without a suitable
                           retract */
-    double loss;       /* lost work over the work of the approach; NaN without a retract */
+    double loss;       /* hysteresis loss over the work of the approach; NaN without a retract */
     double loss_power; /* exponent of a relaxation with the same loss; 0: no loss; NaN: not known */
     double loss_bias;  /* relative excess of the modulus of a fit without loss */
     double loss_shift,

@@ -237,8 +237,8 @@ spot_depression spot_measure_depression(const wt_height_map *difference, double 
         !spot_disc_is_covered(difference, x, y, radius))
         return (spot_depression){(double)NAN, (double)NAN};
     extract_patch(difference, x, y, radius, &p);
-    const spot_depression dent = {mean_depth(&p, radius),
-                                  mean_depth(&p, 2 * radius) * M_PI * 4 * radius * radius};
+    const spot_depression depression = {mean_depth(&p, radius),
+                                        mean_depth(&p, 2 * radius) * M_PI * 4 * radius * radius};
     free(p.z);
-    return dent;
+    return depression;
 }

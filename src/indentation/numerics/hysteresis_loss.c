@@ -1,7 +1,7 @@
-/* Fit of a curve that loses work without a known spectrum. The lost work determines the exponent
- * of a power-law relaxation, and the fit is repeated with it. Other spectra of equal loss have a
- * modulus at 1/(loading time) that is a few per cent larger. The result uses their mean, and the
- * error includes their scatter.
+/* Fit of a curve that loses work without a known spectrum. The hysteresis loss determines the
+ * exponent of a power-law relaxation, and the fit is repeated with it. Other spectra of equal loss
+ * have a modulus at 1/(loading time) that is a few per cent larger. The result uses their mean, and
+ * the error includes their scatter.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */

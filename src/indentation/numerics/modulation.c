@@ -246,7 +246,7 @@ wt_status wt_modulation_moduli(const wt_modulation *m, const wt_modulation *air,
                                wt_error *err)
 {
     if (m == NULL || moduli == NULL || !m->found || !(spring_constant > 0) || !(slope > 0))
-        return wt_fail(err, WT_E_ARG, "no modulation, lever or contact");
+        return wt_fail(err, WT_E_ARG, "no modulation, cantilever or contact");
     const double complex z = m->amplitude[0] + unit * m->amplitude[1],
                          f = m->amplitude[2] + unit * m->amplitude[3];
     double complex drag = 0;

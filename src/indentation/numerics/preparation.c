@@ -418,16 +418,16 @@ static wt_curve_verdict advance_verdict(const curve_input *input, char reason[16
     if (advance > -1.0 && advance < -rigid_share) { /* below -1 the force has the wrong sign */
         curve_set_reason(
             reason,
-            "the lever bends %.3g times as far as the piezo moves: deflection sensitivity, "
+            "the cantilever bends %.3g times as far as the piezo moves: deflection sensitivity, "
             "spring constant or a unit is wrong",
             1.0 / (1.0 + advance));
         return WT_CURVE_RIGID;
     }
     if (fabs(advance) < rigid_share) {
-        curve_set_reason(
-            reason,
-            "the tip advances %.1f %% of the bending of the lever, %g %% needed to tell a modulus",
-            100.0 * advance, 100.0 * rigid_share);
+        curve_set_reason(reason,
+                         "the tip advances %.1f %% of the bending of the cantilever, %g %% needed "
+                         "to tell a modulus",
+                         100.0 * advance, 100.0 * rigid_share);
         return WT_CURVE_RIGID;
     }
     return WT_CURVE_ACCEPTED;

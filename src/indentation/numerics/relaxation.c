@@ -367,7 +367,7 @@ static void set_dwell_moduli(relaxation_task *t, const double *p, const gsl_matr
     }
 }
 
-/* Sets contact point and baseline, and the shared error of the indentation. */
+/* Sets contact point and baseline, and the systematic error of the indentation. */
 static void set_contact_estimates(const relaxation_task *t, const double *p,
                                   const gsl_matrix *covariance, wt_dwell *to)
 {

@@ -29,9 +29,9 @@ typedef struct constant_pair {
 } constant_pair;
 
 /* Common pair of all cases: the weighted mean, its covariance, and chi-squared with 2 (n - 1)
- * degrees of freedom and its p value. Two assumptions are compared: independent cases, and shared
- * errors according to `common`, an [n n] array that is true if i and k share the errors of
- * `inputs`. Chi-squared is the smaller result and the covariance the larger. */
+ * degrees of freedom and its p value. Two assumptions are compared: independent cases, and
+ * systematic errors according to `common`, an [n n] array that is true if i and k share the errors
+ * of `inputs`. Chi-squared is the smaller result and the covariance the larger. */
 typedef struct shared_pair {
     double energy, wear;
     pair_covariance covariance;

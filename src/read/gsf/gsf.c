@@ -108,8 +108,7 @@ static wt_status read_gsf_header(wt_input *input, gsf_header *h, wt_error *err)
     }
     h->data = ((size_t)(end - text) / 4 + 1) * 4;
     if (h->n_columns == 0 || h->n_rows == 0)
-        return fail_gsf_header(err, "the size of the image is missing",
-                               "XRes and YRes, whole numbers");
+        return fail_gsf_header(err, "the size of the image is missing", "XRes and YRes, integers");
     return WT_OK;
 }
 

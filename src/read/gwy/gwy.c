@@ -349,7 +349,7 @@ static wt_status add_gwy_fields(image_list *list, gwy_bytes container, bool mask
         gwy_bytes field;
         if (!masks_are_missing && c.type == 'o' && parse_channel_key(c.key, "/mask", &number))
             wt_log_add(log, WT_NOTE, file, c.key,
-                       "a mask, which may mark anything, is not taken for missing heights");
+                       "a mask, which may mark anything, is not treated as missing heights");
         if (list->n < MAX_FIELDS && c.type == 'o' && gwy_is_graph(c.key))
             status = add_graph(list, &c, file, log, err);
         if (c.type != 'o' || !parse_channel_key(c.key, "/data", &number) ||

@@ -4,6 +4,7 @@
  */
 #include "read/ibw/ibw.h"
 
+#include "core/table/registry.h"
 #include "read/images.h"
 #include "read/metadata.h"
 
@@ -95,7 +96,7 @@ static wt_status describe_curve(wt_input *input, const wt_read_options *options,
     if (status != WT_OK)
         return status;
     const force_metadata read = ibw_metadata(&file);
-    metadata_add(metadata, "curves", "", "one for each file", "1");
+    metadata_add(metadata, fact_item_text(FACT_CURVES), "", "one for each file", "1");
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (ibw_note_text(&file, keys[i], text))
             metadata_add(metadata, keys[i], "", "note", "%s", text);

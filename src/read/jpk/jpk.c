@@ -1,6 +1,7 @@
 /* Reads JPK force curves, maps and quantitative imaging (ZIP): descriptor, detection, and the
  * metadata for `info`. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/jpk/jpk.h"
+#include "core/table/registry.h"
 #include "read/bytes/samples.h"
 #include "read/metadata.h"
 
@@ -317,7 +318,7 @@ static void add_identity(const jpk_file *file, table_writer *metadata)
 
 static void add_curves(const jpk_file *file, table_writer *metadata)
 {
-    metadata_add(metadata, "curves", "", "entries", "%zu", file->n_curves);
+    metadata_add(metadata, fact_item_text(FACT_CURVES), "", "entries", "%zu", file->n_curves);
     if (file->n_expected > 0)
         metadata_add(metadata, "curves planned", "", "indexes", "%zu", file->n_expected);
     if (file->columns > 0)
@@ -367,7 +368,7 @@ static void describe_calibration(const jpk_segment *segment, const wt_read_optio
     force_metadata read;
     jpk_segment_metadata(segment, &read);
     if (deflection == NULL || !deflection->understood)
-        metadata_add(metadata, "missing", "", "", "no channel vDeflection");
+        metadata_add(metadata, fact_item_text(FACT_MISSING), "", "", "no channel vDeflection");
     else
         force_describe_calibration(&read, options, "conversion to force", "conversion to distance",
                                    metadata);

@@ -2,6 +2,7 @@
  * convert` writes. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/force_map.h"
 #include "core/store/store.h"
+#include "core/table/registry.h"
 #include "read/bytes/input.h"
 #include "read/force_assembler.h"
 #include "read/reader.h"
@@ -151,7 +152,8 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
     if (status != WT_OK)
         return status;
     source.n_channels = map_channels(source.map, &source.channels);
-    metadata_add(metadata, "curves", "", MAP_SAMPLES_GROUP, "%zu", map_n_curves(source.map));
+    metadata_add(metadata, fact_item_text(FACT_CURVES), "", MAP_SAMPLES_GROUP, "%zu",
+                 map_n_curves(source.map));
     wt_force_curve_reset(&curve);
     status = map_next_curve(source.map, &curve, &segments, &n, metadata->err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {

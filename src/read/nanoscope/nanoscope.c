@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/nanoscope/nanoscope.h"
 #include "core/base/number.h"
+#include "core/table/registry.h"
 #include "read/bytes/bytes.h"
 #include "read/images.h"
 #include "read/metadata.h"
@@ -302,7 +303,7 @@ static void add_curves(const nanoscope_file *f, const wt_read_options *options,
                        table_writer *metadata)
 {
     const force_metadata read = nanoscope_metadata(f, 0);
-    metadata_add(metadata, "curves", "", "Data length", "%zu", f->n_curves);
+    metadata_add(metadata, fact_item_text(FACT_CURVES), "", "Data length", "%zu", f->n_curves);
     if (f->n_curves < f->n_planned)
         metadata_add(metadata, "curves planned", "", "Data length", "%zu", f->n_planned);
     if (f->columns > 0)

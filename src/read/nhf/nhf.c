@@ -354,7 +354,7 @@ static wt_status read_curve_sizes(const nhf_file *f, hid_t group, const char *so
     if (s->sizes == NULL || !(sum <= (double)n))
         return fail_measurement(place,
                                 "the numbers of samples of the curves contradict the channel",
-                                "whole numbers that add up to the length of the channel", err);
+                                "integers that add up to the length of the channel", err);
     return WT_OK;
 }
 

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/nid/nid.h"
 #include "core/base/number.h"
+#include "core/table/registry.h"
 #include "read/bytes/samples.h"
 #include "read/metadata.h"
 
@@ -260,7 +261,7 @@ static wt_status read_line_length(const nid_file *file, const nid_channel *c, si
         return WT_OK;
     wt_fail(err, WT_E_CORRUPT, "length of a line is missing or not understood");
     wt_error_place(err, "[%s] %s", c->section, key);
-    wt_error_expected(err, "a whole number up to %zu", c->points);
+    wt_error_expected(err, "an integer up to %zu", c->points);
     const char *found = nid_get(&file->header, c->section, key);
     if (known)
         wt_error_found(err, "%zu", *n);
@@ -440,8 +441,8 @@ static void describe_tune(const nid_file *file, table_writer *metadata)
     const nid_channel *c = nid_find_tune(file);
     if (c == NULL)
         return;
-    metadata_add(metadata, "thermal noise", "", c->section, "%zu points up to %s Hz", c->points,
-                 nid_get(&file->header, c->section, "Dim0Range"));
+    metadata_add(metadata, fact_item_text(FACT_NOISE), "", c->section, "%zu points up to %s Hz",
+                 c->points, nid_get(&file->header, c->section, "Dim0Range"));
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         const char *text = nid_get(&file->header, "DataSet-Info", known[i].key);
         if (text != NULL && *text != '\0')
@@ -462,10 +463,11 @@ static void describe_phase(const nid_phase *phase, table_writer *metadata)
     if (force_find_signal(read, WT_Q_FORCE) == NULL &&
         force_find_signal(read, WT_Q_DEFLECTION) == NULL &&
         force_find_signal(read, WT_Q_DEFLECTION_VOLTAGE) == NULL)
-        metadata_add(metadata, "missing", "", phase->group, "no channel Deflection in m, N or V");
+        metadata_add(metadata, fact_item_text(FACT_MISSING), "", phase->group,
+                     "no channel Deflection in m, N or V");
     if (force_find_signal(read, WT_Q_HEIGHT) == NULL &&
         force_find_signal(read, WT_Q_MEASURED_HEIGHT) == NULL)
-        metadata_add(metadata, "missing", "", phase->group,
+        metadata_add(metadata, fact_item_text(FACT_MISSING), "", phase->group,
                      "no channel Z-Axis or Z-Axis Sensor in m");
 }
 
@@ -473,7 +475,7 @@ static void add_curves(const nid_spectroscopy *s, const wt_read_options *options
                        table_writer *metadata)
 {
     const force_metadata read = {.cantilever = s->cantilever};
-    metadata_add(metadata, "curves", "", "Lines", "%zu", s->n_curves);
+    metadata_add(metadata, fact_item_text(FACT_CURVES), "", "Lines", "%zu", s->n_curves);
     if (s->columns > 0)
         metadata_add(metadata, "grid", "", "SpecMapTable", "%ld x %ld, back and forth", s->columns,
                      s->rows);

@@ -168,7 +168,7 @@ static wt_status read_channel_header(const nid_header *header, nid_channel *c, w
     if (isnan(c->minimum) || isnan(c->range))
         return fail_key(header, s, isnan(c->minimum) ? "Dim2Min" : "Dim2Range", "a number", err);
     if (!nid_integer(header, s, "Version", 1000, &c->version))
-        return fail_key(header, s, "Version", "a whole number", err);
+        return fail_key(header, s, "Version", "an integer", err);
     c->name = text_or_empty(nid_get(header, s, "Dim2Name"));
     c->unit = text_or_empty(nid_get(header, s, "Dim2Unit"));
     wt_status status = expect_value(header, s, "SaveMode", "Binary", err);

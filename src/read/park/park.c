@@ -6,6 +6,7 @@
  *
  * The format is known from one measured file of seven curves. SPDX-License-Identifier:
  * GPL-3.0-or-later */
+#include "core/table/registry.h"
 #include "read/bytes/bytes.h"
 #include "read/bytes/samples.h"
 #include "read/force_assembler.h"
@@ -548,7 +549,7 @@ static wt_status describe_curves(wt_input *input, const wt_read_options *options
         window_close(&file.window);
         return status;
     }
-    metadata_add(metadata, "curves", "", "points", "%zu", file.n_curves);
+    metadata_add(metadata, fact_item_text(FACT_CURVES), "", "points", "%zu", file.n_curves);
     for (size_t half = 0; half < 2; half++) {
         const force_metadata read = half_metadata(&file, half);
         metadata_add(metadata, half == 0 ? "segment 0" : "segment 1", "", "Time Stamp",

@@ -5,6 +5,7 @@
 #include "core/base/number.h"
 #include "read/force_assembler.h"
 
+#include "core/table/registry.h"
 #include "read/images.h"
 #include "read/metadata.h"
 
@@ -53,7 +54,7 @@ static void describe_column(const text_table *t, const text_column *c, table_wri
     const char *source = place.text;
     const wt_quantity q = c->rule->quantity;
     const char *id = wt_quantity_id(q);
-    snprintf(item, sizeof item, "column \"%s\"", c->name);
+    snprintf(item, sizeof item, "%s \"%s\"", fact_item_text(FACT_COLUMN), c->name);
     switch (c->problem) {
     case COLUMN_GOOD:
         metadata_add(metadata, item, c->unit, source, "%s, %s -> %s%s%s", id,
@@ -64,6 +65,7 @@ static void describe_column(const text_table *t, const text_column *c, table_wri
     case COLUMN_NO_UNIT:
         metadata_add(metadata, item, c->unit, source,
                      "%s, but its unit is not said: give --units \"%s=...\"", id, c->name);
+        facts_put_text(metadata, FACTS_OPTIONS, "units");
         break;
     case COLUMN_BAD_UNIT:
         metadata_add(metadata, item, c->unit, source, "unit \"%s\" does not fit %s", c->unit, id);
@@ -86,7 +88,7 @@ static void describe_table(const text_file *file, size_t of_file, size_t number,
 {
     const text_table *const t = &file->tables[of_file];
     char item[32];
-    snprintf(item, sizeof item, "table %zu", number + 1);
+    snprintf(item, sizeof item, "%s %zu", fact_item_text(FACT_TABLE), number + 1);
     metadata_add(metadata, item, "", format_line_position(t->names_line).text,
                  "%s%s%zu rows, separator %s, decimal %s", t->title,
                  t->title[0] != '\0' ? ": " : "", t->n_rows, separator_name(t->separator),
@@ -109,7 +111,8 @@ static void describe_problem(wt_error *problem, table_writer *metadata)
     memcpy(place, problem->place, sizeof place);
     problem->file[0] = problem->place[0] = '\0'; /* shown in other columns */
     wt_error_format(problem, text, sizeof text);
-    metadata_add(metadata, "not readable as it is", "", place, "%s", text);
+    metadata_add(metadata, fact_item_text(FACT_UNREADABLE), "", place, "%s", text);
+    facts_put_text(metadata, FACTS_OPTIONS, problem->options);
 }
 
 static void describe_sweep(const text_file *file, const wt_read_options *options, wt_log *log,
@@ -121,13 +124,13 @@ static void describe_sweep(const text_file *file, const wt_read_options *options
         describe_problem(&problem, metadata);
         return;
     }
-    metadata_add(metadata, "deformation", "", "", "%s",
+    metadata_add(metadata, fact_item_text(FACT_DEFORMATION), "", "", "%s",
                  sweep.deformation == WT_TENSION ? "tension (E)" : "shear (G)");
     const bool step = sweep.loading != WT_OSCILLATION;
     if (step)
         metadata_add(metadata, "loading", "", "", "%s",
                      sweep.loading == WT_CREEP ? "creep" : "stress relaxation");
-    metadata_add(metadata, "isotherms", "", "", "%zu", sweep.n_isotherms);
+    metadata_add(metadata, fact_item_text(FACT_ISOTHERMS), "", "", "%zu", sweep.n_isotherms);
     for (size_t i = 0; i < sweep.n_isotherms; i++) {
         const wt_isotherm *s = &sweep.isotherms[i];
         const double first = s->angular_frequency[0], last = s->angular_frequency[s->n - 1];
@@ -136,7 +139,7 @@ static void describe_sweep(const text_file *file, const wt_read_options *options
                      step ? 1 / first : last, step ? "s" : "rad/s");
     }
     if (sweep.n_ramps > 0)
-        metadata_add(metadata, "temperature sweeps", "", "", "%zu", sweep.n_ramps);
+        metadata_add(metadata, fact_item_text(FACT_RAMPS), "", "", "%zu", sweep.n_ramps);
     for (size_t i = 0; i < sweep.n_ramps; i++) {
         const wt_ramp *r = &sweep.ramps[i];
         metadata_add(metadata, "temperature sweep", "", r->source,
@@ -145,7 +148,8 @@ static void describe_sweep(const text_file *file, const wt_read_options *options
                      r->temperature[r->n - 1] - WT_ZERO_CELSIUS);
     }
     if (sweep.n_strain_sweeps > 0)
-        metadata_add(metadata, "strain sweeps", "", "", "%zu", sweep.n_strain_sweeps);
+        metadata_add(metadata, fact_item_text(FACT_STRAIN_SWEEPS), "", "", "%zu",
+                     sweep.n_strain_sweeps);
     for (size_t i = 0; i < sweep.n_strain_sweeps; i++) {
         const wt_strain_sweep *r = &sweep.strain_sweeps[i];
         char at[32] = "temperature not known";
@@ -181,7 +185,7 @@ static void describe_curves(const describe_context *r, table_writer *metadata)
         describe_problem(&problem, metadata);
         return;
     }
-    metadata_add(metadata, "curves", "", "", "%zu",
+    metadata_add(metadata, fact_item_text(FACT_CURVES), "", "", "%zu",
                  r->piece == SIZE_MAX ? wt_force_count(source) : r->n_curves);
     for (size_t i = 0; i < TABLES_SHOWN; i++) {
         const wt_status got = wt_force_next(source, &curve, &problem);
@@ -192,8 +196,8 @@ static void describe_curves(const describe_context *r, table_writer *metadata)
         describe_curve(&curve, metadata);
         if (i > 0)
             continue;
-        metadata_add_number(metadata, "spring constant", curve.cantilever.spring_constant, "N/m",
-                            "");
+        metadata_add_number(metadata, fact_item_text(FACT_SPRING_CONSTANT),
+                            curve.cantilever.spring_constant, "N/m", "");
         metadata_add_number(metadata, "sensitivity", curve.cantilever.sensitivity, "m/V", "");
     }
     wt_force_curve_clear(&curve);
@@ -226,7 +230,8 @@ static void describe_spectrum(const file_reader *self, wt_input *input,
         describe_problem(&problem, metadata);
         return;
     }
-    metadata_add(metadata, "power spectrum", "", "", "%s, %zu points, %.4g to %.4g rad/m",
+    metadata_add(metadata, fact_item_text(FACT_SPECTRUM), "", "",
+                 "%s, %zu points, %.4g to %.4g rad/m",
                  spectrum.kind == WT_SPECTRUM_2D ? "two-dimensional" : "one-dimensional",
                  spectrum.n, spectrum.wavenumber[0], spectrum.wavenumber[spectrum.n - 1]);
     wt_power_spectrum_clear(&spectrum);
@@ -282,9 +287,9 @@ static void describe_noise(const file_reader *self, wt_input *input, const wt_re
     wt_noise_spectrum noise = {.n = 0};
     wt_error problem = WT_ERROR_INIT;
     if (text_read_noise(self, input, options, NULL, &noise, &problem) == WT_OK)
-        metadata_add(metadata, "thermal noise", "", "", "%zu points, %.4g to %.4g Hz, of %s",
-                     noise.n, noise.frequency[0], noise.frequency[noise.n - 1],
-                     noise.volts ? "the detector" : "the deflection");
+        metadata_add(metadata, fact_item_text(FACT_NOISE), "", "",
+                     "%zu points, %.4g to %.4g Hz, of %s", noise.n, noise.frequency[0],
+                     noise.frequency[noise.n - 1], noise.volts ? "the detector" : "the deflection");
     else
         describe_problem(&problem, metadata);
     wt_noise_spectrum_clear(&noise);
@@ -296,8 +301,9 @@ static void describe_record(const file_reader *self, wt_input *input,
     wt_record record = {.n = 0};
     wt_error problem = WT_ERROR_INIT;
     if (text_read_record(self, input, options, NULL, &record, &problem) == WT_OK)
-        metadata_add(metadata, "record of friction", "", "", "%zu samples in %zu step%s", record.n,
-                     record.step[record.n - 1] + 1, record.step[record.n - 1] == 0 ? "" : "s");
+        metadata_add(metadata, fact_item_text(FACT_RECORD), "", "", "%zu samples in %zu step%s",
+                     record.n, record.step[record.n - 1] + 1,
+                     record.step[record.n - 1] == 0 ? "" : "s");
     else
         describe_problem(&problem, metadata);
     wt_record_clear(&record);

@@ -95,6 +95,7 @@ static wt_status check_unit_options(const text_parts *p, wt_error *err)
             wt_fail(err, WT_E_ARG, "a unit is not given as NAME=UNIT");
             wt_error_found(err, "\"%s\"", unit);
             wt_error_advice(err, "for example --units \"E'=MPa\"");
+            wt_error_options(err, "units");
             return WT_E_ARG;
         }
         if (p->options.unit_usage != NULL)

@@ -351,6 +351,7 @@ static wt_status check_deformation(const sweep_builder *b)
                                                                    : b->c.loss;
         wt_error_found(b->err, "column \"%s\"", column->name);
         wt_error_advice(b->err, "if the file is wrong, say what its columns are with --columns");
+        wt_error_options(b->err, "columns");
         return WT_E_UNIT;
     }
     return WT_OK;
@@ -478,6 +479,7 @@ wt_status text_build_sweep(const text_file *file, const wt_read_options *options
         wt_error_place(err, "table at line %zu", lacking->names_line);
         wt_error_expected(err, "a column of frequency");
         wt_error_advice(err, "give the one of all points with --frequency 10Hz");
+        wt_error_options(err, "frequency");
     }
     if (status == WT_OK && count_sweeps(&made) == 0)
         status = text_fail_empty(file, "sweep of frequency, temperature or strain", err);

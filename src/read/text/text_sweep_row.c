@@ -220,6 +220,7 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
         wt_error_advice(b->err, "give it with --temperature 25degC, or say where it stands in the "
                                 "names of the sheets or files with --temperature-in-name "
                                 "\"*_#C*\"");
+        wt_error_options(b->err, "temperature temperature-in-name");
         return WT_E_MISSING;
     }
     if (*temperature <= 0) {

@@ -123,6 +123,7 @@ static wt_status fail_missing_units(const text_table *table, wt_quantity_set lac
             n > 1 ? "s" : "", names);
     wt_error_advice(err, "give %s with %s, as the instrument exports it (%s)",
                     n > 1 ? "them" : "it", options, likely);
+    wt_error_options(err, "units");
     return WT_E_UNIT;
 }
 
@@ -145,6 +146,7 @@ wt_status text_table_problem(const text_table *table, wt_quantity_set quantities
             wt_error_found(err, "\"%s\"", c->unit);
             wt_error_advice(err, "if the file is wrong, give it with --units \"%s=UNIT\" (%s?)",
                             c->name, likely_units(q));
+            wt_error_options(err, "units");
             break;
         default:
             status = WT_E_MISSING;
@@ -153,6 +155,7 @@ wt_status text_table_problem(const text_table *table, wt_quantity_set quantities
                               c->rule->required_name);
             wt_error_advice(err, "export that column too, or say it with --deformation tension or "
                                  "--deformation shear");
+            wt_error_options(err, "deformation");
             break;
         }
         wt_error_place(err, "line %zu, column %zu", table->names_line, c->cell + 1);

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/memory.h"
 #include "core/store/store.h"
+#include "core/table/registry.h"
 #include "read/bytes/input.h"
 #include "read/metadata.h"
 #include "read/text/text.h"
@@ -114,7 +115,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
     for (size_t i = 0; i < wt_result_n_tables(result); i++) {
         const wt_table *table = wt_result_table(result, i);
         char item[128];
-        snprintf(item, sizeof item, "table %s", wt_table_name(table));
+        snprintf(item, sizeof item, "%s %s", fact_item_text(FACT_TABLE), wt_table_name(table));
         metadata_add(metadata, item, "", "", "%zu rows", wt_table_n_rows(table));
         measured = measured || is_measurement(result, wt_table_name(table));
     }

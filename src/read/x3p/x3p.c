@@ -160,7 +160,7 @@ static wt_status read_matrix(const xmlNode *record, x3p_document *to, wt_error *
     for (size_t i = 0; i < 3; i++) {
         to->size[i] = read_positive_integer(find_child(matrix, names[i]));
         if (to->size[i] == 0)
-            return fail_document(names[i], "a whole number from 1 on", err);
+            return fail_document(names[i], "an integer from 1 on", err);
     }
     copy_element_text(find_child(link, "PointDataLink"), to->points, sizeof to->points);
     copy_element_text(find_child(link, "ValidPointsLink"), to->valid, sizeof to->valid);

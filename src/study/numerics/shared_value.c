@@ -1,5 +1,5 @@
 /* Common value of several independent measurements. The weights use the errors alone, because
- * shared errors are known too poorly for weights. All results hold with zero and with full
+ * systematic errors are known too poorly for weights. All results hold with zero and with full
  * covariance. Errors with few degrees of freedom widen the interval (Meier, Biometrics 9 (1953) 59)
  * and enter the test (Welch, Biometrika 38 (1951) 330). Otherwise the test is chi-squared with the
  * inverse covariance.
