@@ -1,7 +1,7 @@
 /* Selection of the height image in a file, and adjacent positions on it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/spot.h"
-#include "job/inputs.h"
+#include "job/height_input.h"
 
 #include <math.h>
 

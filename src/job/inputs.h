@@ -61,12 +61,6 @@ wt_status flow_record_input(const wt_job *work, wt_input *input, const flow_file
 /* Returns the read options of a file: those of its set, with the detected format. */
 wt_read_options flow_read_options(const flow_file *file);
 
-/* Reads the first image with heights in metres over an area in metres, or a profile with
- * `profiles`. Its name contains `name`, unless that is NULL. WT_E_NOT_FOUND without such an
- * image. */
-wt_status flow_heights_read(flow_file *file, const char *name, bool profiles, const char *role,
-                            const wt_job *work, wt_image *image, wt_error *err) WT_NODISCARD;
-
 /* Adds the number of files and advice to an error of files that lack the necessary data. */
 void flow_error_add_files(const flow_files *files, size_t n_failed, wt_error *err);
 
