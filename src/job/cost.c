@@ -88,10 +88,10 @@ static cost_row *add_cost_row(wt_cost *cost, const char *stage, const char *beca
 
 void cost_begin(wt_cost *cost, const char *stage, const char *because)
 {
-    if (cost == NULL)
-        return;
     cost_end(cost);
-    cost_row *const row = add_cost_row(cost, stage, because);
+    cost_row *row = cost != NULL ? add_cost_row(cost, stage, because) : NULL;
+    if (row == NULL)
+        return;
     cost->open = row->runs = true;
     row->wall = cost_clock(cost);
     row->cpu = cost->timed ? wt_time_cpu() : (double)NAN;
@@ -136,10 +136,12 @@ double cost_clock(const wt_cost *cost)
 
 void cost_set_part(wt_cost *cost, const char *words, double seconds)
 {
-    if (cost == NULL)
-        return;
-    cost->parts = array_grow(cost->parts, cost->n_parts, sizeof *cost->parts);
-    cost->parts[cost->n_parts++] = (cost_part_row){words, seconds};
+    cost_part_row *parts =
+        cost != NULL ? array_grow(cost->parts, cost->n_parts, sizeof *parts) : NULL;
+    if (parts == NULL)
+        return; /* reported like a part without times */
+    cost->parts = parts;
+    parts[cost->n_parts++] = (cost_part_row){words, seconds};
 }
 
 double cost_part_seconds(const wt_cost *cost, const char *words)
