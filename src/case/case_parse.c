@@ -4,7 +4,7 @@
 #include "core/base/array.h"
 #include "core/base/memory.h"
 #include "core/base/param.h"
-#include "core/base/removed_names.h"
+#include "core/base/spell_suggest.h"
 
 #include <libxml/parser.h>
 #include <libxml/xmlschemas.h>

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "cmd/cmd.h"
-#include "core/base/removed_names.h"
 #include "core/base/spell_suggest.h"
 
 enum { MAX_OPTIONS = 160, FIRST_CODE = 256, NAME_SIZE = 48, TEXT_SIZE = 512 };

@@ -1,7 +1,7 @@
 /* The job that compares materials: common ranges, moduli and ratios.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/material_comparison.h"
-#include "core/base/equivalence_margin.h"
+#include "core/base/shared_params.h"
 #include "job/inputs.h"
 
 #include "core/base/clocale.h"

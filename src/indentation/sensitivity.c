@@ -4,9 +4,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/param.h"
 #include "core/math/students_t.h"
+#include "job/conditioning.h"
 #include "job/cost.h"
 #include "job/inputs.h"
-#include "job/outliers.h"
 #include "weartrack/indentation.h"
 
 #include "core/base/array.h"

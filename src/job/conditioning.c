@@ -1,4 +1,5 @@
-/* Plausibility of measured values, and agreement of isotherms of one temperature.
+/* Plausibility of measured values, agreement of isotherms of one temperature, and conditioning of
+ * friction records: outliers, load near zero, zero of the friction force.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/conditioning.h"
 #include "core/base/array.h"
@@ -6,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* What rubber, plastics and their instruments can have, with a decade to spare on either side, and
@@ -260,4 +262,21 @@ void condition_record(wt_record *record, const char *file, wt_log *log)
         if (force != NULL)
             subtract_zero(force, load, record->n, file, log);
     }
+}
+
+/* Standard deviation of a normal distribution over its median and its mean absolute deviation. */
+static const double deviations_per_median = 1.4826, deviations_per_mean = 1.253314137315500;
+
+typical_values flow_typical_values(double *values, size_t n)
+{
+    const double middle = numbers_median(values, n);
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        values[i] = fabs(values[i] - middle);
+        sum += values[i];
+    }
+    const double distance = numbers_median(values, n);
+    return (typical_values){middle, scatter_deviations *
+                                        (distance > 0 ? deviations_per_median * distance
+                                                      : deviations_per_mean * sum / (double)n)};
 }

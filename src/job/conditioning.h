@@ -16,4 +16,13 @@ void check_sweep(const wt_sweep *sweep, wt_log *log);
 /* Warns of a friction coefficient that rubber does not have. */
 void check_friction_coefficient(double typical, const char *file, wt_log *log);
 
+typedef struct typical_values {
+    double middle, most; /* values further from the middle than `most` are outliers */
+} typical_values;
+
+/* Computes the median and five standard deviations of n > 0 values, which are changed. The standard
+ * deviation follows from the median absolute deviation. If more than half of the values equal the
+ * median, it follows from the mean absolute deviation (Iglewicz and Hoaglin 1993). */
+typical_values flow_typical_values(double *values, size_t n);
+
 #endif

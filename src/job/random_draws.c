@@ -33,9 +33,7 @@ double flow_draw_value(wt_estimate e, uint64_t seed, size_t replicate, flow_draw
 
 double flow_draw_positive(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what)
 {
-    if (!(e.standard_error > 0) || !(e.value > 0))
-        return e.value;
-    return e.value * exp(e.standard_error / e.value * flow_draw_normal(seed, replicate, what));
+    return flow_draw_positive_t(e, 0, seed, replicate, what);
 }
 
 wt_estimate flow_stated_estimate(wt_estimate input)
@@ -48,10 +46,10 @@ wt_estimate flow_stated_estimate(wt_estimate input)
 double flow_draw_positive_t(wt_estimate e, double df, uint64_t seed, size_t replicate,
                             flow_draw what)
 {
+    if (!(e.standard_error > 0) || !(e.value > 0))
+        return e.value;
     const double z = flow_draw_normal(seed, replicate, what);
-    if (!(df > 0) || !(e.standard_error > 0) || !(e.value > 0))
-        return flow_draw_positive(e, seed, replicate, what);
-    return e.value * exp(e.standard_error / e.value * students_t_from_normal(z, df));
+    return e.value * exp(e.standard_error / e.value * (df > 0 ? students_t_from_normal(z, df) : z));
 }
 
 double flow_standard_deviation(const double *x, size_t n, size_t stride)

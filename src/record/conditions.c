@@ -52,11 +52,6 @@ void wear_rates_close_run(wear_rates *rates)
     rates->run = (record_group){.n = 0};
 }
 
-wt_estimate wear_rates_mean(const wear_rates *rates)
-{
-    return record_group_mean(&rates->all, "m^2/N");
-}
-
 double wear_rates_df(const wear_rates *rates)
 {
     return rates->all.n == 1 ? rates->freedom : record_group_df(&rates->all);
@@ -92,30 +87,24 @@ static double min_change(condition which, double value)
     return which == TEMPERATURE ? same_temperature : same_ratio * fabs(value);
 }
 
-typedef struct running_moments {
-    double n, mean, squares;
-} running_moments;
-
-static void moments_add_value(running_moments *s, double value)
+/* Unknown values are skipped. */
+static void add_condition(record_group *s, const wt_cycle *c, condition which)
 {
-    if (isnan(value))
-        return;
-    s->n++;
-    const double off = value - s->mean;
-    s->mean += off / s->n;
-    s->squares += off * (value - s->mean);
+    const double value = condition_value(c, which);
+    if (!isnan(value))
+        record_group_add(s, (wt_estimate){.value = value});
 }
 
-static running_moments condition_moments(const wt_cycle *cycles, size_t n, condition which)
+static record_group condition_moments(const wt_cycle *cycles, size_t n, condition which)
 {
-    running_moments s = {0};
+    record_group s = {0};
     for (size_t i = 0; i < n; i++)
-        moments_add_value(&s, condition_value(&cycles[i], which));
+        add_condition(&s, &cycles[i], which);
     return s;
 }
 
 /* True if the mean of the next cycles differs from the mean before. */
-static bool has_changed(const running_moments *before, const running_moments *next, condition which)
+static bool has_changed(const record_group *before, const record_group *next, condition which)
 {
     const double change = fabs(next->mean - before->mean);
     if (!(before->n > 0) || !(next->n > 0) || change <= min_change(which, before->mean))
@@ -143,7 +132,7 @@ static bool is_at_rest(const wt_cycle *c)
 
 size_t conditions_step_length(const wt_cycle *cycles, size_t n)
 {
-    running_moments before[CONDITIONS] = {{0}};
+    record_group before[CONDITIONS] = {{0}};
     size_t end = 1;
     while (end < n && cycles[end].step == cycles[0].step)
         end++;
@@ -154,19 +143,19 @@ size_t conditions_step_length(const wt_cycle *cycles, size_t n)
     for (size_t i = 0; i < end; i++) {
         const size_t next = i + LASTING < end ? LASTING : end - i;
         for (condition c = VELOCITY; c < CONDITIONS && i >= FEWEST && next >= FEWEST; c++) {
-            const running_moments ahead = condition_moments(cycles + i, next, c);
+            const record_group ahead = condition_moments(cycles + i, next, c);
             if (has_changed(&before[c], &ahead, c))
                 return find_change(cycles, i, end, c, before[c].mean);
         }
         for (condition c = VELOCITY; c < CONDITIONS; c++)
-            moments_add_value(&before[c], condition_value(&cycles[i], c));
+            add_condition(&before[c], &cycles[i], c);
     }
     return end;
 }
 
 static double mean_condition(const wt_cycle *cycles, size_t n, condition which)
 {
-    const running_moments s = condition_moments(cycles, n, which);
+    const record_group s = condition_moments(cycles, n, which);
     return s.n > 0 ? s.mean : (double)NAN;
 }
 

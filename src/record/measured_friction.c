@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/measured_friction.h"
+#include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "friction/sliding_contact.h"
 #include "record/numerics/running_in_curve.h"
@@ -47,16 +48,12 @@ static int compare_values(double a, double b)
 static int compare_conditions(const void *x, const void *y)
 {
     const measured_step *a = x, *b = y;
+    const double of_a[] = {a->temperature, a->pressure, a->velocity, a->friction, a->error},
+                 of_b[] = {b->temperature, b->pressure, b->velocity, b->friction, b->error};
     int order = is_step_used(b) - is_step_used(a);
-    if (order == 0)
-        order = compare_values(a->temperature, b->temperature);
-    if (order == 0)
-        order = compare_values(a->pressure, b->pressure);
-    if (order == 0)
-        order = compare_values(a->velocity, b->velocity);
-    if (order == 0)
-        order = compare_values(a->friction, b->friction);
-    return order != 0 ? order : compare_values(a->error, b->error);
+    for (size_t i = 0; order == 0 && i < COUNT_OF(of_a); i++)
+        order = compare_values(of_a[i], of_b[i]);
+    return order;
 }
 
 /* Replaces values that merely fluctuate by the first of them, so that the steps sort by

@@ -17,20 +17,11 @@
  * choices. Friction is a smooth function of ln q1. */
 enum { EACH_WAY = 20, TRIED = 2 * EACH_WAY + 1 };
 static const double tenth = 0.1;
-/* [m] no surface has waves below the size of a molecule */
-static const double shortest_wave = 1e-9;
 
 typedef struct cutoff_scan {
     size_t n;
     double log_q1[TRIED], likelihood[TRIED];
 } cutoff_scan;
-
-static double highest_cutoff(const case_variant *s)
-{
-    const wt_power_spectrum *const p = &s->surface.spectrum;
-    const double known = s->surface.self_affine ? (double)INFINITY : p->wavenumber[p->n - 1];
-    return fmin(2 * M_PI / shortest_wave, known);
-}
 
 /* ln of the likelihood of the record for another q1, with the same covariance. value: [n]
  * scratch. */
@@ -41,9 +32,7 @@ static wt_status cutoff_likelihood(const validation *v, double q1, double *value
     case_variant s = v->used;
     prediction p = {.part = NULL};
     s.surface.q1 = q1;
-    s.sliding.rubber = s.given;
-    s.sliding.surface = &s.surface;
-    s.sliding.strain_softening = s.has_softness ? &s.strain_softening : NULL;
+    case_variant_bind(&s);
     wt_status status = predict_friction(&s.sliding, v->layered ? v->layer_observation : NULL,
                                         &v->steps, v->work, false, &p, err);
     const ratio_inputs of = {&p, &v->steps, p.shear, v->layered};
@@ -63,7 +52,7 @@ static wt_status scan_cutoffs(const validation *v, cutoff_scan *s, wt_error *err
     const wt_surface *const surface = &v->used.surface;
     const double used = log10(surface->q1),
                  low = log10(fmax(2 * surface->q0, surface->self_affine ? surface->qr : 0)),
-                 high = log10(highest_cutoff(&v->used));
+                 high = log10(case_variant_highest_wavenumber(&v->used));
     double *const value = wt_alloc(v->steps.n, sizeof *value);
     wt_status status = WT_OK;
     s->n = 0;
@@ -72,7 +61,8 @@ static wt_status scan_cutoffs(const validation *v, cutoff_scan *s, wt_error *err
         if (i != 0 && (at < low || at > high))
             continue;
         /* rounding may place the logarithm of the used value beyond the last density */
-        const double q1 = i == 0 ? v->used.surface.q1 : fmin(pow(10, at), highest_cutoff(&v->used));
+        const double q1 = i == 0 ? v->used.surface.q1
+                                 : fmin(pow(10, at), case_variant_highest_wavenumber(&v->used));
         status = cutoff_likelihood(v, q1, value, &s->likelihood[s->n], err);
         s->log_q1[s->n++] = at;
     }
@@ -179,9 +169,7 @@ static wt_status predict_setting(const validation *v, case_variant *s, double th
         s->rubber = refitted;
         s->given = NULL;
     }
-    s->sliding.rubber = s->given != NULL ? s->given : &s->rubber;
-    s->sliding.surface = &s->surface;
-    s->sliding.strain_softening = s->has_softness ? &s->strain_softening : NULL;
+    case_variant_bind(s);
     if (status == WT_OK)
         status = predict_friction(&s->sliding, v->layered ? &observation : NULL, &v->steps, v->work,
                                   false, p, err);

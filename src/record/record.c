@@ -528,7 +528,7 @@ static wt_status end_tables(record_writers *w, wt_status status, wt_record_table
     if (w->all.friction.n > 0 && w->all.alike)
         record_set(&w->record, RECORD_KEY_FRICTION, record_group_mean(&w->all.friction, "1"));
     if (w->has_wear && w->rates.all.n > 0) {
-        wear_set(&w->wear, WEAR_KEY_RATE, wear_rates_mean(&w->rates));
+        wear_set(&w->wear, WEAR_KEY_RATE, record_group_mean(&w->rates.all, "m^2/N"));
         wear_set_value(&w->wear, WEAR_KEY_RATE_DF, wear_rates_df(&w->rates), 0, 0);
     }
     const wt_status written[] = {table_end(&w->record, &made->record),

@@ -36,7 +36,6 @@ typedef struct wear_rates {
     double freedom;        /* of the last run */
 } wear_rates;
 void wear_rates_close_run(wear_rates *rates);
-wt_estimate wear_rates_mean(const wear_rates *rates);
 double wear_rates_df(const wear_rates *rates);
 
 /* True if any input for the wear is stated. */

@@ -83,14 +83,27 @@ static wt_status compute_variant_friction(case_variant *s, const wt_layer_observ
     return status;
 }
 
-wt_status case_variant_compute(case_variant *s, const wt_job *work, wt_estimate *number,
-                               wt_error *err)
+void case_variant_bind(case_variant *s)
 {
-    wt_layer_observation observation = s->layer_observation;
     s->sliding.rubber = s->given != NULL ? s->given : &s->rubber;
     s->sliding.surface = &s->surface;
     s->sliding.strain_softening = s->has_softness ? &s->strain_softening : NULL;
     s->sliding.velocity = &s->velocity;
+}
+
+double case_variant_highest_wavenumber(const case_variant *s)
+{
+    const double shortest_wave = 1e-9; /* [m] the size of a molecule */
+    const wt_power_spectrum *const p = &s->surface.spectrum;
+    const double known = s->surface.self_affine ? (double)INFINITY : p->wavenumber[p->n - 1];
+    return fmin(2 * M_PI / shortest_wave, known);
+}
+
+wt_status case_variant_compute(case_variant *s, const wt_job *work, wt_estimate *number,
+                               wt_error *err)
+{
+    wt_layer_observation observation = s->layer_observation;
+    case_variant_bind(s);
     wt_status status = s->has_layer ? compute_layer(s, work, &observation, err) : WT_OK;
     if (status == WT_OK && s->has_layer)
         number[CASE_QUANTITY_THICKNESS] = observation.thickness;

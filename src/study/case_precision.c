@@ -129,22 +129,6 @@ typedef wt_status accuracy_solve(precision_problem *o, double value, wt_error *e
 /* Longest total time [s]. A slow method is repeated less often. */
 #define MAX_SECONDS 0.2
 
-static wt_status time_solution(precision_problem *o, accuracy_solve *solve, double value,
-                               double *seconds, wt_error *err)
-{
-    size_t n = 0;
-    const double start = wt_time_cpu();
-    do {
-        const wt_status status = solve(o, value, err);
-        if (status != WT_OK)
-            return status;
-        n++;
-        *seconds = wt_time_cpu() - start;
-    } while (*seconds < MIN_SECONDS);
-    *seconds /= (double)n;
-    return WT_OK;
-}
-
 static wt_status time_repeats(precision_problem *o, accuracy_solve *solve, double value,
                               accuracy_timing *t, wt_error *err)
 {
@@ -152,9 +136,16 @@ static wt_status time_repeats(precision_problem *o, accuracy_solve *solve, doubl
     double sum = 0;
     wt_status status = WT_OK;
     size_t n = 0;
-    while (status == WT_OK && n < o->repeats && sum < MAX_SECONDS) {
-        status = time_solution(o, solve, value, &seconds[n], err);
-        sum += seconds[n++];
+    for (; status == WT_OK && n < o->repeats && sum < MAX_SECONDS; n++) {
+        const double start = wt_time_cpu();
+        double solved = 0, all = 0;
+        while (status == WT_OK && all < MIN_SECONDS) {
+            status = solve(o, value, err);
+            solved++;
+            all = wt_time_cpu() - start;
+        }
+        seconds[n] = all / solved;
+        sum += seconds[n];
     }
     if (status == WT_OK) {
         numbers_sort(seconds, n);

@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/collect.h"
-#include "core/base/equivalence_margin.h"
+#include "core/base/shared_params.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 
@@ -111,6 +111,17 @@ static wt_status add_paired_groups(table_writer *w, paired_force paired, const c
     return WT_OK;
 }
 
+/* Ends a table; NULL without rows. */
+static wt_status end_or_drop(table_writer *w, wt_table **table)
+{
+    const wt_status status = table_end(w, table);
+    if (status == WT_OK && wt_table_n_rows(*table) == 0) {
+        wt_table_free(*table);
+        *table = NULL;
+    }
+    return status;
+}
+
 /* Creates the table "collected_force"; NULL if no case has a curve. The second array holds results
  * with groups that belong to no case. */
 static wt_status collect_force(const collected_case *cases, size_t n,
@@ -128,14 +139,8 @@ static wt_status collect_force(const collected_case *cases, size_t n,
         if (status == WT_OK && (i + 1 == n || strcmp(cases[i].sample, cases[i + 1].sample) != 0))
             status = add_paired_groups(&w, all, &cases[i], err);
     }
-    const wt_status ended = table_end(&w, table);
-    if (status == WT_OK)
-        status = ended;
-    if (status == WT_OK && wt_table_n_rows(*table) > 0)
-        return WT_OK;
-    wt_table_free(*table);
-    *table = NULL;
-    return status;
+    w.status = status != WT_OK ? status : w.status;
+    return end_or_drop(&w, table);
 }
 
 /* ---- parameters ------------------------------------------------------------------------------ */
@@ -299,7 +304,6 @@ static wt_interval rate_modulus(const collected_case *c, const char *group, size
 /* Lists the rows of all rates. The table is NULL if no case has a rate. */
 static wt_status list_moduli(const collected_case *cases, size_t n, wt_table **table, wt_error *err)
 {
-    size_t n_rows = 0;
     table_writer w = table_begin(&collected_modulus_schema, err);
     for (size_t i = 0; i < n; i++) {
         const collected_case *c = &cases[i];
@@ -313,15 +317,9 @@ static wt_status list_moduli(const collected_case *cases, size_t n, wt_table **t
             TABLE_ADD(collected_modulus, &w, c->sample, c->condition,
                       collected_group_name(c, group),
                       modulus_rate_get(rates, row, MODULUS_RATE_RATE), rate_modulus(c, group, row));
-            n_rows++;
         }
     }
-    const wt_status status = table_end(&w, table);
-    if (status == WT_OK && n_rows == 0) {
-        wt_table_free(*table);
-        *table = NULL;
-    }
-    return status;
+    return end_or_drop(&w, table);
 }
 
 static wt_status list_friction(const collected_case *cases, size_t n, wt_table **table,

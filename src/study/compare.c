@@ -4,8 +4,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/compare.h"
 #include "core/base/clocale.h"
-#include "core/base/equivalence_margin.h"
 #include "core/base/param.h"
+#include "core/base/shared_params.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "dma/rubber.h"
@@ -25,14 +25,27 @@ typedef struct dma_moduli {
     double storage, loss, storage_variance, loss_variance;
 } dma_moduli;
 
+/* Material at a temperature, with a statement on it. NULL if no shift law reaches it. */
+static wt_status material_at(const wt_rubber *rubber, double temperature, const wt_job *work,
+                             wt_material **material, char statement[256], wt_error *err)
+{
+    wt_error why = WT_ERROR_INIT;
+    if (flow_rubber_can_shift(rubber, temperature, &why))
+        return wt_rubber_material(rubber, temperature, work->seed, WT_NO_REPLICATE, material,
+                                  statement, err);
+    clocale_print(statement, 256, "none at %.2f °C: %s", temperature - WT_ZERO_CELSIUS,
+                  why.message);
+    return WT_OK;
+}
+
 /* Adds one replicate, or sets the fitted moduli. */
 static wt_status add_draw(const wt_rubber *rubber, double temperature, const wt_job *work,
                           size_t replicate, const dwell_mean *at, size_t n, dma_moduli *to,
-                          double frequencies[2], char statement[256], wt_error *err)
+                          wt_error *err)
 {
     wt_material *material = NULL;
     const wt_status status =
-        wt_rubber_material(rubber, temperature, work->seed, replicate, &material, statement, err);
+        wt_rubber_material(rubber, temperature, work->seed, replicate, &material, NULL, err);
     if (status != WT_OK)
         return status;
     for (size_t i = 0; i < n; i++) {
@@ -44,10 +57,6 @@ static wt_status add_draw(const wt_rubber *rubber, double temperature, const wt_
         }
         to[i].storage_variance += pow(storage - to[i].storage, 2) / DRAWS;
         to[i].loss_variance += pow(loss - to[i].loss, 2) / DRAWS;
-    }
-    if (frequencies != NULL) {
-        frequencies[0] = material->frequency_min;
-        frequencies[1] = material->frequency_max;
     }
     wt_material_free(material);
     return WT_OK;
@@ -70,8 +79,7 @@ static wt_status add_temperature_variance(const wt_rubber *rubber, wt_estimate a
     wt_status status = WT_OK;
     dma_moduli *end[2] = {wt_alloc(n, sizeof **end), wt_alloc(n, sizeof **end)};
     for (int i = 0; status == WT_OK && i < 2; i++)
-        status =
-            add_draw(rubber, ends[i], work, WT_NO_REPLICATE, means, n, end[i], NULL, NULL, err);
+        status = add_draw(rubber, ends[i], work, WT_NO_REPLICATE, means, n, end[i], err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         to[i].storage_variance += pow((end[1][i].storage - end[0][i].storage) / 2, 2);
         to[i].loss_variance += pow((end[1][i].loss - end[0][i].loss) / 2, 2);
@@ -120,30 +128,28 @@ static wt_status add_dwell_rows(table_writer *t, int g, const wt_table *moduli,
                                 const wt_rubber *rubber, wt_estimate at, const wt_job *work,
                                 char statement[256], bool *lacks, wt_error *err)
 {
-    const double temperature = at.value;
     dwell_mean *means = NULL;
     size_t n = 0;
-    wt_error why = WT_ERROR_INIT;
-    double measured[2] = {0, 0};
+    wt_material *material = NULL;
     wt_status status = dwell_means(moduli, &means, &n, err);
     dma_moduli *dma = wt_alloc(n, sizeof *dma);
-    const bool reaches = flow_rubber_can_shift(rubber, temperature, &why);
-    if (!reaches)
-        clocale_print(statement, 256, "none at %.2f °C: %s", temperature - WT_ZERO_CELSIUS,
-                      why.message);
+    if (status == WT_OK)
+        status = material_at(rubber, at.value, work, &material, statement, err);
+    const bool reaches = material != NULL;
     if (status == WT_OK && reaches)
-        status = add_draw(rubber, temperature, work, WT_NO_REPLICATE, means, n, dma, measured,
-                          statement, err);
+        status = add_draw(rubber, at.value, work, WT_NO_REPLICATE, means, n, dma, err);
     for (size_t i = 0; status == WT_OK && reaches && rubber->n_draws > 0 && i < DRAWS; i++)
-        status = add_draw(rubber, temperature, work, i, means, n, dma, NULL, NULL, err);
+        status = add_draw(rubber, at.value, work, i, means, n, dma, err);
     bool unknown = false;
     if (status == WT_OK && reaches)
         status = add_temperature_variance(rubber, at, work, means, n, dma, &unknown, err);
     *lacks = *lacks || unknown;
     for (size_t i = 0; status == WT_OK && i < n; i++)
-        add_dwell_dma_row(
-            t, g, &means[i], reaches ? &dma[i] : NULL, rubber->n_draws > 0 && !unknown,
-            means[i].angular_frequency < measured[0] || means[i].angular_frequency > measured[1]);
+        add_dwell_dma_row(t, g, &means[i], reaches ? &dma[i] : NULL,
+                          rubber->n_draws > 0 && !unknown,
+                          reaches && (means[i].angular_frequency < material->frequency_min ||
+                                      means[i].angular_frequency > material->frequency_max));
+    wt_material_free(material);
     free(means);
     free(dma);
     return status;
@@ -327,19 +333,11 @@ static wt_status dma_rows(table_writer *t, const compare_pair *p, int g, const w
                           wt_estimate given, const wt_job *work, char statement[256], bool *lacks,
                           wt_error *err)
 {
-    const double temperature = given.value;
     wt_material *material = NULL;
-    wt_error why = WT_ERROR_INIT;
-    wt_status status = WT_OK;
-    if (flow_rubber_can_shift(rubber, temperature, &why))
-        status = wt_rubber_material(rubber, temperature, work->seed, WT_NO_REPLICATE, &material,
-                                    statement, err);
-    else
-        clocale_print(statement, 256, "none at %.2f °C: %s", temperature - WT_ZERO_CELSIUS,
-                      why.message);
+    wt_status status = material_at(rubber, given.value, work, &material, statement, err);
     for (size_t b = 0; status == WT_OK && b < p->n_bins; b++) {
         const rate_point *point = &p->point[g][b];
-        const material_state at = {temperature, point->frequency};
+        const material_state at = {given.value, point->frequency};
         wt_estimate modulus = {0};
         double by_temperature = 0;
         if (point->n == 0)

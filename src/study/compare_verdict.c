@@ -134,28 +134,25 @@ static bool assess_empty_groups(const compare_pair *p, compare_verdict *v)
     v->verdict = VERDICT_INCONCLUSIVE;
     for (int g = 0; g < 2; g++) {
         const wt_group_data *d = &p->data[g];
-        const size_t used = strlen(v->reason), settled_length = strlen(v->settled_by);
         if (!empty[g])
             continue;
         const char *also = g > 0 && empty[0] ? "; " : "";
         if (d->group.n_rejected == 1)
-            clocale_print(v->reason + used, sizeof v->reason - used,
-                          "%sthe only curve of the %s has no modulus", also, compare_group_name[g]);
+            clocale_append(v->reason, sizeof v->reason, "%sthe only curve of the %s has no modulus",
+                           also, compare_group_name[g]);
         else
-            clocale_print(v->reason + used, sizeof v->reason - used,
-                          "%snone of the %zu curves of the %s has a modulus", also,
-                          d->group.n_rejected, compare_group_name[g]);
+            clocale_append(v->reason, sizeof v->reason,
+                           "%snone of the %zu curves of the %s has a modulus", also,
+                           d->group.n_rejected, compare_group_name[g]);
         const char *better = curve_remedy(d->main_rejection);
         const bool is_named =
             g > 0 && empty[0] && curve_remedy(p->data[0].main_rejection) == better;
-        if (d->n_main_rejection > 0) {
-            const size_t end = strlen(v->reason);
-            clocale_print(v->reason + end, sizeof v->reason - end, " (%zu: %s)",
-                          d->n_main_rejection, wt_curve_verdict_text(d->main_rejection));
-        }
+        if (d->n_main_rejection > 0)
+            clocale_append(v->reason, sizeof v->reason, " (%zu: %s)", d->n_main_rejection,
+                           wt_curve_verdict_text(d->main_rejection));
         if (!is_named)
-            clocale_print(v->settled_by + settled_length, sizeof v->settled_by - settled_length,
-                          "%s%s", settled_length > 0 ? "; " : "", better);
+            clocale_append(v->settled_by, sizeof v->settled_by, "%s%s",
+                           v->settled_by[0] != '\0' ? "; " : "", better);
     }
     return true;
 }

@@ -46,28 +46,17 @@ static bool always_applies(const case_variant *s)
     return true;
 }
 
-/* Largest wavenumber of the measured densities. */
-static double last_measured_wavenumber(const case_variant *s)
-{
-    const wt_power_spectrum *p = &s->surface.spectrum;
-    return s->surface.self_affine ? (double)INFINITY : p->wavenumber[p->n - 1];
-}
-
 /* Returns the roll-off of a self-affine law, else the other cut-off. */
 static double roll_off_or(const case_variant *s, double other)
 {
     return s->surface.self_affine ? s->surface.qr : other;
 }
 
-/* [m] No surface has waves below the size of a molecule. */
-#define SHORTEST_WAVELENGTH 1e-9
-
 static void move_q1(const case_variant *used, double factor, case_variant *s)
 {
     const double q1 = used->surface.q1,
                  lowest = fmin(fmax(2 * used->surface.q0, roll_off_or(used, 0)), q1),
-                 highest =
-                     fmax(fmin(2 * M_PI / SHORTEST_WAVELENGTH, last_measured_wavenumber(used)), q1);
+                 highest = fmax(case_variant_highest_wavenumber(used), q1);
     s->surface.q1 = limit_value(factor * q1, lowest, highest);
 }
 
@@ -81,7 +70,7 @@ static void move_measured_cutoff(const case_variant *used, double where_steep, c
 {
     const double end =
         where_steep > 0 ? used->surface.steep_wavenumber : used->surface.measured_limit;
-    const bool known = end > 2 * used->surface.q0 && end < last_measured_wavenumber(used);
+    const bool known = end > 2 * used->surface.q0 && end < case_variant_highest_wavenumber(used);
     s->surface.q1 = known ? end : used->surface.q1;
 }
 

@@ -101,6 +101,16 @@
             .help = "local friction of the incompressible profile"                                 \
     }
 
+/* Parameter record for the comparison of groups of curves and of materials. */
+#define EQUIVALENCE_MARGIN(type)                                                                   \
+    {                                                                                              \
+        PARAM("equivalence-margin", type, margin, WT_Q_NONE, ABOVE(0)),                            \
+            .value = "X",                                                                          \
+            .help = "relative difference of the moduli that does not matter: \"no difference\" "   \
+                    "is said "                                                                     \
+                    "only if the whole interval lies within it"                                    \
+    }
+
 /* clang-format on */
 
 #endif

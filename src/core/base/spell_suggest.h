@@ -19,5 +19,8 @@ typedef struct spell_suggestion {
 spell_suggestion spell_suggestion_begin(const char *word, size_t length);
 /* Compares a further name. A similar name has at most one difference for every three letters. */
 void spell_suggestion_try(spell_suggestion *nearest, const char *name, size_t length);
+/* Returns what to do instead of an option or case element of an earlier version that left; NULL for
+ * any other name. CHANGELOG.md has the reasons. */
+const char *removed_name_advice(const char *name, size_t length);
 
 #endif

@@ -227,12 +227,7 @@ wt_status wt_map_open(const char *path, wt_map_writer **writer, wt_error *err)
     w->curves = table_begin(&map_curves_schema, err);
     w->segments = table_begin(&map_segments_schema, err);
     w->names = table_begin(&map_channels_schema, err);
-    const table_writer *const tables[] = {&w->curves, &w->segments, &w->names};
-    wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < sizeof tables / sizeof *tables; i++)
-        status = tables[i]->status;
-    if (status == WT_OK)
-        status = store_begin(path, &w->file, err);
+    wt_status status = store_begin(path, &w->file, err);
     if (status == WT_OK) {
         hdf5_enter(&scope);
         if (store_write_text_attribute(w->file, w->file->file, STORE_MAP_ATTRIBUTE,

@@ -79,12 +79,15 @@ bool store_write_text_list(hid_t object, const char *name, const char *const *wo
     return good;
 }
 
+/* Number of values of a data set that is no array. */
+#define ONE_VALUE SIZE_MAX
+
 static bool write_dataset(const store_file *w, hid_t group, const char *name, hid_t file_type,
                           hid_t memory_type, const void *values, size_t n, const char *units,
                           const char *long_name)
 {
     const hsize_t size = n;
-    const hid_t space = H5Screate_simple(1, &size, NULL);
+    const hid_t space = n == ONE_VALUE ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, NULL);
     const hid_t dataset =
         H5Dcreate2(group, name, file_type, space, H5P_DEFAULT, w->dataset_creation, H5P_DEFAULT);
     bool good = dataset >= 0;
@@ -196,14 +199,8 @@ static bool write_hdf5_table(const store_file *w, const wt_table *table)
 static bool write_case_dataset(const store_file *w, const char *text, size_t length)
 {
     const hid_t type = create_text_type(length);
-    const hid_t dataset = H5Dcreate2(w->file, STORE_CASE_DATASET, type, w->scalar, H5P_DEFAULT,
-                                     w->dataset_creation, H5P_DEFAULT);
-    bool good =
-        dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0 &&
-        store_write_text_attribute(w, dataset, STORE_UNITS_ATTRIBUTE, "") &&
-        store_write_text_attribute(w, dataset, STORE_LONG_NAME_ATTRIBUTE, "the case file, whole");
-    if (dataset >= 0)
-        good = H5Dclose(dataset) >= 0 && good;
+    const bool good = type >= 0 && write_dataset(w, w->file, STORE_CASE_DATASET, type, type, text,
+                                                 ONE_VALUE, "", "the case file, whole");
     return type >= 0 && H5Tclose(type) >= 0 && good;
 }
 
