@@ -78,9 +78,8 @@ static wt_status add_library_descriptions(wt_formats *f, wt_error *err)
     wt_status status = WT_OK;
     for (const embedded_text *e = embedded_formats; e->name != NULL && status == WT_OK; e++) {
         const size_t n = strlen(e->name);
-        if (n < 4 || strcmp(e->name + n - 4, ".xml") != 0)
-            continue;
-        status = formats_add_description(f, description_from_library(e), NULL, e->name, err);
+        if (n >= 4 && strcmp(e->name + n - 4, ".xml") == 0)
+            status = formats_add_description(f, description_from_library(e), NULL, e->name, err);
     }
     return status;
 }

@@ -40,7 +40,7 @@ static void test_many_cells(void **state)
             text_cells cells = {0};
             const text_span line = make_line(counts[k], separators[s].mark);
             for (int twice = 0; twice < 2; twice++) {
-                assert_true(cells_split(&cells, line, separators[s].separator, &plain));
+                cells_split(&cells, line, separators[s].separator, &plain);
                 assert_int_equal(cells.n, counts[k]);
                 assert_true(cells.capacity >= cells.n && cells.capacity <= 32 + 2 * cells.n);
                 for (size_t i = 0; i < cells.n; i++) {
@@ -60,7 +60,7 @@ static void splits(const char *line, cell_separator separator, const text_descri
 {
     text_cells cells = {0};
     char joined[256] = "";
-    assert_true(cells_split(&cells, (text_span){line, strlen(line)}, separator, d));
+    cells_split(&cells, (text_span){line, strlen(line)}, separator, d);
     for (size_t i = 0; i < cells.n; i++)
         snprintf(joined + strlen(joined), sizeof joined - strlen(joined), "%s%.*s",
                  i > 0 ? "|" : "", (int)cells.cells[i].length, cells.cells[i].text);
@@ -139,12 +139,12 @@ static void test_marks(void **state)
     static const char line[] = "1,5;2.5;3.25;1,5e3;a,b;a.b;1.2,3;7";
     text_cells cells = {0};
     size_t commas = 10, points = 20;
-    assert_true(cells_split(&cells, (text_span){line, strlen(line)}, SEPARATOR_SEMICOLON, &plain));
+    cells_split(&cells, (text_span){line, strlen(line)}, SEPARATOR_SEMICOLON, &plain);
     cells_count_decimal_marks(&cells, &commas, &points);
     assert_int_equal(commas, 12);
     assert_int_equal(points, 22);
     assert_false(cells_are_blank(&cells));
-    assert_true(cells_split(&cells, (text_span){" ; ", 3}, SEPARATOR_SEMICOLON, &plain));
+    cells_split(&cells, (text_span){" ; ", 3}, SEPARATOR_SEMICOLON, &plain);
     assert_true(cells_are_blank(&cells));
     char copy[8];
     text_copy(copy, sizeof copy, (text_span){"abcdef\xc2\xb0g", 9});

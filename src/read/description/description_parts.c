@@ -76,9 +76,7 @@ static void read_token_list(description_parser *p, const xmlNode *node, const ch
         return;
     for (const char *c = text; *c != '\0'; c++)
         max_words += *c == ' ';
-    *items = parse_alloc(p, max_words, sizeof **items);
-    if (*items == NULL)
-        return;
+    *items = arena_alloc(&p->d->memory, max_words, sizeof **items);
     for (char *word = strtok_r(text, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest))
         (*items)[(*n)++] = word;
 }
@@ -110,8 +108,8 @@ static void read_text_element(description_parser *p, const xmlNode *node)
     d->comment = parse_attribute(p, node, "comment");
     read_token_list(p, node, "missing", &d->missing, &d->n_missing);
     read_token_list(p, node, "widths", &widths, &n);
-    d->widths = parse_alloc(p, n, sizeof *d->widths);
-    for (size_t i = 0; i < n && d->widths != NULL; i++)
+    d->widths = arena_alloc(&d->memory, n, sizeof *d->widths);
+    for (size_t i = 0; i < n; i++)
         d->widths[d->n_widths++] = (size_t)strtoul(widths[i], NULL, 10);
     bool fixed = d->separator == SEPARATOR_FIXED || d->names_separator == SEPARATOR_FIXED;
     if (fixed != (n > 0))
@@ -174,7 +172,7 @@ static void read_column_elements(description_parser *p, const xmlNode *table)
     d->rules = parse_alloc_children(p, table, "column", sizeof *d->rules);
     for (const xmlNode *c = NULL; (c = parse_next_child(p, table, c, "column")) != NULL;)
         n += parse_count_children(p, c, "name");
-    d->names = parse_alloc(p, n, sizeof *d->names);
+    d->names = arena_alloc(&d->memory, n, sizeof *d->names);
     for (const xmlNode *c = NULL; (c = parse_next_child(p, table, c, "column")) != NULL;) {
         column_rule *rule = &d->rules[d->n_rules];
         size_t kind =

@@ -28,22 +28,6 @@ void parse_fail(description_parser *p, const xmlNode *node, const char *message,
     wt_error_advice(p->err, "see weartrack-format(5)");
 }
 
-void *parse_alloc(description_parser *p, size_t n, size_t size)
-{
-    void *items = arena_alloc(&p->d->memory, n, size);
-    if (items == NULL)
-        parse_no_memory(p);
-    return items;
-}
-
-char *parse_text(description_parser *p, const char *text, size_t length)
-{
-    char *copy = arena_text(&p->d->memory, text, length);
-    if (copy == NULL)
-        parse_no_memory(p);
-    return copy;
-}
-
 /* Copies a text of libxml2 that exists; NULL means lack of memory. */
 static char *copy_xml(description_parser *p, xmlChar *text)
 {
@@ -51,7 +35,7 @@ static char *copy_xml(description_parser *p, xmlChar *text)
         parse_no_memory(p);
         return NULL;
     }
-    char *copy = parse_text(p, (const char *)text, strlen((const char *)text));
+    char *copy = arena_text(&p->d->memory, (const char *)text, strlen((const char *)text));
     xmlFree(text);
     return copy;
 }
@@ -75,7 +59,7 @@ char *parse_normalised(description_parser *p, const char *text)
     if (text == NULL)
         return NULL;
     name_normalise((text_span){text, strlen(text)}, name);
-    return parse_text(p, name, strlen(name));
+    return arena_text(&p->d->memory, name, strlen(name));
 }
 
 bool parse_bool(description_parser *p, const xmlNode *node, const char *name)
@@ -129,7 +113,7 @@ size_t parse_count_children(const description_parser *p, const xmlNode *node, co
 void *parse_alloc_children(description_parser *p, const xmlNode *node, const char *name,
                            size_t size)
 {
-    return parse_alloc(p, parse_count_children(p, node, name), size);
+    return arena_alloc(&p->d->memory, parse_count_children(p, node, name), size);
 }
 
 /* ---- regular expressions ------------------------------------------------------------------ */

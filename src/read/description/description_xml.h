@@ -18,9 +18,6 @@ void parse_no_memory(description_parser *p);
 /* Fails with "FILE: line 12, element column: MESSAGE; expected ...; found ...". */
 void parse_fail(description_parser *p, const xmlNode *node, const char *message,
                 const char *expected, const char *found);
-/* Returns zeroed memory of the description; NULL, with a failure, if there is none. */
-void *parse_alloc(description_parser *p, size_t n, size_t size);
-char *parse_text(description_parser *p, const char *text, size_t length);
 /* Returns NULL if the attribute is absent. */
 char *parse_attribute(description_parser *p, const xmlNode *node, const char *name);
 char *parse_content(description_parser *p, const xmlNode *node);

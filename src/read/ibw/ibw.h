@@ -56,9 +56,6 @@ typedef struct ibw_grid {
 } ibw_grid;
 wt_status ibw_open_image(wt_input *input, ibw_file *file, ibw_grid *grid,
                          wt_error *err) WT_NODISCARD;
-/* ibw_image.c */
-wt_status ibw_images(const file_reader *self, wt_input *input, const wt_read_options *options,
-                     wt_log *log, wt_image **images, size_t *n_images, wt_error *err);
 /* Reads the value of a key of the note, cut to fit; false if it is absent. */
 bool ibw_note_text(const ibw_file *file, const char *key, char value[IBW_TEXT]);
 double ibw_note_number(const ibw_file *file, const char *key); /* NaN if it is absent */

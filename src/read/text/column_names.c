@@ -112,10 +112,7 @@ static size_t try_separator(names_row *names, const text_description *d, text_sp
                             cell_separator separator, unsigned kinds)
 {
     wt_quantity_set set;
-    if (!cells_split(&names->names, line, separator, d)) {
-        names->no_memory = true;
-        return 0;
-    }
+    cells_split(&names->names, line, separator, d);
     if (names->names.n > COLUMNS_MAX)
         return 0;
     size_t known = count_recognised_names(d, &names->names, &set);
@@ -137,16 +134,16 @@ static size_t count_numeric_cells(const text_description *d, const text_cells *c
 }
 
 /* Sets a name for each cell. A separator at the end of the line adds no cell. */
-static bool name_all_cells(names_row *names, const text_description *d)
+static void name_all_cells(text_cells *cells, const text_description *d)
 {
-    text_cells *const cells = &names->names;
-    if (!d->matrix)
-        return cells_split(cells, (text_span){d->names_are, strlen(d->names_are)},
-                           SEPARATOR_WHITESPACE, d);
+    if (!d->matrix) {
+        cells_split(cells, (text_span){d->names_are, strlen(d->names_are)}, SEPARATOR_WHITESPACE,
+                    d);
+        return;
+    }
     cells->n -= cells->cells[cells->n - 1].length == 0;
     for (size_t i = 0; i < cells->n; i++)
         cells->cells[i] = (text_span){d->names[0].name, strlen(d->names[0].name)};
-    return true;
 }
 
 static size_t count_names(const char *text)
@@ -169,17 +166,14 @@ bool names_match_row(names_row *names, const text_description *d, text_span line
         if (separator != SEPARATOR_AUTO && separator != all[i])
             continue;
         names->separator = all[i];
-        if (!cells_split(cells, line, all[i], d)) {
-            names->no_memory = true;
-            return false;
-        }
+        cells_split(cells, line, all[i], d);
         /* a single cell may be a line without this separator */
         const bool fits =
             d->matrix ? cells->n >= 2 && cells->n <= MATRIX_COLUMNS_MAX : cells->n == n_names;
         if (fits &&
             (count_numeric_cells(d, cells, '.') > 0 || count_numeric_cells(d, cells, ',') > 0)) {
-            names->no_memory = !name_all_cells(names, d);
-            return !names->no_memory;
+            name_all_cells(cells, d);
+            return true;
         }
     }
     return false;
@@ -210,8 +204,7 @@ bool names_match(names_row *names, const text_description *d, text_span line,
             names->separator = all[i];
         }
     }
-    return best > 0 && !names->no_memory &&
-           try_separator(names, d, line, names->separator, kinds) > 0;
+    return best > 0 && try_separator(names, d, line, names->separator, kinds) > 0;
 }
 
 void names_free(names_row *names)

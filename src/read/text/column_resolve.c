@@ -256,35 +256,32 @@ static text_column resolve_column(const column_resolver *r, size_t cell, const n
     return column;
 }
 
-static wt_status add_unknown_name(text_file *file, text_span cell, wt_error *err)
+static void add_unknown_name(text_file *file, text_span cell)
 {
     for (size_t i = 0; i < file->unknown.n; i++)
         if (cell_equals(cell, file->unknown.items[i]))
-            return WT_OK;
-    return text_list_add(file, &file->unknown, UNKNOWN_MAX, cell, err);
+            return;
+    text_list_add(file, &file->unknown, UNKNOWN_MAX, cell);
 }
 
 /* Drops problems of columns whose quantity another column provides, such as F in newton in addition
  * to f in hertz. */
-static wt_status drop_redundant_problems(const names_row *names, text_file *file, text_table *table,
-                                         wt_error *err)
+static void drop_redundant_problems(const names_row *names, text_file *file, text_table *table)
 {
-    wt_status status = WT_OK;
     size_t kept = 0;
-    for (size_t i = 0; i < table->n_problems && status == WT_OK; i++) {
+    for (size_t i = 0; i < table->n_problems; i++) {
         const text_column column = table->problems[i];
         if ((table->quantities & WT_Q_BIT(column.rule->quantity)) != 0)
-            status = add_unknown_name(file, names->names.cells[column.cell], err);
+            add_unknown_name(file, names->names.cells[column.cell]);
         else
             table->problems[kept++] = column;
     }
     table->n_problems = kept;
-    return status;
 }
 
 /* Resolves a matrix, whose cells all belong to one column. The header may state its unit. */
-static wt_status resolve_matrix(const names_row *names, text_file *file, text_table *table,
-                                const wt_read_options *options, wt_error *err)
+static void resolve_matrix(const names_row *names, text_file *file, text_table *table,
+                           const wt_read_options *options)
 {
     char normalised[1][COLUMN_NAME_SIZE];
     const column_resolver r = {file->description, names, normalised, table, options, false};
@@ -293,8 +290,6 @@ static wt_status resolve_matrix(const names_row *names, text_file *file, text_ta
     const size_t n = names->names.n;
     table->columns = arena_alloc(&file->table_memory, n, sizeof *table->columns);
     table->problems = arena_alloc(&file->table_memory, 1, sizeof *table->problems);
-    if (table->columns == NULL || table->problems == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the columns of a table");
     name_normalise(cell, normalised[0]);
     (void)find_column_name(file->description, cell, &known);
     known.unit = (text_span){names->value_unit, strlen(names->value_unit)};
@@ -310,12 +305,11 @@ static wt_status resolve_matrix(const names_row *names, text_file *file, text_ta
         table->quantities = WT_Q_BIT(column.rule->quantity);
     else
         table->problems[table->n_problems++] = column;
-    return WT_OK;
 }
 
 /* Sets the condition of a column, by its name and by the cells above and below it. */
-static wt_status set_condition(const column_resolver *r, text_file *file, const name_match *known,
-                               text_column *column, wt_error *err)
+static void set_condition(const column_resolver *r, text_file *file, const name_match *known,
+                          text_column *column)
 {
     text_table *const t = r->table;
     const size_t cell = column->cell;
@@ -323,20 +317,17 @@ static wt_status set_condition(const column_resolver *r, text_file *file, const 
     if (r->uses_cells && cell < r->names->n_above)
         condition_merge(&c, &r->names->above[cell]);
     if (condition_is_empty(&c))
-        return WT_OK;
+        return;
     if (t->conditions == NULL)
         t->conditions = arena_alloc(&file->table_memory, r->names->names.n, sizeof *t->conditions);
     if (c.is_sign_unclear && file->unclear_sign == NULL)
         file->unclear_sign = arena_text(&file->memory, column->name, strlen(column->name));
-    if (t->conditions == NULL || (c.is_sign_unclear && file->unclear_sign == NULL))
-        return wt_fail(err, WT_E_MEMORY, "no memory for the columns of a table");
     size_t i = 0;
     while (i < t->n_conditions && !condition_is_same(&t->conditions[i], &c))
         i++;
     if (i == t->n_conditions)
         t->conditions[t->n_conditions++] = c;
     column->condition = i;
-    return WT_OK;
 }
 
 /* The quantities below one condition. */
@@ -347,15 +338,11 @@ typedef struct condition_set {
 
 /* Sets uses_cells if each condition in the cells is above the same quantities. Otherwise the cells
  * are a list that has nothing to do with the columns. */
-static wt_status compare_cells(column_resolver *r, wt_error *err)
+static void compare_cells(column_resolver *r)
 {
     const names_row *const names = r->names;
-    condition_set *const sets = names->n_above > 0 ? calloc(names->n_above, sizeof *sets) : NULL;
+    condition_set *const sets = wt_alloc(names->n_above, sizeof *sets);
     size_t n = 0;
-    if (names->n_above == 0)
-        return WT_OK;
-    if (sets == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the columns of a table");
     for (size_t i = 0; i < names->n_above && i < names->names.n; i++) {
         name_match known;
         size_t k = 0;
@@ -372,7 +359,6 @@ static wt_status compare_cells(column_resolver *r, wt_error *err)
     for (size_t k = 1; k < n; k++)
         r->uses_cells = r->uses_cells && sets[k].quantities == sets[0].quantities;
     free(sets);
-    return WT_OK;
 }
 
 static bool has_qualifier(const column_resolver *r, size_t cell)
@@ -438,24 +424,21 @@ static bool is_special_cell(const text_table *t, size_t i)
            i == t->sample_cell || i == t->number_cell || i == t->flag_cell;
 }
 
-wt_status names_resolve(const names_row *names, text_file *file, text_table *table,
-                        const wt_read_options *options, wt_error *err)
+void names_resolve(const names_row *names, text_file *file, text_table *table,
+                   const wt_read_options *options)
 {
     const text_description *d = file->description;
     const size_t n_cells = names->names.n;
     column_resolver r = {.d = d, .names = names, .table = table, .options = options};
-    wt_status status = WT_OK;
-    if (d->matrix)
-        return resolve_matrix(names, file, table, options, err);
-    r.normalised = calloc(n_cells, sizeof *r.normalised);
+    if (d->matrix) {
+        resolve_matrix(names, file, table, options);
+        return;
+    }
+    r.normalised = wt_alloc(n_cells, sizeof *r.normalised);
     table->columns = arena_alloc(&file->table_memory, n_cells, sizeof *table->columns);
     table->problems = arena_alloc(&file->table_memory, n_cells, sizeof *table->problems);
-    if (r.normalised == NULL || table->columns == NULL || table->problems == NULL) {
-        free(r.normalised);
-        return wt_fail(err, WT_E_MEMORY, "no memory for the columns of a table");
-    }
     normalise_names(&r);
-    status = compare_cells(&r, err);
+    compare_cells(&r);
     table->n_names = n_cells;
     table->has_qualifiers = names->qualifiers.n > 0;
     table->group_cell = find_cell(&r, d->group);
@@ -471,21 +454,19 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
     }
     table->number_cell = find_first_cell(&r, d->row_numbers, d->n_row_numbers);
     table->flag_cell = find_cell(&r, d->flag_column);
-    for (size_t i = 0; i < n_cells && status == WT_OK; i++) {
+    for (size_t i = 0; i < n_cells; i++) {
         const text_span cell = names->names.cells[i];
         name_match known;
         if (!find_column_name(d, cell, &known)) {
             if (cell.length > 0 && !is_special_cell(table, i) && !(i == 0 && d->row_prefix != NULL))
-                status = add_unknown_name(file, cell, err);
+                add_unknown_name(file, cell);
             continue;
         }
         text_column column = resolve_column(&r, i, &known);
         text_column *taken = NULL;
-        status = set_condition(&r, file, &known, &column, err);
-        if (status != WT_OK)
-            break;
+        set_condition(&r, file, &known, &column);
         if (is_qualified_twin(&r, i))
-            status = add_unknown_name(file, cell, err);
+            add_unknown_name(file, cell);
         else if (column.problem != COLUMN_GOOD) {
             table->problems[table->n_problems++] = column;
         } else if ((taken = find_read_column(table, &column)) != NULL &&
@@ -494,12 +475,12 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
         } else if (taken != NULL) {
             file->has_repeated_moduli =
                 file->has_repeated_moduli || is_repeated_modulus(names, taken, i);
-            status = add_unknown_name(file, cell, err);
+            add_unknown_name(file, cell);
         } else {
             table->quantities |= WT_Q_BIT(column.rule->quantity);
             table->columns[table->n_columns++] = column;
         }
     }
     free(r.normalised);
-    return status == WT_OK ? drop_redundant_problems(names, file, table, err) : status;
+    drop_redundant_problems(names, file, table);
 }

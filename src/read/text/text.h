@@ -74,8 +74,8 @@ typedef struct text_cells {
 } text_cells;
 
 const char *separator_name(cell_separator separator); /* static name such as "tab" */
-/* Splits a line; SEPARATOR_AUTO is not allowed here. Returns false if memory is missing. */
-bool cells_split(text_cells *cells, text_span line, cell_separator separator,
+/* Splits a line; SEPARATOR_AUTO is not allowed here. */
+void cells_split(text_cells *cells, text_span line, cell_separator separator,
                  const text_description *description);
 void cells_free(text_cells *cells);
 bool cells_are_blank(const text_cells *cells);
@@ -233,8 +233,7 @@ const text_file *text_parts_file(const text_parts *parts);
 void text_parts_free(text_parts *parts);
 
 /* Adds a copy of a text, unless the list has reached its maximum length. */
-wt_status text_list_add(text_file *file, text_list *list, size_t max_items, text_span text,
-                        wt_error *err);
+void text_list_add(text_file *file, text_list *list, size_t max_items, text_span text);
 /* The position of a line for messages, such as "line 12". */
 typedef struct line_position_text {
     char text[32];
@@ -275,7 +274,6 @@ typedef struct names_row {
     size_t n_above;
     cell_separator separator;
     char value_unit[32]; /* unit of a matrix in its header; "" if absent */
-    bool no_memory;
 } names_row;
 
 /* The possible meanings of a name: a range of the description's `names`. */
@@ -291,18 +289,17 @@ bool find_column_name(const text_description *description, text_span cell, name_
 /* Reduces a line to the part with the names; false if it cannot be a names row. */
 bool names_extract(const text_description *description, text_span *line);
 /* Splits `line`; true if its cells name enough columns for one of `kinds`. An automatic separator
- * is the one with most known names. False also if memory is missing (no_memory). */
+ * is the one with most known names. */
 bool names_match(names_row *names, const text_description *description, text_span line,
                  cell_separator separator, unsigned kinds);
 /* For a description without names in its files: true if the line is a row of numbers; it also
- * finds the separator. A matrix gets a name for each cell. False also if memory is missing
- * (no_memory). */
+ * finds the separator. A matrix gets a name for each cell. */
 bool names_match_row(names_row *names, const text_description *description, text_span line,
                      cell_separator separator);
 /* Fills columns, quantities and problems of the table. Names that are not understood are added to
  * file->unknown. */
-wt_status names_resolve(const names_row *names, text_file *file, text_table *table,
-                        const wt_read_options *options, wt_error *err);
+void names_resolve(const names_row *names, text_file *file, text_table *table,
+                   const wt_read_options *options);
 /* Returns the conversion of a unit, also one that the description names; false if it does not
  * measure the quantity. */
 bool description_unit_to_si(const text_description *description, wt_quantity quantity,

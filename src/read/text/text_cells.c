@@ -54,16 +54,12 @@ static void trim_cell(text_span *cell)
 
 /* Provides space for the unquoted cells of a line, which never exceed it. It must not move while
  * cells point into it. */
-static bool reserve_unquoted(text_cells *cells, text_span line)
+static void reserve_unquoted(text_cells *cells, text_span line)
 {
     if (memmem(line.text, line.length, "\"\"", 2) == NULL || cells->unquoted_size >= line.length)
-        return true;
-    char *const grown = realloc(cells->unquoted, line.length);
-    if (grown == NULL)
-        return false;
-    cells->unquoted = grown;
+        return;
+    cells->unquoted = wt_realloc(cells->unquoted, line.length, 1);
     cells->unquoted_size = line.length;
-    return true;
 }
 
 /* Undoes the doubled quotes in a quoted cell: "it's ""x""" is it's "x". `at` is the position of the
@@ -81,17 +77,11 @@ static void undouble_quotes(text_cells *cells, text_span *cell, size_t at)
     *cell = (text_span){to, n};
 }
 
-static bool append_cell(text_cells *cells, const char *text, size_t length)
+static void append_cell(text_cells *cells, const char *text, size_t length)
 {
     if (cells->n == cells->capacity) {
-        size_t capacity = cells->capacity > 0 ? 2 * cells->capacity : 32;
-        if (capacity > SIZE_MAX / sizeof *cells->cells)
-            return false;
-        text_span *grown = realloc(cells->cells, capacity * sizeof *grown);
-        if (grown == NULL)
-            return false;
-        cells->cells = grown;
-        cells->capacity = capacity;
+        cells->capacity = cells->capacity > 0 ? 2 * cells->capacity : 32;
+        cells->cells = wt_realloc(cells->cells, cells->capacity, sizeof *cells->cells);
     }
     text_span cell = {text, length};
     trim_cell(&cell);
@@ -101,7 +91,6 @@ static bool append_cell(text_cells *cells, const char *text, size_t length)
         trim_cell(&cell);
     }
     cells->cells[cells->n++] = cell;
-    return true;
 }
 
 /* Returns the position of the quote that closes a quoted cell, or `length`. A doubled quote is part
@@ -138,19 +127,17 @@ static size_t find_cell_end(const char *line, size_t from, size_t length, char m
     return end != NULL ? (size_t)(end - line) : length;
 }
 
-static bool split_separated(text_cells *cells, const char *line, size_t length, char mark)
+static void split_separated(text_cells *cells, const char *line, size_t length, char mark)
 {
-    if (!reserve_unquoted(cells, (text_span){line, length}))
-        return false;
+    reserve_unquoted(cells, (text_span){line, length});
     for (size_t from = 0;;) {
         bool quoted;
         size_t end = find_cell_end(line, from, length, mark, &quoted);
-        if (!append_cell(cells, line + from, end - from))
-            return false;
+        append_cell(cells, line + from, end - from);
         if (quoted)
             undouble_quotes(cells, &cells->cells[cells->n - 1], from);
         if (end >= length)
-            return true;
+            return;
         from = end + 1;
     }
 }
@@ -166,7 +153,7 @@ static size_t find_quoted_end(const char *line, size_t from, size_t length)
     return end > from + 2 && (end == length || is_blank(line[end])) ? end : 0;
 }
 
-static bool split_whitespace(text_cells *cells, const char *line, size_t length)
+static void split_whitespace(text_cells *cells, const char *line, size_t length)
 {
     for (size_t i = 0; i < length;) {
         while (i < length && is_blank(line[i]))
@@ -174,21 +161,19 @@ static bool split_whitespace(text_cells *cells, const char *line, size_t length)
         size_t from = i;
         const size_t quoted = i < length ? find_quoted_end(line, i, length) : 0;
         if (quoted > 0) {
-            if (!append_cell(cells, line + from + 1, quoted - from - 2))
-                return false;
+            append_cell(cells, line + from + 1, quoted - from - 2);
             i = quoted;
             continue;
         }
         while (i < length && !is_blank(line[i]))
             i++;
-        if (i > from && !append_cell(cells, line + from, i - from))
-            return false;
+        if (i > from)
+            append_cell(cells, line + from, i - from);
     }
-    return true;
 }
 
 /* Widths count characters, not bytes. */
-static bool split_fixed(text_cells *cells, const char *line, size_t length,
+static void split_fixed(text_cells *cells, const char *line, size_t length,
                         const text_description *d)
 {
     size_t column = 0;
@@ -200,30 +185,23 @@ static bool split_fixed(text_cells *cells, const char *line, size_t length,
             while (i < length && ((unsigned char)line[i] & 0xc0u) == 0x80u)
                 i++;
         }
-        if (!append_cell(cells, line + from, i - from))
-            return false;
+        append_cell(cells, line + from, i - from);
         column++;
     }
-    return true;
 }
 
-bool cells_split(text_cells *cells, text_span line, cell_separator separator,
+void cells_split(text_cells *cells, text_span line, cell_separator separator,
                  const text_description *description)
 {
-    const size_t length = line.length;
+    static const char marks[] = {
+        [SEPARATOR_TAB] = '\t', [SEPARATOR_SEMICOLON] = ';', [SEPARATOR_COMMA] = ','};
     cells->n = 0;
-    switch (separator) {
-    case SEPARATOR_TAB:
-        return split_separated(cells, line.text, length, '\t');
-    case SEPARATOR_SEMICOLON:
-        return split_separated(cells, line.text, length, ';');
-    case SEPARATOR_COMMA:
-        return split_separated(cells, line.text, length, ',');
-    case SEPARATOR_FIXED:
-        return split_fixed(cells, line.text, length, description);
-    default:
-        return split_whitespace(cells, line.text, length);
-    }
+    if (separator == SEPARATOR_FIXED)
+        split_fixed(cells, line.text, line.length, description);
+    else if (separator < COUNT_OF(marks) && marks[separator] != '\0')
+        split_separated(cells, line.text, line.length, marks[separator]);
+    else
+        split_whitespace(cells, line.text, line.length);
 }
 
 void cells_free(text_cells *cells)

@@ -22,9 +22,7 @@ static size_t complete_length(const unsigned char *bytes, size_t n)
 
 static wt_status add_bytes(text_feed *feed, const unsigned char *bytes, size_t n, wt_error *err)
 {
-    feed_piece *const piece = calloc(1, sizeof *piece);
-    if (piece == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the text of the file");
+    feed_piece *const piece = wt_alloc(1, sizeof *piece);
     const wt_status status = feed->at == 0
                                  ? lines_decode(bytes, n, feed->encoding, &piece->lines, err)
                                  : lines_decode_next(bytes, n, &piece->lines, err);
@@ -61,10 +59,7 @@ static wt_status read_next_piece(text_feed *feed, wt_error *err)
     for (size_t n = feed->piece;; n = n > SIZE_MAX / 2 ? SIZE_MAX : 2 * n) {
         n = n < left ? n : left;
         if (n > feed->buffer_size) {
-            unsigned char *const buffer = realloc(feed->buffer, n);
-            if (buffer == NULL)
-                return wt_fail(err, WT_E_MEMORY, "no memory for the text of the file");
-            feed->buffer = buffer;
+            feed->buffer = wt_realloc(feed->buffer, n, 1);
             feed->buffer_size = n;
         }
         const wt_status status = wt_input_copy(feed->input, feed->at, feed->buffer, n, err);

@@ -2,8 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/text/text_header.h"
-#include "read/text/text_rows.h"
+#include "read/text/text_scanner.h"
 
 #include "core/base/utf8.h"
 
@@ -147,8 +146,7 @@ void scan_finish_step(text_scanner *s)
 {
     const char *title = s->title[0] != '\0' ? s->title : "(no title)";
     if (s->step_line > 0 && !s->step_has_table)
-        s->status = text_list_add(s->file, &s->file->steps, STEPS_MAX,
-                                  (text_span){title, strlen(title)}, s->err);
+        text_list_add(s->file, &s->file->steps, STEPS_MAX, (text_span){title, strlen(title)});
 }
 
 static void start_step(text_scanner *s, const step_marker *step, const regmatch_t *title)

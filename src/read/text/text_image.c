@@ -114,9 +114,7 @@ static wt_status add_profile_image(const image_builder *m, const text_column *x,
     text_axis axis;
     size_t worst = 0;
     wt_status status = WT_OK;
-    double *const positions = malloc(n * sizeof *positions), *values = NULL;
-    if (positions == NULL)
-        return wt_fail(m->err, WT_E_MEMORY, "no memory for a profile");
+    double *const positions = wt_alloc(n, sizeof *positions), *values = NULL;
     const bool falls = text_table_value(t, 0, x) > text_table_value(t, n - 1, x);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         const size_t row = falls ? n - 1 - i : i;
@@ -147,11 +145,9 @@ static wt_status find_column_axis(const image_builder *m, const text_column *col
                                   text_axis *axis)
 {
     const text_table *const t = m->table;
-    double *const positions = malloc(t->n_rows * sizeof *positions);
+    double *const positions = wt_alloc(t->n_rows, sizeof *positions);
     size_t n = 0, worst = 0;
     wt_status status = WT_OK;
-    if (positions == NULL)
-        return wt_fail(m->err, WT_E_MEMORY, "no memory for the places of a grid");
     for (size_t row = 0; status == WT_OK && row < t->n_rows; row++) {
         positions[row] = text_table_value(t, row, column);
         if (!isfinite(positions[row]))
@@ -176,10 +172,8 @@ static wt_status fill_grid(const image_builder *m, const text_column *const of[3
 {
     const text_table *const t = m->table;
     const size_t n = x->n * y->n;
-    unsigned char *const filled = calloc(n, 1);
+    unsigned char *const filled = wt_alloc(n, 1);
     wt_status status = WT_OK;
-    if (filled == NULL)
-        return wt_fail(m->err, WT_E_MEMORY, "no memory for a grid");
     for (size_t i = 0; i < n; i++)
         values[i] = (double)NAN;
     for (size_t row = 0; status == WT_OK && row < t->n_rows; row++) {

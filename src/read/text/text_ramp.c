@@ -18,12 +18,10 @@ static const double least_drift = 0.25;
 
 /* Adds a temperature sweep. With `turns` there was heating and cooling, and the source states the
  * direction. */
-static wt_status add_temperature_sweep(sweep_builder *b, const size_t *rows, size_t n, bool turns)
+static void add_temperature_sweep(sweep_builder *b, const size_t *rows, size_t n, bool turns)
 {
     static const char *const way[] = {" (heated)", " (cooled)"};
     wt_ramp *ramp = wt_sweep_add_ramp(b->sweep, n, sweep_optional_arrays(&b->c));
-    if (ramp == NULL)
-        return wt_fail(b->err, WT_E_MEMORY, "no memory for a temperature sweep");
     double sum = 0;
     for (size_t i = 0; i < n; i++) {
         ramp->temperature[i] = sweep_temperature(b, rows[i]);
@@ -39,7 +37,6 @@ static wt_status add_temperature_sweep(sweep_builder *b, const size_t *rows, siz
     sweep_format_source(b, ramp->source, sizeof ramp->source - sizeof " (heated)");
     if (turns)
         strcat(ramp->source, way[ramp->temperature[0] > ramp->temperature[n - 1]]);
-    return WT_OK;
 }
 
 /* Returns the first row after which the temperature reverses, or n. */
@@ -66,53 +63,48 @@ static bool is_temperature_sweep(const sweep_builder *b, const size_t *rows, siz
            fabs(sweep_temperature(b, rows[n - 1]) - sweep_temperature(b, rows[0])) >= least_span;
 }
 
-/* Adds the sweeps of rows of one frequency, split where the temperature reverses. The last argument
- * is true if there was a sweep. */
-static wt_status add_temperature_sweeps(sweep_builder *b, const size_t *all, size_t n_all,
-                                        bool *is_sweep)
+/* Adds the sweeps of rows of one frequency, split where the temperature reverses. True if there was
+ * a sweep. */
+static bool add_temperature_sweeps(sweep_builder *b, const size_t *all, size_t n_all)
 {
     size_t *const rows = b->rows; /* `all` may be the same array */
-    wt_status status = WT_OK;
     size_t used = 0, n = 0;
     for (size_t i = 0; i < n_all; i++)
         if (sweep_temperature(b, all[i]) > 0)
             rows[n++] = all[i];
-    for (size_t first = 0, end; first < n && status == WT_OK; first = end) {
+    for (size_t first = 0, end; first < n; first = end) {
         end = find_turning_point(b, rows, first, n);
         if (!is_temperature_sweep(b, rows + first, end - first))
             continue;
-        status = add_temperature_sweep(b, rows + first, end - first, first > 0 || end < n);
+        add_temperature_sweep(b, rows + first, end - first, first > 0 || end < n);
         used += end - first;
     }
-    *is_sweep = used > 0;
-    if (*is_sweep && n < n_all)
+    if (used > 0 && n < n_all)
         wt_log_action(b->log, WT_WARNING, WT_LEFT_OUT, 0, NULL, b->file->name,
                       format_line_position(b->table->names_line).text,
                       "%zu points at %g rad/s without a temperature above absolute zero left out",
                       n_all - n, sweep_angular_frequency(b, rows[0]));
-    if (*is_sweep && used < n)
+    if (used > 0 && used < n)
         wt_log_add(b->log, WT_NOTE, b->file->name, format_line_position(b->table->names_line).text,
                    "%zu points beside the temperature sweeps at %g rad/s left out", n - used,
                    sweep_angular_frequency(b, rows[0]));
-    return status;
+    return used > 0;
 }
 
 /* Extracts the sweeps of consecutive rows with the same frequency. */
-static wt_status extract_runs(sweep_builder *b, size_t *rows, size_t *n)
+static void extract_runs(sweep_builder *b, size_t *rows, size_t *n)
 {
     size_t kept = 0;
-    wt_status status = WT_OK;
-    for (size_t first = 0, end; first < *n && status == WT_OK; first = end) {
+    for (size_t first = 0, end; first < *n; first = end) {
         bool is_sweep = false;
         for (end = first + 1; end < *n && sweep_direction(b, rows[first], rows[end]) == 0;)
             end++;
         if (end - first >= POINTS_MIN)
-            status = add_temperature_sweeps(b, rows + first, end - first, &is_sweep);
+            is_sweep = add_temperature_sweeps(b, rows + first, end - first);
         for (size_t i = first; i < end && !is_sweep; i++)
             rows[kept++] = rows[i];
     }
     *n = kept;
-    return status;
 }
 
 /* Returns the temperature difference of two rows [K]; 0 if it is unknown. */
@@ -145,15 +137,13 @@ static bool temperature_drifts(const sweep_builder *b, const size_t *rows, size_
 
 /* Extracts the sweeps of cycled frequencies, one for each frequency. `chosen` has space for n
  * rows. */
-static wt_status extract_interleaved(sweep_builder *b, size_t *rows, size_t *n, size_t *chosen)
+static void extract_interleaved(sweep_builder *b, size_t *rows, size_t *n, size_t *chosen)
 {
-    wt_status status = WT_OK;
     if (!temperature_drifts(b, rows, *n))
-        return WT_OK;
-    while (*n > 0 && status == WT_OK) {
+        return;
+    while (*n > 0) {
         const size_t like = rows[0];
         size_t kept = 0, n_chosen = 0;
-        bool is_sweep = false;
         for (size_t i = 0; i < *n; i++) {
             if (sweep_direction(b, like, rows[i]) == 0)
                 chosen[n_chosen++] = rows[i];
@@ -161,20 +151,18 @@ static wt_status extract_interleaved(sweep_builder *b, size_t *rows, size_t *n, 
                 rows[kept++] = rows[i];
         }
         *n = kept;
-        status = add_temperature_sweeps(b, chosen, n_chosen, &is_sweep);
-        if (!is_sweep)
+        if (!add_temperature_sweeps(b, chosen, n_chosen))
             wt_log_add(b->log, WT_WARNING, b->file->name,
                        format_line_position(b->table->names_line).text,
                        "%zu points at %g rad/s make no temperature sweep and are left out",
                        n_chosen, sweep_angular_frequency(b, like));
     }
-    return status;
 }
 
-wt_status extract_ramps(sweep_builder *b, size_t *rows, size_t *n)
+void extract_ramps(sweep_builder *b, size_t *rows, size_t *n)
 {
     if (b->c.temperature == NULL)
-        return WT_OK;
-    const wt_status status = extract_runs(b, rows, n);
-    return status == WT_OK ? extract_interleaved(b, rows, n, b->rows) : status;
+        return;
+    extract_runs(b, rows, n);
+    extract_interleaved(b, rows, n, b->rows);
 }

@@ -10,12 +10,7 @@
 /* Maximum number of bytes that the detection examines; some exports have long headers. */
 #define PEEK_MAX ((size_t)1 << 18)
 
-typedef enum probe_result {
-    PROBE_NOT_FOUND,
-    PROBE_FOUND,
-    PROBE_MORE,
-    PROBE_NO_MEMORY
-} probe_result;
+typedef enum probe_result { PROBE_NOT_FOUND, PROBE_FOUND, PROBE_MORE } probe_result;
 
 /* True if the bytes are not text in any encoding. */
 static bool is_binary(const file_peek *peek)
@@ -48,10 +43,7 @@ static probe_result run_probe(const text_description *d, const text_probe *probe
         else
             found = pattern_match(&probe->pattern, line, NULL, 0);
     }
-    const bool no_memory = names.no_memory;
     names_free(&names);
-    if (no_memory)
-        return PROBE_NO_MEMORY;
     if (found)
         return PROBE_FOUND;
     return whole || complete >= probe->within ? PROBE_NOT_FOUND : PROBE_MORE;
@@ -70,9 +62,7 @@ struct text_peek {
 
 static struct text_peek *text_peek_new(const file_peek *peek)
 {
-    struct text_peek *t = calloc(1, sizeof *t);
-    if (t == NULL)
-        return NULL;
+    struct text_peek *t = wt_alloc(1, sizeof *t);
     t->is_text = peek->length > 0 && !is_binary(peek);
     t->whole = peek->whole || peek->length >= PEEK_MAX;
     t->length = peek->length;
@@ -99,8 +89,6 @@ static wt_status text_peek_lines(file_peek *peek, text_encoding encoding, const 
     if (peek->text == NULL)
         peek->text = text_peek_new(peek);
     struct text_peek *t = peek->text;
-    if (t == NULL)
-        return WT_E_MEMORY;
     *lines = t->by_encoding[encoding];
     if (!t->is_text || *lines != NULL)
         return WT_OK;
@@ -153,9 +141,6 @@ static recognition detect(const file_reader *self, file_peek *peek)
         case PROBE_MORE:
             more = true;
             break;
-        case PROBE_NO_MEMORY:
-            answer.answer = ANSWER_NO_MEMORY;
-            return answer;
         }
     }
     if (more) {

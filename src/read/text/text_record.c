@@ -33,24 +33,20 @@ static double channel_header_value(const text_table *t, int channel)
     return h < HEADER_COUNT ? t->header.value[h] : (double)NAN;
 }
 
-static wt_status allocate_record(const text_file *file, wt_record *record, wt_error *err)
+static void allocate_record(const text_file *file, wt_record *record)
 {
     size_t rows = 0;
-    bool whole = true;
     for (size_t i = 0; i < file->n_tables; i++)
         rows += file->tables[i].n_rows;
-    record->step = malloc((rows + 1) * sizeof *record->step);
+    record->step = wt_alloc(rows, sizeof *record->step);
     for (int c = 0; c < WT_RECORD_CHANNELS; c++)
         for (size_t i = 0; i < file->n_tables && record->channel[c] == NULL; i++) {
             const text_table *t = &file->tables[i];
             if (text_table_column(t, sources[c].quantity, -1) == NULL &&
                 isnan(channel_header_value(t, c)))
                 continue;
-            record->channel[c] = malloc((rows + 1) * sizeof *record->channel[c]);
-            whole = whole && record->channel[c] != NULL;
+            record->channel[c] = wt_alloc(rows, sizeof *record->channel[c]);
         }
-    return whole && record->step != NULL ? WT_OK
-                                         : wt_fail(err, WT_E_MEMORY, "no memory for the record");
 }
 
 static bool has_value(const wt_record *record, wt_record_channel c, size_t i)
@@ -194,9 +190,8 @@ wt_status text_read_record(const file_reader *self, wt_input *input, const wt_re
     if (status != WT_OK)
         return status;
     text_log_columns(&file, log);
-    status = allocate_record(&file, &made, err);
-    if (status == WT_OK)
-        status = fill_record(&file, &made, log, err);
+    allocate_record(&file, &made);
+    status = fill_record(&file, &made, log, err);
     if (status == WT_OK)
         status = make_continuous(&file, &made, WT_RECORD_TIME, "time", err);
     if (status == WT_OK)

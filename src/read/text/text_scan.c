@@ -3,8 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/text/text_header.h"
-#include "read/text/text_rows.h"
+#include "read/text/text_scanner.h"
 
 #include "core/base/array.h"
 
@@ -36,12 +35,7 @@ static bool add_table(text_scanner *s, const text_table *made)
         return false;
     }
     const text_table copy = *made; /* may be one of the tables that are moved */
-    text_table *tables = array_grow(file->tables, file->n_tables, sizeof *tables);
-    if (tables == NULL) {
-        scan_no_memory(s);
-        return false;
-    }
-    file->tables = tables;
+    file->tables = array_grow(file->tables, file->n_tables, sizeof *file->tables);
     s->table = &file->tables[file->n_tables++];
     *s->table = copy;
     s->table->has_own_condition = s->has_condition;
@@ -87,14 +81,6 @@ static bool read_condition_line(text_scanner *s)
     made.n_rows = made.n_grouped = 0;
     (void)add_table(s, &made);
     return true;
-}
-
-static bool split_line(text_scanner *s, text_cells *cells, text_span line, cell_separator separator)
-{
-    if (cells_split(cells, line, separator, s->d))
-        return true;
-    scan_no_memory(s);
-    return false;
 }
 
 /* True if a number can be the unit of the quantity of a name: "1" of a loss factor. */
@@ -150,8 +136,7 @@ static bool split_text_row(text_scanner *s, size_t *i, text_cells *cells)
     for (const size_t end = *i + 4; *i < end && read_line(s, *i, &line); ++*i) {
         if (s->comment_names)
             (void)line_uncomment(s->d, &line);
-        if (!split_line(s, cells, line, s->names.separator))
-            break;
+        cells_split(cells, line, s->names.separator, s->d);
         if (cells_are_blank(cells))
             continue;
         if (is_units_row(s, cells) && !is_condition_line(s, line))
@@ -169,11 +154,7 @@ static bool add_conditions(text_scanner *s, const text_cells *cells)
     names_row *const names = &s->names;
     if (!s->reads_conditions || cells->n == 0)
         return false;
-    text_condition *const conditions = calloc(cells->n, sizeof *conditions);
-    if (conditions == NULL) {
-        scan_no_memory(s);
-        return false;
-    }
+    text_condition *const conditions = wt_alloc(cells->n, sizeof *conditions);
     if (cells_read_conditions(s->d, cells, conditions) < 2) {
         free(conditions);
         return false;
@@ -237,8 +218,7 @@ static char choose_decimal(text_scanner *s)
      * row. */
     for (size_t i = s->i + !description_is_nameless(s->d);
          i < s->i + 101 && commas + points < 64 && read_line(s, i, &line); i++) {
-        if (!split_line(s, &s->row, line, s->table->separator))
-            return '.';
+        cells_split(&s->row, line, s->table->separator, s->d);
         cells_count_decimal_marks(&s->row, &commas, &points);
     }
     return commas > points ? ',' : '.';
@@ -247,11 +227,9 @@ static char choose_decimal(text_scanner *s)
 /* Begins the rows after this line, since names and units are complete. */
 static void begin_rows(text_scanner *s)
 {
-    s->status = names_resolve(&s->names, s->file, s->table, s->options, s->err);
+    names_resolve(&s->names, s->file, s->table, s->options);
     s->names.n_above = 0;
     s->names.qualifiers.n = 0;
-    if (s->status != WT_OK)
-        return;
     s->table->separator = row_separator(s);
     s->state = SCAN_ROWS;
     s->table->decimal = choose_decimal(s);
@@ -287,16 +265,13 @@ static void scan_table_line(text_scanner *s);
 static bool match_row(text_scanner *s)
 {
     if (s->comment || s->state != SCAN_HEADER ||
-        !names_match_row(&s->names, s->d, s->line, s->separator)) {
-        if (s->names.no_memory)
-            scan_no_memory(s);
+        !names_match_row(&s->names, s->d, s->line, s->separator))
         return false;
-    }
     new_table(s);
-    if (s->status == WT_OK)
+    if (s->status == WT_OK) {
         begin_rows(s);
-    if (s->status == WT_OK)
         scan_table_line(s);
+    }
     return true;
 }
 
@@ -310,11 +285,8 @@ static bool match_names(text_scanner *s)
     const cell_separator separator =
         d->names_separator != SEPARATOR_AUTO ? d->names_separator : s->separator;
     if (!(d->names_lines.compiled ? collect_names(s, &line) : names_extract(d, &line)) ||
-        !names_match(&s->names, d, line, separator, s->kinds)) {
-        if (s->names.no_memory)
-            scan_no_memory(s);
+        !names_match(&s->names, d, line, separator, s->kinds))
         return false;
-    }
     s->comment_names = s->comment && !d->has_names_line;
     new_table(s);
     if (s->status == WT_OK && (d->units == UNITS_ROW || d->units == UNITS_NAME_OR_ROW))
@@ -337,8 +309,6 @@ static bool is_table_title(text_scanner *s)
         i++;
     found = found && names_extract(s->d, &line) &&
             names_match(&names, s->d, line, s->table->separator, s->kinds);
-    if (names.no_memory)
-        scan_no_memory(s);
     names_free(&names);
     return found;
 }
@@ -366,7 +336,8 @@ static void warn_orphan_row(text_scanner *s)
     if (t == NULL || t->n_columns == 0 || t->n_rows == 0 || s->d->row_prefix != NULL ||
         s->step_line != t->step_line)
         return;
-    if (scan_split_row(s) && s->row.n >= t->n_names && scan_read_row(s, &bad) == ROW_GOOD)
+    scan_split_row(s);
+    if (s->row.n >= t->n_names && scan_read_row(s, &bad) == ROW_GOOD)
         wt_log_add(s->log, WT_WARNING, s->file->name, format_line_position(s->i + 1).text,
                    "row of numbers after the end of its table, not read");
 }
@@ -379,11 +350,12 @@ static bool rest_is_text(text_scanner *s)
     bool words = true;
     for (size_t i = s->i + 1; words && read_line(s, i, &s->line); i++) {
         size_t bad = 0;
-        words =
-            scan_split_row(s) && (cells_are_blank(&s->row) || scan_read_row(s, &bad) == ROW_TEXT);
+        scan_split_row(s);
+        words = cells_are_blank(&s->row) || scan_read_row(s, &bad) == ROW_TEXT;
     }
     s->line = line;
-    return scan_split_row(s) && words;
+    scan_split_row(s);
+    return words && s->status == WT_OK;
 }
 
 static void skip_rest(text_scanner *s)
@@ -401,8 +373,7 @@ static void scan_table_line(text_scanner *s)
     const text_description *d = s->d;
     const text_table *t = s->table;
     size_t bad = SIZE_MAX;
-    if (!scan_split_row(s))
-        return;
+    scan_split_row(s);
     if (cells_are_blank(&s->row)) {
         s->block += d->blank_is_block && t->n_rows > 0 && !s->blank;
         s->blank = true;
@@ -442,14 +413,13 @@ static void units_line(text_scanner *s)
 {
     text_span units = s->line;
     if (pattern_extract(&s->d->units_line, &units)) {
-        if (split_line(s, &s->names.units, units, s->names.separator))
-            begin_rows(s);
+        cells_split(&s->names.units, units, s->names.separator, s->d);
+        begin_rows(s);
     } else if (s->comment) {
         scan_header_line(s);
     } else if (s->line.length > 0) {
         begin_rows(s);
-        if (s->status == WT_OK)
-            scan_table_line(s);
+        scan_table_line(s);
     }
 }
 

@@ -93,8 +93,6 @@ void scan_apply_title(text_scanner *s);
 size_t cells_read_conditions(const text_description *d, const text_cells *cells,
                              text_condition *conditions);
 
-/* Records the format of the row that was read. */
-void truncation_track_row(text_scanner *s);
 /* True if the row of a last line without a line end is as complete as the rows before it. */
 bool truncation_row_is_complete(const text_scanner *s);
 /* Checks that a table or step ends as required. */
@@ -102,9 +100,37 @@ void truncation_check_table_end(text_scanner *s);
 /* Reports signs of truncation after all lines are read, and drops an incomplete last row. */
 void truncation_report(text_scanner *s);
 
-static inline void scan_no_memory(text_scanner *s)
-{
-    s->status = wt_fail(s->err, WT_E_MEMORY, "no memory for the tables of the file");
-}
+/* ---- text_header.c: lines before, between and after tables ----------------------------------- */
+
+/* Reads the header values of the line. */
+void scan_header_fields(text_scanner *s);
+/* True if the line is a marker of a step, an end or a segment. */
+bool scan_match_markers(text_scanner *s);
+/* Stores the title of a step without a names row. */
+void scan_finish_step(text_scanner *s);
+
+/* Warns if fewer rows exist than the header states, and resets the counts. */
+void scan_check_row_count(text_scanner *s);
+
+/* ---- text_rows.c ----------------------------------------------------------------------------- */
+
+typedef enum row_quality {
+    ROW_GOOD,
+    ROW_BROKEN, /* some cells are numbers, at least one is not */
+    ROW_TEXT,   /* no number in the columns that are read */
+    ROW_UNUSED  /* the columns that are read are empty, as in rows of a waveform */
+} row_quality;
+
+/* Splits the line into s->row and reserves a row of the table. */
+void scan_split_row(text_scanner *s);
+/* Reads the cells of s->row into the next row of the table; *bad is the first invalid column. */
+row_quality scan_read_row(text_scanner *s, size_t *bad);
+/* Adds the row that was read to the table. */
+void scan_add_row(text_scanner *s);
+/* Returns the index of a name in the list of samples and adds it if necessary. NO_SAMPLE for a
+ * blank name or a full list. */
+size_t scan_find_sample(text_scanner *s, text_span name);
+/* Fails for an unreadable row. */
+void scan_fail_row(text_scanner *s, size_t bad);
 
 #endif

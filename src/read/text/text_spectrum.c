@@ -1,4 +1,5 @@
-/* Converts the tables of a text export to a power spectrum.
+/* Converts the tables of a text export to a power spectrum of a surface, or a table to the noise
+ * spectrum of a cantilever.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,8 +12,30 @@
 #include <string.h>
 
 typedef struct spectrum_point {
-    double wavenumber, density;
+    double place, density; /* wavenumber or frequency, and the density there */
 } spectrum_point;
+
+/* Sorts the points into two arrays; each place must be there once. */
+static wt_status sort_points(spectrum_point *points, size_t n, const char *name, const char *unit,
+                             double **place, double **density, wt_error *err)
+{
+    qsort(points, n, sizeof *points, numbers_compare);
+    *place = wt_alloc(n, sizeof **place);
+    *density = wt_alloc(n, sizeof **density);
+    for (size_t i = 0; i < n; i++) {
+        if (i > 0 && !(points[i].place > points[i - 1].place)) {
+            const wt_status status = wt_fail(err, WT_E_CORRUPT, "a %s stands twice", name);
+            wt_error_expected(err, "one density for each %s", name);
+            wt_error_found(err, "two for %g %s", points[i].place, unit);
+            return status;
+        }
+        (*place)[i] = points[i].place;
+        (*density)[i] = points[i].density;
+    }
+    return WT_OK;
+}
+
+/* ---- roughness ------------------------------------------------------------------------------- */
 
 /* The classes of a row. Wavenumber 0 of an averaged spectrum is the mean height and is skipped. Any
  * other invalid row would leave an invisible gap, so it is an error. */
@@ -20,11 +43,11 @@ typedef enum row_class { ROW_POINT, ROW_EMPTY, ROW_MEAN, ROW_BAD } row_class;
 
 static row_class classify_row(spectrum_point p)
 {
-    if (isnan(p.wavenumber) && isnan(p.density))
+    if (isnan(p.place) && isnan(p.density))
         return ROW_EMPTY;
-    if (p.wavenumber == 0)
+    if (p.place == 0)
         return ROW_MEAN;
-    return p.wavenumber > 0 && !isnan(p.density) ? ROW_POINT : ROW_BAD;
+    return p.place > 0 && !isnan(p.density) ? ROW_POINT : ROW_BAD;
 }
 
 static wt_status fail_row(const text_table *t, size_t row, spectrum_point p, wt_error *err)
@@ -32,7 +55,7 @@ static wt_status fail_row(const text_table *t, size_t row, spectrum_point p, wt_
     wt_fail(err, WT_E_CORRUPT, "a row of the spectrum is no point of it");
     wt_error_place(err, "line %zu", t->row_lines[row]);
     wt_error_expected(err, "a wavenumber above 0 (of 0: the mean, left out) and a density");
-    wt_error_found(err, "wavenumber %g rad/m, density %g (nan: no value)", p.wavenumber, p.density);
+    wt_error_found(err, "wavenumber %g rad/m, density %g (nan: no value)", p.place, p.density);
     wt_error_advice(err, "take the row out if the spectrum is to be interpolated there");
     return WT_E_CORRUPT;
 }
@@ -84,38 +107,104 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
 {
     text_file file;
     wt_power_spectrum result = {.n = 0};
-    size_t rows = 0, n = 0;
+    size_t rows = 0;
     wt_status status = text_scan(self, input, WT_KIND_SPECTRUM, options, log, &file, err);
     if (status != WT_OK)
         return status;
     text_log_columns(&file, log);
     for (size_t i = 0; i < file.n_tables; i++)
         rows += file.tables[i].n_rows;
-    spectrum_point *points = malloc((rows + 1) * sizeof *points);
-    result.wavenumber = malloc((rows + 1) * sizeof *result.wavenumber);
-    result.density = malloc((rows + 1) * sizeof *result.density);
-    if (points == NULL || result.wavenumber == NULL || result.density == NULL)
-        status = wt_fail(err, WT_E_MEMORY, "no memory for the spectrum");
-    if (status == WT_OK)
-        status = collect_spectrum_points(&file, points, &n, &result.kind, log, err);
-    if (status == WT_OK && n < 2)
+    spectrum_point *points = wt_alloc(rows, sizeof *points);
+    status = collect_spectrum_points(&file, points, &result.n, &result.kind, log, err);
+    if (status == WT_OK && result.n < 2)
         status = text_fail_empty(&file, "power spectrum", err);
     if (status == WT_OK)
-        qsort(points, n, sizeof *points, numbers_compare);
-    for (result.n = 0; status == WT_OK && result.n < n; result.n++) {
-        const spectrum_point *const p = &points[result.n];
-        if (result.n > 0 && !(p->wavenumber > p[-1].wavenumber)) {
-            status = wt_fail(err, WT_E_CORRUPT, "a wavenumber stands twice");
-            wt_error_expected(err, "one density for each wavenumber");
-            wt_error_found(err, "two for %g rad/m", p->wavenumber);
-        }
-        result.wavenumber[result.n] = p->wavenumber;
-        result.density[result.n] = p->density;
-    }
+        status = sort_points(points, result.n, "wavenumber", "rad/m", &result.wavenumber,
+                             &result.density, err);
     if (status == WT_OK)
         *spectrum = result;
     else
         wt_power_spectrum_clear(&result);
+    free(points);
+    text_file_free(&file);
+    return status;
+}
+
+/* ---- thermal noise --------------------------------------------------------------------------- */
+
+/* The possible densities of a table; the first that exists is used. */
+static const struct {
+    wt_quantity quantity;
+    bool volts, amplitude;
+} densities[] = {{WT_Q_DEFLECTION_NOISE, false, false},
+                 {WT_Q_SPECTRAL_DENSITY, false, true},
+                 {WT_Q_VOLTAGE_NOISE, true, false},
+                 {WT_Q_VOLTAGE_DENSITY, true, true}};
+
+/* Collects the points; rows without a valid frequency are skipped with a warning. */
+static wt_status collect_noise_points(const text_file *file, wt_log *log, spectrum_point *points,
+                                      wt_noise_spectrum *spectrum, wt_error *err)
+{
+    const text_table *const t = &file->tables[0];
+    size_t n_skipped = 0, first_line = 0;
+    wt_status status = text_table_require(t, WT_KIND_NOISE, err);
+    if (status != WT_OK)
+        return status;
+    const text_column *frequency = text_table_column(t, WT_Q_FREQUENCY, -1), *density = NULL;
+    size_t d = 0;
+    while ((density = text_table_column(t, densities[d].quantity, -1)) == NULL)
+        d++;
+    spectrum->volts = densities[d].volts;
+    spectrum->amplitudes = densities[d].amplitude;
+    for (size_t r = 0; r < t->n_rows; r++) {
+        spectrum_point p = {text_table_value(t, r, frequency), text_table_value(t, r, density)};
+        if (p.density < 0) {
+            wt_fail(err, WT_E_CORRUPT, "a density below 0");
+            wt_error_place(err, "line %zu", t->row_lines[r]);
+            wt_error_expected(err, "densities of 0 and more, which are no logarithms");
+            wt_error_found(err, "%g", p.density);
+            return WT_E_CORRUPT;
+        }
+        if (spectrum->amplitudes)
+            p.density *= p.density;
+        if (p.place >= 0 && isfinite(p.place) && !isinf(p.density)) {
+            points[spectrum->n++] = p;
+            continue;
+        }
+        first_line = n_skipped++ == 0 ? t->row_lines[r] : first_line;
+    }
+    if (n_skipped > 0)
+        wt_log_add(log, WT_WARNING, file->name, format_line_position(first_line).text,
+                   "%zu row%s without a frequency of 0 or more left out, this the first", n_skipped,
+                   n_skipped == 1 ? "" : "s");
+    spectrum->temperature = t->header.value[HEADER_TEMPERATURE];
+    spectrum->spring_constant = t->header.value[HEADER_SPRING_CONSTANT];
+    spectrum->sensitivity = t->header.value[HEADER_SENSITIVITY];
+    spectrum->averages = spectrum->resonance = spectrum->quality = (double)NAN;
+    return WT_OK;
+}
+
+wt_status text_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_log *log, wt_noise_spectrum *spectrum, wt_error *err)
+{
+    text_file file;
+    wt_status status = text_scan(self, input, WT_KIND_NOISE, options, log, &file, err);
+    if (status != WT_OK)
+        return status;
+    text_log_columns(&file, log);
+    if (file.n_tables > 1) {
+        status = wt_fail(err, WT_E_AMBIGUOUS, "several spectra in one file");
+        wt_error_advice(err, "part the file");
+    }
+    spectrum_point *points =
+        file.n_tables == 1 ? wt_alloc(file.tables[0].n_rows, sizeof *points) : NULL;
+    if (status == WT_OK && points != NULL)
+        status = collect_noise_points(&file, log, points, spectrum, err);
+    if (status == WT_OK && spectrum->n < 2)
+        status = text_fail_empty(&file, "spectrum of thermal noise", err);
+    if (status == WT_OK)
+        status = sort_points(points, spectrum->n, "frequency", "Hz", &spectrum->frequency,
+                             &spectrum->density, err);
     free(points);
     text_file_free(&file);
     return status;

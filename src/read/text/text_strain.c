@@ -79,8 +79,6 @@ static wt_status add_strain_sweep(sweep_builder *b, const size_t *rows, size_t n
 {
     static const char *const direction_suffix[] = {" (rising strain)", " (falling strain)"};
     wt_strain_sweep *s = wt_sweep_add_strain_sweep(b->sweep, n);
-    if (s == NULL)
-        return wt_fail(b->err, WT_E_MEMORY, "no memory for a strain sweep");
     double sum = 0;
     b->n = 0;
     for (size_t i = 0; i < n; i++) {

@@ -166,28 +166,26 @@ static wt_status split_sample(sweep_builder *b, size_t *rows, size_t n)
     if (swept)
         status = extract_strain_sweeps(b, rows, &n);
     if (status == WT_OK && swept)
-        status = extract_ramps(b, rows, &n);
+        extract_ramps(b, rows, &n);
     if (status == WT_OK && swept && b->c.strain != NULL)
         group_amplitudes(b, rows, n);
     return status == WT_OK ? split_rows(b, rows, n) : status;
 }
 
 /* Sets the sample name of the sweeps added since `from`, by the column or the file. */
-static wt_status name_sample(const sweep_builder *b, const wt_sweep *from)
+static void name_sample(const sweep_builder *b, const wt_sweep *from)
 {
     wt_sweep *const s = b->sweep;
     const bool by_file = b->options->sample_by == WT_SAMPLE_BY_FILE;
     const char *name = by_file                  ? wt_path_base(b->file->name)
                        : b->sample != NO_SAMPLE ? b->file->samples.items[b->sample]
                                                 : NULL;
-    bool good = true;
     for (size_t i = from->n_isotherms; name != NULL && i < s->n_isotherms; i++)
-        good = (s->isotherms[i].sample = strdup(name)) != NULL && good;
+        s->isotherms[i].sample = wt_strdup(name);
     for (size_t i = from->n_ramps; name != NULL && i < s->n_ramps; i++)
-        good = (s->ramps[i].sample = strdup(name)) != NULL && good;
+        s->ramps[i].sample = wt_strdup(name);
     for (size_t i = from->n_strain_sweeps; name != NULL && i < s->n_strain_sweeps; i++)
-        good = (s->strain_sweeps[i].sample = strdup(name)) != NULL && good;
-    return good ? WT_OK : wt_fail(b->err, WT_E_MEMORY, "no memory for the name of a sample");
+        s->strain_sweeps[i].sample = wt_strdup(name);
 }
 
 static void remove_samples(const text_table *t)
@@ -270,22 +268,19 @@ static size_t drop_flagged_rows(const sweep_builder *b, size_t *rows, size_t n)
 static wt_status split_table(sweep_builder *b)
 {
     const text_table *t = b->table;
-    size_t *rows = malloc((t->n_rows + 1) * sizeof *rows), n = 0;
-    size_t *sample_rows = malloc((t->n_rows + 1) * sizeof *sample_rows);
-    wt_status status = rows == NULL || sample_rows == NULL
-                           ? wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm")
-                           : WT_OK;
-    if (status == WT_OK)
-        ignore_count_column(b);
-    for (size_t row = 0; status == WT_OK && row < t->n_rows; row++)
+    size_t *rows = wt_alloc(t->n_rows, sizeof *rows), n = 0;
+    size_t *sample_rows = wt_alloc(t->n_rows, sizeof *sample_rows);
+    wt_status status = WT_OK;
+    ignore_count_column(b);
+    for (size_t row = 0; row < t->n_rows; row++)
         if (sweep_is_valid_row(b, row))
             rows[n++] = row;
-    if (status == WT_OK && n < t->n_rows)
+    if (n < t->n_rows)
         wt_log_action(b->log, WT_NOTE, WT_LEFT_OUT, t->n_rows - n, NULL, b->file->name,
                       format_line_position(t->names_line).text,
                       "%zu rows without a positive frequency or without a modulus left out",
                       t->n_rows - n);
-    n = status == WT_OK ? drop_flagged_rows(b, rows, n) : 0;
+    n = drop_flagged_rows(b, rows, n);
     while (status == WT_OK && n > 0) {
         const wt_sweep before = *b->sweep;
         size_t taken = 0, kept = 0;
@@ -297,8 +292,7 @@ static wt_status split_table(sweep_builder *b)
                 rows[kept++] = rows[i];
         n = kept;
         status = split_sample(b, sample_rows, taken);
-        if (status == WT_OK)
-            status = name_sample(b, &before);
+        name_sample(b, &before);
     }
     free(sample_rows);
     free(rows);
@@ -397,9 +391,7 @@ static wt_status read_sweep_table(sweep_builder *b)
     b->sweep->deformation = b->c.deformation;
     b->sweep->loading = b->c.loading;
     report_derived_moduli(b);
-    b->rows = malloc((b->table->n_rows + 1) * sizeof *b->rows);
-    if (b->rows == NULL)
-        return wt_fail(b->err, WT_E_MEMORY, "no memory for an isotherm");
+    b->rows = wt_alloc(b->table->n_rows, sizeof *b->rows);
     status = split_table(b);
     free(b->rows);
     b->rows = NULL;
@@ -418,22 +410,17 @@ static wt_status move_sweeps(wt_sweep *to, wt_sweep *from, wt_error *err)
     }
     if (count_sweeps(to) > 0 && to->loading != from->loading)
         return fail_mixed_loading(to->loading, from->loading, err);
-    wt_isotherm *isotherms =
-        realloc(to->isotherms, (n + from->n_isotherms + 1) * sizeof *to->isotherms);
-    to->isotherms = isotherms != NULL ? isotherms : to->isotherms;
-    wt_ramp *ramps = realloc(to->ramps, (n_ramps + from->n_ramps + 1) * sizeof *to->ramps);
-    to->ramps = ramps != NULL ? ramps : to->ramps;
-    wt_strain_sweep *strain =
-        realloc(to->strain_sweeps, (n_strain + from->n_strain_sweeps + 1) * sizeof *strain);
-    to->strain_sweeps = strain != NULL ? strain : to->strain_sweeps;
-    if (isotherms == NULL || ramps == NULL || strain == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the isotherms");
+    to->isotherms = wt_realloc(to->isotherms, n + from->n_isotherms, sizeof *to->isotherms);
+    to->ramps = wt_realloc(to->ramps, n_ramps + from->n_ramps, sizeof *to->ramps);
+    to->strain_sweeps =
+        wt_realloc(to->strain_sweeps, n_strain + from->n_strain_sweeps, sizeof *to->strain_sweeps);
     if (from->n_isotherms > 0)
-        memcpy(isotherms + n, from->isotherms, from->n_isotherms * sizeof *isotherms);
+        memcpy(to->isotherms + n, from->isotherms, from->n_isotherms * sizeof *to->isotherms);
     if (from->n_ramps > 0)
-        memcpy(ramps + n_ramps, from->ramps, from->n_ramps * sizeof *ramps);
+        memcpy(to->ramps + n_ramps, from->ramps, from->n_ramps * sizeof *to->ramps);
     if (from->n_strain_sweeps > 0)
-        memcpy(strain + n_strain, from->strain_sweeps, from->n_strain_sweeps * sizeof *strain);
+        memcpy(to->strain_sweeps + n_strain, from->strain_sweeps,
+               from->n_strain_sweeps * sizeof *to->strain_sweeps);
     to->n_strain_sweeps = n_strain + from->n_strain_sweeps;
     to->n_isotherms = n + from->n_isotherms;
     to->n_ramps = n_ramps + from->n_ramps;
@@ -470,7 +457,7 @@ wt_status text_build_sweep(const text_file *file, const wt_read_options *options
                    "%zu test%s of relaxation or creep left out beside the sweeps", n_steps,
                    n_steps > 1 ? "s" : "");
     for (size_t i = 0; i < file->n_tables && status == WT_OK && made.loading == WT_OSCILLATION; i++)
-        status = sweep_check_table(file, &file->tables[i], log, err);
+        sweep_check_table(file, &file->tables[i], log);
     for (size_t i = 0; i < file->steps.n; i++)
         wt_log_add(log, WT_NOTE, file->name, NULL, "step without a frequency sweep: %s",
                    file->steps.items[i]);

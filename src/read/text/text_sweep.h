@@ -59,7 +59,7 @@ void sweep_format_source(const sweep_builder *b, char *source, size_t size);
 wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, double *spread);
 
 /* ---- text_sweep_check.c: warns of inconsistent rows. ----------------------------------------- */
-wt_status sweep_check_table(const text_file *file, text_table *table, wt_log *log, wt_error *err);
+void sweep_check_table(const text_file *file, text_table *table, wt_log *log);
 
 /* Fails if the user states one temperature for tables that state different ones, and warns of
  * tables without one among them. */
@@ -79,6 +79,6 @@ wt_status extract_strain_sweeps(sweep_builder *b, size_t *rows, size_t *n);
 
 /* ---- text_ramp.c: removes the rows of temperature sweeps from `rows` and adds these sweeps. ---
  */
-wt_status extract_ramps(sweep_builder *b, size_t *rows, size_t *n);
+void extract_ramps(sweep_builder *b, size_t *rows, size_t *n);
 
 #endif

@@ -22,16 +22,13 @@ static int compare_row_values(const void *a, const void *b, void *user)
 }
 
 /* Warns of repeated rows: a measurement does not repeat all values to the last digit. */
-static wt_status warn_duplicate_rows(const text_file *file, text_table *t, wt_log *log,
-                                     wt_error *err)
+static void warn_duplicate_rows(const text_file *file, text_table *t, wt_log *log)
 {
     enum { COLUMNS_LEAST = 3 };
     size_t n = 0, line = SIZE_MAX;
     if (t->n_columns < COLUMNS_LEAST || t->n_rows < 2)
-        return WT_OK;
-    size_t *const rows = malloc(t->n_rows * sizeof *rows);
-    if (rows == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for an isotherm");
+        return;
+    size_t *const rows = wt_alloc(t->n_rows, sizeof *rows);
     for (size_t i = 0; i < t->n_rows; i++)
         rows[i] = i;
     qsort_r(rows, t->n_rows, sizeof *rows, compare_row_values, t);
@@ -50,7 +47,6 @@ static wt_status warn_duplicate_rows(const text_file *file, text_table *t, wt_lo
                    "%zu rows from here on are there twice with the same numbers: was a part "
                    "of the file copied into it?",
                    n);
-    return WT_OK;
 }
 
 /* Returns E''/E' minus the loss factor of a row; NaN if one is missing. */
@@ -63,18 +59,15 @@ static double loss_factor_deviation(const text_table *t, const sweep_columns *c,
 /* Warns of a loss factor that is not the ratio of the moduli although it is in most rows. Two
  * digits allow 5 %. Fixed decimals, or an instrument that averages all three, give similar
  * deviations in most rows. */
-static wt_status warn_loss_factors(const text_file *file, const text_table *t, wt_log *log,
-                                   wt_error *err)
+static void warn_loss_factors(const text_file *file, const text_table *t, wt_log *log)
 {
     static const double two_digits = 0.05, most_rows = 10;
     enum { ROWS_LEAST = 4 };
     const sweep_columns c = sweep_find_columns(t, WT_DEFORMATION_FROM_FILE);
     size_t n = 0, n_wrong = 0, line = SIZE_MAX;
     if (c.storage == NULL || c.loss == NULL || c.factor == NULL || t->n_rows < ROWS_LEAST)
-        return WT_OK;
-    double *const gaps = malloc(t->n_rows * sizeof *gaps);
-    if (gaps == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for an isotherm");
+        return;
+    double *const gaps = wt_alloc(t->n_rows, sizeof *gaps);
     for (size_t i = 0; i < t->n_rows; i++) {
         const double gap = loss_factor_deviation(t, &c, i);
         if (isfinite(gap))
@@ -94,7 +87,6 @@ static wt_status warn_loss_factors(const text_file *file, const text_table *t, w
                    "the loss factor of %zu row%s from here on is not the ratio of the moduli "
                    "beside it, as it is in the others: was a number changed?",
                    n_wrong, n_wrong > 1 ? "s" : "");
-    return WT_OK;
 }
 
 /* ---- redundant columns ----------------------------------------------------------------------- */
@@ -188,12 +180,12 @@ static void report_other_temperature(const text_file *file, const text_table *t,
                       fabs(median), used->name, other->name);
 }
 
-wt_status sweep_check_table(const text_file *file, text_table *t, wt_log *log, wt_error *err)
+void sweep_check_table(const text_file *file, text_table *t, wt_log *log)
 {
-    const wt_status status = warn_duplicate_rows(file, t, log, err);
+    warn_duplicate_rows(file, t, log);
     warn_contradictions(file, t, log);
     report_other_temperature(file, t, log);
-    return status == WT_OK ? warn_loss_factors(file, t, log, err) : status;
+    warn_loss_factors(file, t, log);
 }
 
 /* ---- temperatures ---------------------------------------------------------------------------- */

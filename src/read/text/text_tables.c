@@ -7,18 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-wt_status text_list_add(text_file *file, text_list *list, size_t max_items, text_span text,
-                        wt_error *err)
+void text_list_add(text_file *file, text_list *list, size_t max_items, text_span text)
 {
     if (list->n >= max_items)
-        return WT_OK;
+        return;
     if (list->items == NULL)
         list->items = arena_alloc(&file->memory, max_items, sizeof *list->items);
-    char *copy = list->items != NULL ? arena_text(&file->memory, text.text, text.length) : NULL;
-    if (copy == NULL)
-        return wt_fail(err, WT_E_MEMORY, "no memory for the names in the file");
-    list->items[list->n++] = copy;
-    return WT_OK;
+    list->items[list->n++] = arena_text(&file->memory, text.text, text.length);
 }
 
 void text_table_free(text_table *t)
