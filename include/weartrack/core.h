@@ -466,8 +466,9 @@ WT_API unsigned wt_thread_count(unsigned threads);
 WT_API wt_status wt_parallel_for(size_t n, unsigned threads, wt_parallel_fn body, void *user,
                                  const wt_progress *progress, const char *what) WT_NODISCARD;
 
-/* HDF5 files are read in sandboxed processes. Returns the restrictions that this system could not
- * apply to them, as a sentence; NULL if all applied or no process has started yet. */
+/* HDF5 files are read in confined processes, and Gwyddion and gnuplot are confined. Returns the
+ * restrictions that this system could not apply to them, as a sentence that the thread keeps until
+ * its next call; NULL if all applied or no process has started yet. */
 WT_API const char *wt_sandbox_limitations(void);
 
 /* Wall and processor time of this process [s] since an arbitrary start. */

@@ -17,9 +17,14 @@ extern "C" {
  * readers unpack gzip archives and spreadsheets and read a ZIP archive of force-curve files as one
  * file. The functions here return the bytes of the file itself. */
 typedef struct wt_input wt_input;
-/* Opens an input; path "-" is standard input. A named pipe is rejected, as reading it could block
- * for ever. */
+/* Opens an input; path "-" is standard input. A named pipe and a device are rejected, as reading
+ * them could take for ever. */
 WT_API wt_status wt_input_open(const char *path, wt_input **input, wt_error *err) WT_NODISCARD;
+/* Sets the largest number of bytes that are kept of a pipe, or of a file whose bytes are returned
+ * as a whole. More is WT_E_RANGE; a file is not read then. */
+#define WT_INPUT_LIMIT ((size_t)16 << 30)          /* measured data, unless another limit is set */
+#define WT_INPUT_SETTINGS_LIMIT ((size_t)64 << 20) /* cases, descriptions, lists of files */
+WT_API void wt_input_limit(wt_input *input, size_t most);
 /* Opens an input in memory. The bytes are borrowed until it is closed. */
 WT_API wt_status wt_input_open_memory(const void *bytes, size_t length, const char *name,
                                       wt_input **input, wt_error *err) WT_NODISCARD;

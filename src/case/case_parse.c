@@ -305,8 +305,10 @@ wt_status wt_case_read(const char *path, wt_case **out, wt_error *err)
     const unsigned char *bytes = NULL;
     size_t length = 0;
     wt_status status = wt_input_open(path, &input, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        wt_input_limit(input, WT_INPUT_SETTINGS_LIMIT);
         status = wt_input_bytes(input, &bytes, &length, err);
+    }
     if (status == WT_OK)
         status = case_from_bytes(bytes, length, path, out, err);
     else

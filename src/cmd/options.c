@@ -370,8 +370,10 @@ static bool list_files(cmd_session *s, size_t n, char **arguments)
     const unsigned char *bytes = NULL;
     size_t length = 0;
     wt_status status = from != NULL ? wt_input_open(from, &input, &s->err) : WT_OK;
-    if (status == WT_OK && from != NULL)
+    if (status == WT_OK && from != NULL) {
+        wt_input_limit(input, WT_INPUT_SETTINGS_LIMIT);
         status = wt_input_bytes(input, &bytes, &length, &s->err);
+    }
     if (status == WT_OK) {
         s->names = wt_alloc(length + 1, 1);
         /* a name and its separator need 2 bytes */

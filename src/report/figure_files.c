@@ -53,11 +53,18 @@ wt_status figure_font_check(const void *member, wt_error *err)
 {
     const char *const name = *(const char *const *)member;
     static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789 -";
-    if (name == NULL || (name[0] != '\0' && strspn(name, plain) == strlen(name)))
+    const size_t length = name != NULL ? strlen(name) : 0;
+    if (name == NULL || (length > 0 && length <= FONT_NAME_LIMIT && strspn(name, plain) == length))
         return WT_OK;
     wt_status status = wt_fail(err, WT_E_ARG, "no name of a font");
-    wt_error_expected(err, "letters, digits, blanks and hyphens, such as Arial or Liberation Sans");
-    wt_error_found(err, "\"%s\"", name);
+    wt_error_expected(err,
+                      "at most %d letters, digits, blanks and hyphens, such as Arial or Liberation "
+                      "Sans",
+                      FONT_NAME_LIMIT);
+    if (length <= FONT_NAME_LIMIT)
+        wt_error_found(err, "\"%s\"", name);
+    else
+        wt_error_found(err, "%zu", length);
     return status;
 }
 

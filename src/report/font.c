@@ -12,10 +12,8 @@
 /* Time limit of fc-match [s], which may first build its cache of fonts. */
 static const double match_time = 10;
 
-enum { FONT_LENGTH = 128 }; /* largest length of a name */
-
 /* Escapes a name as a pattern, where a size would follow a hyphen. */
-static void escape_font_pattern(const char *font, char pattern[2 * FONT_LENGTH])
+static void escape_font_pattern(const char *font, char pattern[2 * FONT_NAME_LIMIT + 1])
 {
     for (; *font != '\0'; *pattern++ = *font++)
         if (*font == '-')
@@ -37,8 +35,8 @@ static bool family_contains(const char *names, const char *font)
 
 bool wt_report_font_is_available(const char *font, char *instead, size_t size)
 {
-    char pattern[2 * FONT_LENGTH];
-    if (font == NULL || strlen(font) >= FONT_LENGTH || size == 0)
+    char pattern[2 * FONT_NAME_LIMIT + 1];
+    if (font == NULL || strlen(font) > FONT_NAME_LIMIT || size == 0)
         return true;
     escape_font_pattern(font, pattern);
     const char *const arguments[] = {"-f", "%{family}\\n", pattern, NULL};

@@ -3,8 +3,10 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/gnuplot.h"
 
+#include "core/base/memory.h"
 #include "core/system/subprocess.h"
 
+#include <errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -20,8 +22,10 @@ static wt_status fail_start(const char *program, int code, wt_error *err)
     wt_status status = wt_fail(err, WT_E_TOOL, "gnuplot cannot be started");
     wt_error_file(err, program);
     wt_error_found(err, "%s", strerror(code));
-    wt_error_advice(err, "install gnuplot (apt-get install gnuplot-nox) or name the program with "
-                         "--gnuplot");
+    wt_error_advice(err, code == EMFILE || code == ENFILE
+                             ? MORE_FILES_ADVICE
+                             : "install gnuplot (apt-get install gnuplot-nox) or name the program "
+                               "with --gnuplot");
     return status;
 }
 

@@ -9,6 +9,10 @@
 /* Largest size of a picture of a report [byte]. */
 #define GNUPLOT_PICTURE_LIMIT ((size_t)64 << 20)
 
+/* Longest name of a font. Names are shorter, and gnuplot 5.4 aborts at one of a thousand letters.
+ */
+enum { FONT_NAME_LIMIT = 127 };
+
 typedef struct gnuplot_call {
     const char *program;          /* a name looked up in PATH, or a path */
     const char *folder;           /* working folder */

@@ -25,12 +25,11 @@ execute_process(COMMAND ${NM} -D --defined-only ${LIBRARY} OUTPUT_VARIABLE out R
 if(NOT rc EQUAL 0)
   message(FATAL_ERROR "nm failed on ${LIBRARY}")
 endif()
-string(REGEX MATCHALL "[0-9a-f]+ [TDBRVW] [^\n]+" rows "${out}")
+string(REGEX MATCHALL "[0-9a-f]+ [A-Za-z] [^\n]+" rows "${out}")
 set(exported "")
 foreach(row IN LISTS rows)
-  string(REGEX REPLACE "^[0-9a-f]+ [A-Z] ([^@]+).*$" "\\1" name "${row}")
-  # sanitizers, the linker, and functions made for several processors bring symbols of their own
-  if(NOT name MATCHES "^(_|__asan|__ubsan|__lsan|__sanitizer|__sancov)" AND NOT name MATCHES "[.]resolver$")
+  string(REGEX REPLACE "^[0-9a-f]+ [A-Za-z] ([^@]+).*$" "\\1" name "${row}")
+  if(NOT name MATCHES "^_") # of sanitizers and the linker
     list(APPEND exported ${name})
   endif()
 endforeach()

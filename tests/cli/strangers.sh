@@ -78,6 +78,29 @@ cat > case.xml <<'EOF'
 EOF
 refused 1 'named pipe' run --no-report case.xml -o r.h5
 
+# what never ends, or is larger than its role lets: refused before memory or disk are full
+for subcommand in info convert run validate accuracy table collect summary; do
+  refused 1 'is a device' "$subcommand" /dev/zero
+done
+refused 1 'is a device' report -o zeros /dev/zero
+timeout 20 "$weartrack" info - < /dev/zero > said 2>&1 && fail "zeros as standard input"
+grep -q 'is a device' said || fail "zeros as standard input: $(cat said)"
+truncate -s 65M large.xml
+refused 1 'is larger than 64 MiB' run --no-report large.xml -o r.h5
+yes '<case>' | timeout 60 "$weartrack" run --no-report - -o r.h5 > said 2>&1 && fail "an endless case"
+grep -q 'is larger than 64 MiB' said || fail "an endless case: $(cat said)"
+
+# few descriptors, of which this shell may have left some open: it is not memory that is missing
+if command -v prlimit > /dev/null; then
+  told=no
+  for most in 4 5 6 7 8 9; do
+    prlimit --nofile=$most:$most "$weartrack" info folder/dma.txt > out 2> said || true
+    if grep -q 'no memory' said; then fail "$most descriptors"; fi
+    if grep -q 'ulimit -n' said; then told=yes; fi
+  done
+  [ $told = yes ] || fail "few descriptors: nobody says so"
+fi
+
 # very many files: the time grows with their number, not with its square
 mkdir many
 (cd many && seq 40000 | xargs -n 2000 touch)

@@ -124,6 +124,30 @@ static void test_flood_that_goes_on(void **state)
                "more of the file than is read");
 }
 
+/* The name of the copy follows the first bytes, not the name of the file. */
+static void test_ending_of_the_copy(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *head, *copy;
+    } files[] = {{"aISO-1.0", "surface.sdf"}, {"VCA DATA", "surface.opdx"}, {"height", "surface"}};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        wt_input *input = NULL, *converted = NULL;
+        wt_error err = WT_ERROR_INIT;
+        char version[64], script[64];
+        (void)snprintf(script, sizeof script, "[ \"$2\" = %s ] && exit 6", files[i].copy);
+        stand_in(script);
+        assert_int_equal(
+            wt_input_open_memory(files[i].head, strlen(files[i].head), "a.sur", &input, NULL),
+            WT_OK);
+        assert_int_equal(
+            gwyddion_convert(input, &gwyddion_default_limits, &converted, version, &err),
+            WT_E_TOOL);
+        assert_non_null(strstr(err.message, "exit status 6"));
+        wt_input_close(input);
+    }
+}
+
 static void test_rubbish(void **state)
 {
     (void)state;
@@ -370,11 +394,11 @@ static void test_damaged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_failures),    TEST(test_flood_that_goes_on),
-        TEST(test_left_behind), TEST(test_closed_output),
-        TEST(test_rubbish),     TEST(test_not_installed),
-        TEST(test_heights),     TEST(test_unpacked),
-        TEST(test_damaged),
+        TEST(test_failures),           TEST(test_flood_that_goes_on),
+        TEST(test_left_behind),        TEST(test_closed_output),
+        TEST(test_ending_of_the_copy), TEST(test_rubbish),
+        TEST(test_not_installed),      TEST(test_heights),
+        TEST(test_unpacked),           TEST(test_damaged),
     };
     return cmocka_run_group_tests(tests, set_up, clean);
 }

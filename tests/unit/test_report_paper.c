@@ -191,6 +191,13 @@ static void test_refusals(void **state)
         options.font = fonts[i];
         assert_int_not_equal(wt_report_check("out", &options, &err), WT_OK);
     }
+    // gnuplot would abort at a name of a thousand letters.
+    char letters[1001] = "";
+    options.font = memset(letters, 'A', sizeof letters - 1);
+    assert_int_not_equal(wt_report_check("out", &options, &err), WT_OK);
+    assert_string_equal(err.found, "1000");
+    letters[127] = '\0';
+    assert_int_equal(wt_report_check("out", &options, &err), WT_OK);
     options = wt_report_defaults();
     static const double widths[] = {0, -0.1, 0.01, 85};
     for (size_t i = 0; i < sizeof widths / sizeof *widths; i++) {

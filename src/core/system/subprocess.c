@@ -180,6 +180,7 @@ static wt_status start_program(const program_call *call, pid_t *child, int *word
     if (pipe2(output_pipe, O_CLOEXEC) != 0 || pipe2(report, O_CLOEXEC) != 0) {
         status = wt_fail(err, WT_E_IO, "no pipe for the messages of %s: %s", call->program,
                          strerror(errno));
+        wt_error_advice(err, MORE_FILES_ADVICE);
     } else {
         const program_start s = {path, call, line, list, output_pipe[1], report[1], getpid()};
         *child = fork();

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <sys/vfs.h>
 #include <unistd.h>
 
@@ -61,6 +62,7 @@ struct wt_input {
     unsigned char *buffer; /* bytes read so far; owned */
     size_t capacity;
     size_t expected;   /* size of a file, 0 for a pipe */
+    size_t most;       /* largest number of bytes that is kept */
     wt_input *content; /* unpacked input, or NULL */
     int fd;            /* -1 if nothing is left to read or to close */
     bool lost;         /* true if bytes of a pipe were lost; then nothing more is read */
@@ -71,7 +73,13 @@ static wt_input *input_new(const char *name)
     wt_input *in = wt_alloc(1, sizeof *in);
     in->name = wt_strdup(name);
     in->fd = -1;
+    in->most = WT_INPUT_LIMIT;
     return in;
+}
+
+void wt_input_limit(wt_input *input, size_t most)
+{
+    input->most = most;
 }
 
 static wt_status fail_io(const wt_input *in, wt_error *err, int number, const char *what)
@@ -80,6 +88,14 @@ static wt_status fail_io(const wt_input *in, wt_error *err, int number, const ch
     wt_fail(err, status, "%s: %s", what, strerror(number));
     wt_error_file(err, in->name);
     return status;
+}
+
+static wt_status fail_kind(const char *name, const char *what, wt_error *err)
+{
+    wt_fail(err, WT_E_ARG, "%s", what);
+    wt_error_file(err, name);
+    wt_error_expected(err, "a file");
+    return WT_E_ARG;
 }
 
 /* Opens a file without blocking, since a named pipe may never get a writer. An anonymous pipe, such
@@ -93,12 +109,12 @@ static wt_status open_input_file(wt_input *in, const char *path, struct stat *in
     if (fstat(in->fd, info) != 0 || fstatfs(in->fd, &system) != 0)
         return fail_io(in, err, errno, "cannot be examined");
     if (S_ISFIFO(info->st_mode) && system.f_type != PIPEFS_MAGIC) {
-        wt_fail(err, WT_E_ARG, "is a named pipe");
-        wt_error_file(err, path);
-        wt_error_expected(err, "a file");
+        (void)fail_kind(path, "is a named pipe", err);
         wt_error_advice(err, "give it as standard input: weartrack ... - < PIPE");
         return WT_E_ARG;
     }
+    if (S_ISCHR(info->st_mode) || S_ISBLK(info->st_mode)) /* it may never end */
+        return fail_kind(path, "is a device", err);
     if (fcntl(in->fd, F_SETFL, O_RDONLY) != 0)
         return fail_io(in, err, errno, "cannot be examined");
     return WT_OK;
@@ -110,7 +126,14 @@ static wt_status open_standard_input(wt_input *in, struct stat *info, wt_error *
     in->fd = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
     if (in->fd < 0)
         return fail_io(in, err, errno, "cannot be opened");
-    return fstat(in->fd, info) == 0 ? WT_OK : fail_io(in, err, errno, "cannot be examined");
+    if (fstat(in->fd, info) != 0)
+        return fail_io(in, err, errno, "cannot be examined");
+    /* Devices other than a terminal and the null device may never end. */
+    const bool ends =
+        S_ISCHR(info->st_mode) && (info->st_rdev == makedev(1, 3) || isatty(in->fd) != 0);
+    if ((S_ISCHR(info->st_mode) && !ends) || S_ISBLK(info->st_mode))
+        return fail_kind(in->name, "is a device", err);
+    return WT_OK;
 }
 
 wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
@@ -125,9 +148,7 @@ wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
     if (status == WT_OK)
         wt_protect_input(path);
     if (status == WT_OK && S_ISDIR(st.st_mode)) {
-        status = wt_fail(err, WT_E_ARG, "is a folder");
-        wt_error_file(err, path);
-        wt_error_expected(err, "a file");
+        status = fail_kind(path, "is a folder", err);
         wt_error_advice(err, "'%s/*' names the files in it", path);
     }
     if (status != WT_OK) {
@@ -190,6 +211,7 @@ wt_status wt_input_sibling(const wt_input *input, wt_input **sibling, wt_error *
         return fail_io(input, err, errno, "cannot be opened once more");
     *sibling = input_new(input->name);
     (*sibling)->expected = input->expected;
+    (*sibling)->most = input->most;
     (*sibling)->fd = fd;
     return WT_OK;
 }
@@ -231,13 +253,24 @@ static wt_status fail_lost_bytes(const wt_input *in, wt_error *err)
     return WT_E_IO;
 }
 
+static wt_status fail_size(const wt_input *in, wt_error *err)
+{
+    wt_fail(err, WT_E_RANGE, "is larger than %zu MiB", in->most >> 20);
+    wt_error_file(err, in->name);
+    return WT_E_RANGE;
+}
+
 /* Reads until `want` bytes are present or the input ends. The buffer of a file is allocated at
  * once, with one more byte to detect the end. A part of the file is read in steps. */
 static wt_status fill_buffer(wt_input *in, size_t want, wt_error *err)
 {
+    if (!in->whole && want > in->most && in->expected > in->most)
+        return fail_size(in, err);
     while (!in->whole && in->length < want) {
         if (in->lost)
             return fail_lost_bytes(in, err);
+        if (in->length > in->most)
+            return fail_size(in, err);
         if (in->length == in->capacity) {
             size_t capacity = in->capacity > 0   ? in->capacity
                               : in->expected > 0 ? in->expected + 1
@@ -297,6 +330,8 @@ static wt_status spool_pipe(wt_input *in, wt_error *err)
             status = scratch_write(file, piece, (size_t)got, in->name, err);
         size += got > 0 ? (size_t)got : 0;
         more = got > 0;
+        if (status == WT_OK && size > in->most)
+            status = fail_size(in, err);
     }
     free(piece);
     if (status == WT_OK && lseek(file, (off_t)in->length, SEEK_SET) < 0)

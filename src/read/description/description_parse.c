@@ -155,8 +155,10 @@ wt_status description_parse_file(description_xsd *schema, const char *path,
     const unsigned char *bytes = NULL;
     size_t length = 0;
     wt_status status = wt_input_open(path, &input, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        wt_input_limit(input, WT_INPUT_SETTINGS_LIMIT);
         status = wt_input_bytes(input, &bytes, &length, err);
+    }
     if (status == WT_OK)
         status = description_parse(schema, (const char *)bytes, length, path, description, err);
     wt_input_close(input);

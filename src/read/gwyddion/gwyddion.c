@@ -1,6 +1,7 @@
 /* Reads height maps of other manufacturers with the program Gwyddion. The program converts them to
  * .gwy, and the result is read. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/gwyddion/gwyddion.h"
+#include "core/base/array.h"
 #include "core/base/memory.h"
 #include "core/base/utf8.h"
 #include "core/system/subprocess.h"
@@ -12,7 +13,6 @@
 #include "read/reader.h"
 #include "weartrack/read.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <libdeflate.h>
@@ -166,17 +166,39 @@ const gwyddion_limits gwyddion_default_limits = {
 /* limit for the version query, which is fast [s] */
 static const double VERSION_TIME = 10;
 
-/* Builds the name of the copy. Gwyddion uses only the suffix of the name. */
-static void build_copy_name(const char *file, char name[32])
+/* Formats that are recognised by their first bytes, and the ending of their files. */
+typedef struct known_format {
+    const char *magic;
+    size_t length;
+    const char *maker, *ending;
+} known_format;
+#define MAGIC(bytes) bytes, sizeof(bytes) - 1
+
+static const known_format known_formats[] = {
+    {MAGIC("AliconaImaging"), "Alicona", ".al3d"},
+    {MAGIC(SURF_PLAIN), "Digital Surf, MountainsMap", ".sur"},
+    {MAGIC(SURF_PACKED), "Digital Surf, MountainsMap", ".sur"},
+    {MAGIC("\1\0Directory"), "Wyko, Veeco", ".opd"},
+    {MAGIC("VCA DATA"), "Dektak, Bruker", ".opdx"},
+    {MAGIC("aISO-1.0"), "SDF, ISO 25178-71", ".sdf"},
+    {MAGIC("aBCR-1.0"), "SDF, ISO 25178-71", ".sdf"},
+};
+
+/* Returns the format of a file, or NULL. Other files need --format gwyddion. */
+static const known_format *find_format(const file_peek *peek)
 {
-    const char *const dot = strrchr(file, '.');
-    char ending[16] = "";
-    if (dot != NULL && strlen(dot) < sizeof ending)
-        snprintf(ending, sizeof ending, "%s", dot);
-    for (char *p = ending; *p != '\0'; p++)
-        if (p > ending && !isalnum((unsigned char)*p))
-            ending[0] = '\0';
-    snprintf(name, 32, "surface%s", ending);
+    for (size_t i = 0; i < COUNT_OF(known_formats); i++) {
+        const known_format *const known = &known_formats[i];
+        if (peek_begins(peek, known->magic, known->length))
+            return known;
+    }
+    return NULL;
+}
+
+static wt_status peek_head(wt_input *input, file_peek *peek, wt_error *err)
+{
+    enum { HEAD = 512 };
+    return wt_input_peek(input, HEAD, &peek->bytes, &peek->length, &peek->whole, err);
 }
 
 static wt_status write_copy(wt_input *input, const char *folder, const char *name, wt_error *err)
@@ -223,8 +245,10 @@ static wt_status check_program_end(const program_result *end, const gwyddion_lim
         else
             wt_fail(err, WT_E_TOOL, "the program Gwyddion cannot be started: %s",
                     strerror(end->code));
-        wt_error_advice(err, "install Gwyddion (apt-get install gwyddion), or export the file as "
-                             ".x3p, .gwy or .gsf");
+        wt_error_advice(err, end->code == EMFILE || end->code == ENFILE
+                                 ? MORE_FILES_ADVICE
+                                 : "install Gwyddion (apt-get install gwyddion), or export the "
+                                   "file as .x3p, .gwy or .gsf");
         return WT_E_TOOL;
     case PROGRAM_SIGNALLED:
         wt_fail(err, WT_E_TOOL, "Gwyddion failed on the file: it was ended by signal %d",
@@ -329,6 +353,10 @@ wt_status gwyddion_convert(wt_input *input, const gwyddion_limits *limits, wt_in
     int held = -1;
     char name[32];
     program_result end;
+    file_peek peek = {.name = wt_input_name(input)};
+    wt_status status = peek_head(input, &peek, err);
+    if (status != WT_OK)
+        return status;
     char *const place = realpath(temporary_directory(), NULL);
     if (place != NULL)
         temporary_remove_abandoned(place);
@@ -341,9 +369,11 @@ wt_status gwyddion_convert(wt_input *input, const gwyddion_limits *limits, wt_in
         return WT_E_IO;
     }
     free(place);
-    build_copy_name(wt_input_name(input), name);
+    /* Gwyddion regards the ending of the name. It must not be chosen by the name of the file. */
+    const known_format *const known = find_format(&peek);
+    (void)snprintf(name, sizeof name, "surface%s", known != NULL ? known->ending : "");
     const char *const arguments[] = {"--convert-to-gwy=" CONVERTED_NAME, name, NULL};
-    wt_status status = write_copy(input, folder, name, err);
+    status = write_copy(input, folder, name, err);
     if (status == WT_OK)
         status = run_gwyddion(folder, arguments, limits, &end, err);
     if (status == WT_OK)
@@ -358,26 +388,10 @@ wt_status gwyddion_convert(wt_input *input, const gwyddion_limits *limits, wt_in
     return status;
 }
 
-/* Returns the manufacturer of a recognised file, or NULL. Other files need --format gwyddion. */
-static const char *maker_name(const file_peek *peek)
-{
-    if (PEEK_BEGINS(peek, "AliconaImaging"))
-        return "Alicona";
-    if (PEEK_BEGINS(peek, SURF_PLAIN) || PEEK_BEGINS(peek, SURF_PACKED))
-        return "Digital Surf, MountainsMap";
-    if (PEEK_BEGINS(peek, "\1\0Directory"))
-        return "Wyko, Veeco";
-    if (PEEK_BEGINS(peek, "VCA DATA"))
-        return "Dektak, Bruker";
-    if (PEEK_BEGINS(peek, "aISO-1.0") || PEEK_BEGINS(peek, "aBCR-1.0"))
-        return "SDF, ISO 25178-71";
-    return NULL;
-}
-
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     (void)self;
-    return recognition_result(maker_name(peek) != NULL, 90);
+    return recognition_result(find_format(peek) != NULL, 90);
 }
 
 /* True if the head of a Digital Surf file states missing points: the little-endian int16 at byte
@@ -411,12 +425,6 @@ static void mark_lowest_missing(wt_image *image, const char *file, wt_log *log)
                "the file says that heights are missing; the %zu of %zu at the lowest height, "
                "which marks them, are left out",
                n_marked, n);
-}
-
-static wt_status peek_head(wt_input *input, file_peek *peek, wt_error *err)
-{
-    enum { HEAD = 512 };
-    return wt_input_peek(input, HEAD, &peek->bytes, &peek->length, &peek->whole, err);
 }
 
 /* Converts the file with Gwyddion. A compressed Digital Surf file is unpacked first. */
@@ -458,9 +466,9 @@ static wt_status read_images(const file_reader *self, wt_input *input,
     }
     const wt_status peek_status = peek_head(input, &peek, NULL); /* the bytes may have moved */
     if (status != WT_OK) {
-        const char *const maker = peek_status == WT_OK ? maker_name(&peek) : NULL;
-        if (maker != NULL && (err == NULL || err->found[0] == '\0'))
-            wt_error_found(err, "a topography (%s)", maker);
+        const known_format *const known = peek_status == WT_OK ? find_format(&peek) : NULL;
+        if (known != NULL && (err == NULL || err->found[0] == '\0'))
+            wt_error_found(err, "a topography (%s)", known->maker);
         return status;
     }
     wt_log_add(log, WT_NOTE, peek.name, NULL, "converted by %s", version);

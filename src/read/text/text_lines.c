@@ -5,9 +5,11 @@
 #include "core/base/utf8.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <iconv.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 typedef enum byte_order { ORDER_NONE, ORDER_LITTLE, ORDER_BIG } byte_order;
 
@@ -89,6 +91,17 @@ static char *replace_invalid_utf8(const char *bytes, size_t length, size_t *n_ou
     return text;
 }
 
+/* Records why a converter cannot be opened. Without descriptors the C library finds none and
+ * reports an unknown encoding. */
+static void note_converter_error(void)
+{
+    const int probe = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (probe >= 0)
+        (void)close(probe);
+    else if (errno == EMFILE || errno == ENFILE)
+        resource_error_note(errno);
+}
+
 /* Converts a text to UTF-8; NULL without memory or if the system cannot convert. */
 static char *convert_to_utf8(const encoding_choice *c, const unsigned char *bytes, size_t length,
                              size_t *n_out, size_t *n_replaced)
@@ -100,8 +113,8 @@ static char *convert_to_utf8(const encoding_choice *c, const unsigned char *byte
     const size_t capacity = (c->utf_16 ? length / 2 * 3 : 2 * length) + 4;
     char *text = malloc(capacity);
     iconv_t converter = iconv_open("UTF-8", c->iconv);
-    if (converter == (iconv_t)-1 && (errno == EMFILE || errno == ENFILE))
-        resource_error_note(errno);
+    if (converter == (iconv_t)-1)
+        note_converter_error();
     bool good = text != NULL && converter != (iconv_t)-1;
     char *in = (char *)(uintptr_t)bytes; /* iconv does not write to its input */
     size_t left = length, space = capacity - 1;
