@@ -25,8 +25,9 @@ typedef struct wt_ratio_slope {
 } wt_ratio_slope;
 
 /* A soft or stiff surface layer bonded to the bulk. Its modulus is a constant ratio of the bulk
- * modulus, or a ratio that is a power of the frequency. Its stiffness at a wavenumber follows Burmister (1943) for nu = 1/2, independent of the material's Poisson ratio,
- * with the complex moduli at each frequency. */
+ * modulus, or a ratio that is a power of the frequency. Its stiffness at a wavenumber follows
+ * Burmister (1943) for nu = 1/2, independent of the material's Poisson ratio, with the complex
+ * moduli at each frequency. */
 typedef struct wt_layer_state {
     double thickness;     /* [m], 0 = none */
     double modulus_ratio; /* E_layer / E_bulk, > 0 */

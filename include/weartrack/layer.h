@@ -99,8 +99,8 @@ typedef struct wt_layer_point {
 } wt_layer_point;
 /* Computes the thickness at n times (any order, >= 0) at constant load; points: [n].
  * With `incubation` the thickness is that of the deepest modified point, as a profile that peaks
- * below the surface begins as a buried band. A start thickness is then old layer that wears off from
- * the top. */
+ * below the surface begins as a buried band. A start thickness is then old layer that wears off
+ * from the top. */
 WT_API wt_status wt_layer_history(const wt_energy_source *source,
                                   const wt_layer_parameters *parameters, const double *time,
                                   size_t n, wt_layer_point *points, wt_error *err) WT_NODISCARD;

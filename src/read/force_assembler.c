@@ -359,7 +359,7 @@ static void warn_value_not_applied(const wt_force_source *source, const force_me
 
 /* Adds the column of a quantity if a signal exists from which it can be computed. */
 static wt_status assign_column(const wt_force_source *source, const force_metadata *metadata,
-                             wt_quantity wanted, force_plan *plan, wt_error *err)
+                               wt_quantity wanted, force_plan *plan, wt_error *err)
 {
     const force_signal *signal = select_signal(metadata, &source->options, wanted);
     if (signal == NULL &&

@@ -22,21 +22,6 @@ static const char *collected_group_name(const collected_case *c, const char *gro
     return strcmp(group, "bulk") == 0 ? group : c->condition[0] != '\0' ? c->condition : "track";
 }
 
-wt_status collected_bind(const collected_case *c, const table_schema *schema, const char *suffix,
-                         table_view *view, wt_error *err)
-{
-    const wt_status status = table_bind_result(c->result, schema, suffix, view, err);
-    if (status != WT_OK)
-        wt_error_file(err, c->file);
-    return status;
-}
-
-const char *collected_shared_name(const collected_case *c, sharing_level common)
-{
-    const char *name = common == OF_SAMPLE ? c->sample : common == OF_CONDITION ? c->condition : "";
-    return common != OF_ALL && name[0] == '\0' ? NULL : name;
-}
-
 /* Groups that belong to no case, with the index of the group that is added. */
 typedef struct paired_force {
     const collected_case *cases;

@@ -13,6 +13,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+wt_status collected_bind(const collected_case *c, const table_schema *schema, const char *suffix,
+                         table_view *view, wt_error *err)
+{
+    const wt_status status = table_bind_result(c->result, schema, suffix, view, err);
+    if (status != WT_OK)
+        wt_error_file(err, c->file);
+    return status;
+}
+
+const char *collected_shared_name(const collected_case *c, sharing_level common)
+{
+    const char *name = common == OF_SAMPLE ? c->sample : common == OF_CONDITION ? c->condition : "";
+    return common != OF_ALL && name[0] == '\0' ? NULL : name;
+}
+
 static file_match compare_input_rows(const table_view *a, size_t i, const table_view *b, size_t k)
 {
     const char *inputs_a = inputs_text(a, i, INPUTS_SHA256),

@@ -1097,6 +1097,12 @@ static void test_files(void **state)
     (void)state;
     wt_input *input = NULL;
     wt_table *table = NULL;
+    /* The sensitivity of this curve is missing; an option gives it. */
+    assert_int_equal(wt_input_open(FORMATS "table-force/volts.csv", &input, NULL), WT_OK);
+    assert_int_equal(wt_input_describe(formats, input, NULL, NULL, &table, NULL), WT_OK);
+    see(table);
+    wt_table_free(table);
+    wt_input_close(input);
     assert_int_equal(wt_input_open(FORMATS "tidy/two-runs.csv", &input, NULL), WT_OK);
     assert_int_equal(wt_input_describe(formats, input, NULL, NULL, &table, NULL), WT_OK);
     see(table);
