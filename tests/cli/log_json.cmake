@@ -45,7 +45,9 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 set(tip pyramid:half-angle=35deg,radius=20nm)
-run(3 indent --tip ${tip} ${FIXTURES}/case/bulk-1.jpk-force-map ${FIXTURES}/case/dma.txt "${WORK}/a \"b\" \\.txt")
+configure_file(${FIXTURES}/case/bulk-1.jpk-force-map ${WORK}/copy.jpk-force-map COPYONLY) # gives a warning
+run(3 indent --tip ${tip} ${FIXTURES}/case/bulk-1.jpk-force-map ${WORK}/copy.jpk-force-map
+    ${FIXTURES}/case/dma.txt "${WORK}/a \"b\" \\.txt")
 if(NOT events STREQUAL "failed;failed;row;row;row;warning;message;end")
   message(FATAL_ERROR "${events}: ${text}")
 endif()
