@@ -1,5 +1,5 @@
-/* Pulls and losses of one force curve: snap-in of the approach, pull-off force and lost work of the
- * retract, and the fit of a contact law to the retract.
+/* Adhesion and losses of one force curve: snap-in of the approach, pull-off force and hysteresis
+ * loss of the retract, and the fit of a contact law to the retract.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */

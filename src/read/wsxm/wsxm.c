@@ -85,7 +85,7 @@ static bool find_value(text_span header, const char *name, text_span *value)
     return false;
 }
 
-/* Reads a whole number of at least 1; 0 for another text. */
+/* Reads an integer of at least 1; 0 for another text. */
 static size_t read_count(text_span header, const char *name)
 {
     static const double most = 1e9;
@@ -157,7 +157,7 @@ static wt_status read_wsxm_header(wt_input *input, wsxm_header *h, wt_error *err
     h->n_rows = read_count(header, "Number of rows");
     if (h->n_columns == 0 || h->n_rows == 0)
         return fail_wsxm(err, "the size of the image is missing",
-                         "\"Number of columns\" and \"Number of rows\", whole numbers");
+                         "\"Number of columns\" and \"Number of rows\", integers");
     if (!read_type(header, &h->type))
         return fail_wsxm(err, "the type of the samples is unknown",
                          "\"Image Data Type\": short, integer, float or double");

@@ -45,7 +45,7 @@ helps new-case --tip "$tip" on_the_track -o new.xml
 cause 'in <roughness> by a guess' new-case b.gsf -o new.xml
 mv b.gsf road-b.gsf
 helps new-case road-b.gsf -o new.xml
-piece '; an image: of the counter surface it goes into roughness' '; noise of a lever: see weartrack thermal'
+piece '; an image: of the counter surface it goes into roughness' '; noise of a cantilever: see weartrack thermal'
 cp "$fixtures/surface/place-1.gsf" on_the_track
 cause 'see weartrack spot' new-case --tip "$tip" three.csv on_the_track
 helps spot --tip "$tip" --depth 70nm on_the_track/place-1.gsf -o a.h5

@@ -15,7 +15,7 @@ piece "unknown option '%s'; did you mean --%s?"
 cause 'did you mean --poisson-ratio?' master --poison-ratio 0.5 three.csv -o a.h5
 helps master --poisson-ratio 0.5 three.csv -o a.h5
 piece 'hold a record against the growing layer: weartrack validate'
-cause 'weartrack validate' friction $slide --running-in-friction
+cause 'hold a record against the growing layer' friction $slide --running-in-friction
 helps validate --help
 piece '; did you mean '
 cause 'did you mean table-units' master --format table-unit three.csv -o a.h5
@@ -95,7 +95,7 @@ cause '`weartrack indent` first' compare bulk track
 helps indent --tip "$tip" --spring-constant 0.3N/m bulk -o b.h5
 helps indent --tip "$tip" --spring-constant 0.3N/m --group track track -o t.h5
 helps compare b.h5 t.h5
-piece 'its curves are called bulk and are taken for those of the track'
+piece 'its curves are called bulk and are treated as those of the track'
 "$weartrack" indent -q --tip "$tip" --spring-constant 0.3N/m "$track" -o unnamed.h5 2> err
 cause '`weartrack indent --group track`' compare bulk.h5 unnamed.h5
 leads compare bulk.h5 track.h5

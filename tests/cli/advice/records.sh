@@ -27,7 +27,7 @@ helps record --track-radius 12mm --mass-loss 3mg --density 1150kg/m^3 turns.csv 
 { echo 'time (s),distance (m),mu'; steady distance | sed 's/,\([^,]*\)$/,0.9/'; } > mu.csv
 cause 'no load: give --load' record --track-area 3e-11m^2 --track-radius 12mm mu.csv -o -
 helps record --load 5N --track-area 3e-11m^2 --track-radius 12mm mu.csv -o -
-piece 'taken for that of a disc; if it is not' 'no volume: give --track-length or --track-radius'
+piece 'treated as that of a disc; if it is not' 'no volume: give --track-length or --track-radius'
 { echo 'time (s),normal force (N),distance (m),laps,friction force (N)'; steady load,distance,laps; } > laps.csv
 cause 'give its length with --track-length' record --track-area 3e-11m^2 laps.csv -o -
 helps record --track-area 3e-11m^2 --track-length 100mm laps.csv -o -
