@@ -130,6 +130,8 @@ wt_interval posterior_a(const wt_posterior *p, size_t curve, size_t other)
         component[n++] = (mixture_component){p->cells[i].weight, a / M_LN10,
                                              sqrt(variance + extra_variance(p, curve))};
     }
+    if (n == 0) /* no cell has a weight */
+        return (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     if (component[0].deviation > 0.0)
         return mixture_interval(component, n);
     const double a = component[0].mean; /* both shifts are stated */
