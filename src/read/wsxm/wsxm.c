@@ -184,6 +184,8 @@ static void scale_heights(const wsxm_header *h, double factor, wt_image *image, 
     const size_t n = image->n_columns * image->n_rows;
     double low = (double)INFINITY, high = -(double)INFINITY;
     for (size_t i = 0; i < n; i++) {
+        if (isinf(image->values[i])) /* no height; it would make the range infinite */
+            image->values[i] = (double)NAN;
         low = fmin(low, image->values[i]);
         high = fmax(high, image->values[i]);
     }
