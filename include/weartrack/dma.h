@@ -304,8 +304,7 @@ WT_API wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t i
                                 wt_prony *prony, wt_shift_law *law, double *log_b,
                                 wt_error *err) WT_NODISCARD;
 
-/* ---- reduced series: few terms in place of a spectrum
- * ------------------------------------------------------- */
+/* ---- reduced series: few terms in place of a spectrum ---------------------------------------- */
 
 typedef struct wt_reduction {
     unsigned terms;   /* 0 (default): the fewest for the error */
@@ -685,8 +684,7 @@ WT_API wt_status wt_strain_softening_read(const char *path, const char *name,
                                           wt_strain_softening *strain_softening,
                                           wt_error *err) WT_NODISCARD;
 
-/* ---- export to finite-element programs
- * ------------------------------------------------------------ */
+/* ---- export to finite-element programs ------------------------------------------------------- */
 
 /* Export of the reduced series to finite-element programs, in the keywords of their manuals. */
 typedef enum wt_fem_program {

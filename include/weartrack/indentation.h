@@ -799,8 +799,7 @@ WT_API void wt_sensitivity_tables_clear(wt_sensitivity_tables *tables);
 WT_API wt_status wt_sensitivity_compute(const wt_sensitivity_job *job, const wt_job *work,
                                         wt_sensitivity_tables *tables, wt_error *err) WT_NODISCARD;
 
-/* ---- thermal noise of a cantilever
- * --------------------------------------------------------------- */
+/* ---- thermal noise of a cantilever ----------------------------------------------------------- */
 
 /* Thermal tune: a simple harmonic oscillator (cantilever: Butt and Jaschke, Nanotechnology 6 (1995)
  * 1) on a white floor, one-sided: S(f) = floor + 2 mean_square f0^3 / (pi Q) / ((f0^2 - f^2)^2 + (f
@@ -844,8 +843,7 @@ WT_API wt_estimate wt_sader_spring_constant(wt_estimate length, wt_estimate widt
                                             wt_estimate resonance, wt_estimate quality,
                                             wt_fluid fluid);
 
-/* ---- spring constant of a cantilever
- * ------------------------------------------------------------- */
+/* ---- spring constant of a cantilever --------------------------------------------------------- */
 
 /* Spring constant of a cantilever from its thermal noise: k = mode_shape / chi^2 k_B T / <d^2>,
  * with the deflection d from the sensitivity on a hard surface. If the plan view or the coefficient

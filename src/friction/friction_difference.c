@@ -69,8 +69,7 @@ static void describe_change(const wt_friction_point *with, const wt_friction_poi
                   100 * (with->area_ratio.value / without->area_ratio.value - 1), against);
 }
 
-/* ---- transversely isotropic rubber
- * ---------------------------------------------------------------- */
+/* ---- transversely isotropic rubber ----------------------------------------------------------- */
 
 enum { NONE, LOSS, STORAGE, BOTH, N_FACTOR_SETS };
 
@@ -201,8 +200,7 @@ wt_status wt_transverse_isotropy_compute(const wt_sliding *sliding, const wt_job
     return status;
 }
 
-/* ---- an effect
- * ----------------------------------------------------------------------------------- */
+/* ---- an effect ------------------------------------------------------------------------------- */
 
 typedef struct friction_effect {
     const char *missing; /* message for a contact without it */
@@ -251,8 +249,7 @@ static wt_status tabulate_effect(const friction_effect *effect, const wt_sliding
     return status;
 }
 
-/* ---- softening
- * ------------------------------------------------------------------------------------ */
+/* ---- softening ------------------------------------------------------------------------------- */
 
 /* Row of the table: both results at one velocity. */
 TABLE_ROW(softening, SOFTENING, wt_friction_point with, without; double below, above;)
@@ -328,8 +325,7 @@ wt_status wt_softened_friction_compute(const wt_sliding *sliding, const wt_job *
     return tabulate_effect(&effect, sliding, work, table, err);
 }
 
-/* ---- flash temperature
- * --------------------------------------------------------------------------- */
+/* ---- flash temperature ----------------------------------------------------------------------- */
 
 TABLE_ROW(flash, FLASH, double velocity; wt_friction_point with, without;)
 
@@ -468,8 +464,7 @@ wt_status wt_flash_temperature_compute(const wt_sliding *sliding, const wt_job *
     return tabulate_effect(&effect, sliding, work, table, err);
 }
 
-/* ---- anisotropy
- * ---------------------------------------------------------------------------------- */
+/* ---- anisotropy ------------------------------------------------------------------------------ */
 
 /* Row of the table: both results at one velocity. */
 TABLE_ROW(anisotropy, ANISOTROPY, wt_friction_point with, without;)

@@ -222,8 +222,7 @@ void sliding_contact_clear(sliding_contact *contact)
     *contact = (sliding_contact){0};
 }
 
-/* ---- stated layer
- * -------------------------------------------------------------------------------- */
+/* ---- stated layer ---------------------------------------------------------------------------- */
 
 /* Upper limit of the number of indentation rates. */
 enum { MAX_RATES = 64 };

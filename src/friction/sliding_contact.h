@@ -47,8 +47,7 @@ void anisotropy_describe(const wt_anisotropy *anisotropy, char *text, size_t siz
 void flash_describe(const wt_sliding *sliding, const wt_friction_point *points, size_t n,
                     char text[256]);
 
-/* ---- stated layer
- * -------------------------------------------------------------------------------- */
+/* ---- stated layer ---------------------------------------------------------------------------- */
 
 /* Checks the parameters and their combination. NULL stands for no stated layer. */
 wt_status sliding_layer_check(const wt_layer_observation *observation, wt_error *err) WT_NODISCARD;

@@ -86,8 +86,7 @@ void angular_extrapolated_part(const angular_law *angular, const double *w, cons
 /* True if the material has at least one limit of its measured range. */
 bool angular_has_limits(const angular_law *angular);
 
-/* ---- subintervals of the frequency
- * --------------------------------------------------------------- */
+/* ---- subintervals of the frequency ----------------------------------------------------------- */
 
 enum { SUBINTERVAL_NODES = 10 }; /* see `max_width` in angular_panels.c */
 

@@ -130,8 +130,7 @@ void friction_shift_knots(const wt_friction_workspace *ws, const heat_profile *h
     numbers_sort(knots, ws->n_knots);
 }
 
-/* ---- lateral force
- * ------------------------------------------------------------------------------- */
+/* ---- lateral force --------------------------------------------------------------------------- */
 
 /* K changes its sign where J1 does not, and the accuracy of a series is relative to its values. K
  * is therefore the difference of two integrals without zeros. */

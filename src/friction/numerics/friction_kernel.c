@@ -500,8 +500,7 @@ wt_estimate wt_friction_total(wt_estimate hysteresis, wt_estimate area_ratio,
                          .unit = "1"};
 }
 
-/* ---- running profile
- * ----------------------------------------------------------------------------- */
+/* ---- running profile ------------------------------------------------------------------------- */
 
 static wt_status check_wavenumbers(const wt_roughness *roughness, const double *q, size_t n,
                                    wt_error *err)

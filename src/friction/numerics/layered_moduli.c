@@ -335,8 +335,7 @@ void layer_moduli_eval(const layer_moduli *m, const double *q, const double *ome
     }
 }
 
-/* ---- moduli of a workspace
- * ----------------------------------------------------------------------- */
+/* ---- moduli of a workspace ------------------------------------------------------------------- */
 
 void friction_moduli(const wt_friction_workspace *ws, const double *q, const double *omega,
                      const double *x, size_t n, double *j1, double *j2, double *loss_j1,

@@ -456,8 +456,7 @@ wt_status layer_damage_time(const layer_rates *rates, bool with_wear, wt_estimat
     return status;
 }
 
-/* ---- identification
- * ------------------------------------------------------------------------------ */
+/* ---- identification -------------------------------------------------------------------------- */
 
 /* The thickness at balance determines U_c k: Qf(d) = Qw. Both rates scale with time, so that a
  * running-in time determines the depth worn off meanwhile, l = Qw t, which depends on the profile

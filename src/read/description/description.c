@@ -183,8 +183,7 @@ const char *kind_name(unsigned kind)
     return requirements[kind_index(kind)].name;
 }
 
-/* ---- checks
- * ---------------------------------------------------------------------------------------- */
+/* ---- checks ---------------------------------------------------------------------------------- */
 
 static bool alias_is_unit(const text_description *d, const char *unit)
 {
@@ -255,8 +254,7 @@ wt_status description_check_whole(const text_description *d, const char *name, w
     return WT_OK;
 }
 
-/* ---- names
- * ----------------------------------------------------------------------------------------- */
+/* ---- names ----------------------------------------------------------------------------------- */
 
 /* Different spellings that instruments and spreadsheets use for the same symbol. */
 static const struct {

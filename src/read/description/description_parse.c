@@ -165,8 +165,7 @@ wt_status description_parse_file(description_xsd *schema, const char *path,
     return status;
 }
 
-/* ---- embedded descriptions
- * ------------------------------------------------------------------------- */
+/* ---- embedded descriptions ------------------------------------------------------------------- */
 
 /* Returns the text between a mark of the head and the next `end`. The heads have a plain form; a
  * test compares the result with that of the XML parser. */

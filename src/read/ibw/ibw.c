@@ -189,8 +189,7 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
 static const force_stream ibw_force = {
     .size = sizeof(ibw_source), .open = open_source, .next = next_curve, .decode = decode};
 
-/* ---- images
- * ---------------------------------------------------------------------------------------- */
+/* ---- images ---------------------------------------------------------------------------------- */
 
 /* Returns the unit of a channel by its name, such as "HeightRetrace" or "ZSensorTrace", since the
  * wave states none. */

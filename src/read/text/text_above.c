@@ -165,8 +165,7 @@ void scan_apply_title(text_scanner *s)
     s->title_condition = condition_none();
 }
 
-/* ---- tables of several conditions
- * ------------------------------------------------------------------ */
+/* ---- tables of several conditions ------------------------------------------------------------ */
 
 static bool is_own_column(const text_column *c, size_t condition)
 {

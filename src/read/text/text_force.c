@@ -322,8 +322,7 @@ const force_stream text_force = {.size = sizeof(text_source),
                                  .decode = decode,
                                  .close = text_force_close};
 
-/* ---- equal steps
- * ----------------------------------------------------------------------------------- */
+/* ---- equal steps ----------------------------------------------------------------------------- */
 
 /* Number of steps that define the usual step, and the minimum for a check. */
 enum { FIRST = 5, STEPS_MIN = 20 };

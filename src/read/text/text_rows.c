@@ -11,8 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- truncated files
- * ------------------------------------------------------------------------------- */
+/* ---- truncated files ------------------------------------------------------------------------- */
 
 /* The format of a cell. */
 typedef struct cell_form {

@@ -330,8 +330,7 @@ wt_status surface_remove_form(double *z, size_t nx, size_t ny, unsigned degree,
     return WT_OK;
 }
 
-/* ---- artefacts of a scanner
- * ---------------------------------------------------------------------- */
+/* ---- artefacts of a scanner ------------------------------------------------------------------ */
 
 /* Least number of rows and columns: the standard deviation of their levels is then known to 20 %.
  */
