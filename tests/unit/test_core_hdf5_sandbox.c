@@ -3,7 +3,6 @@
 #include "near.h"
 
 #include "core/store/hdf5_sandbox.h"
-#include "watched.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -215,9 +214,7 @@ static void every_limit(void **state)
     limits.wall_time = 1;
     refused(sleeps, limits, WT_E_CORRUPT, "did not end within 1 s");
     refused(babbles, usual, WT_E_CORRUPT, "more than 1 MiB of tables");
-    /* Where memory is watched its end is that of the process. */
-    refused(swells, usual, WATCHED ? WT_E_CORRUPT : WT_E_MEMORY,
-            WATCHED ? "fails on this file" : "more than 64 MiB of memory");
+    refused(swells, usual, WT_E_MEMORY, "more than 64 MiB of memory");
     assert_true(wt_time_wall() - start < 60.0);
 }
 

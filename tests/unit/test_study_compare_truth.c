@@ -812,6 +812,7 @@ static void test_temperature_error(void **state)
         wt_result_rows *rows = wt_result_rows_new(result, false);
         assert_non_null(strstr(wt_result_rows_get(rows, 1).note, "without the error of: material"));
         wt_result_rows_free(rows);
+        wt_result_free(result); /* with the table */
         const material_state at = {303.15, sqrt(frequency[0] * frequency[1])};
         double relative = 1;
         assert_int_equal(compare_temperature_error(&rubber, at, error, &work, &relative, &err),

@@ -298,6 +298,11 @@ static bool lower_resource_limit(unsigned resource, size_t most)
     return setrlimit(resource, &both) == 0;
 }
 
+static bool lower_memory_limit(const confinement *c)
+{
+    return c->memory == 0 || lower_resource_limit(RLIMIT_DATA, c->memory);
+}
+
 static bool has_own_network(void)
 {
     return unshare(CLONE_NEWUSER | CLONE_NEWNET) == 0 || unshare(CLONE_NEWNET) == 0;
@@ -316,9 +321,12 @@ char confine(const confinement *c, pid_t parent)
         (process &&
          (!lower_resource_limit(RLIMIT_NOFILE, 0) || !lower_resource_limit(RLIMIT_NPROC, 0))) ||
         (c->cpu_time != 0 && !lower_resource_limit(RLIMIT_CPU, c->cpu_time)) ||
-        (c->memory != 0 && !lower_resource_limit(RLIMIT_DATA, c->memory)))
+        (process && !lower_memory_limit(c)))
         return CONFINEMENT_FAILED;
     const int failed = restrict_calls(c);
+    /* The data of this process may exceed the limit of the program, and the filter takes memory. */
+    if (!process && !lower_memory_limit(c))
+        return CONFINEMENT_FAILED;
     if (failed == -ENOMEM)
         return CONFINEMENT_NO_MEMORY;
     if (failed != 0 && process)
