@@ -118,7 +118,7 @@ static void check_repeated(const wt_sweep *sweep, wt_log *log)
     }
     if (n > 0)
         wt_log_action(
-            log, WT_WARNING, WT_CONTRADICTED, n, NULL, first->source, NULL,
+            log, WT_WARNING, WT_CONTRADICTED, n, "--exclude", first->source, NULL,
             "two isotherms of the same temperature differ by %.0f %% in the storage modulus "
             "(at %.4g degC%s): two specimens, or a material that changed between two runs; "
             "separate the runs into files and take one",
@@ -198,7 +198,7 @@ static void leave_out_outliers(double *x, size_t n, const char *what, const char
             x[k] = (double)NAN;
     }
     if (count > 0)
-        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, count, NULL, file, NULL,
+        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, count, WT_KEEP_OPTION, file, NULL,
                       "%zu of %zu samples of the %s left out as outliers, more than %.0f times the "
                       "usual value; the first is %.6g at sample %zu",
                       count, n, what, outlier_factor, value, first + 1);
@@ -243,7 +243,7 @@ static void subtract_zero(double *force, const double *load, size_t n, const cha
     for (size_t i = 0; i < n; i++)
         force[i] -= mean;
     wt_log_action(
-        log, WT_WARNING, WT_CORRECTED, n, NULL, file, NULL,
+        log, WT_WARNING, WT_CORRECTED, n, WT_KEEP_OPTION, file, NULL,
         "a zero of the friction force of %.4g N is seen in %zu samples before loading, and "
         "is subtracted",
         mean, count);

@@ -93,6 +93,10 @@ static const wt_param rows[] = {
     {PARAM_CHOICE_OF("sample-by", wt_read_options, sample_by, "name|file"),
      .help = "what tells the samples of DMA sweeps apart: the name that a column or the header "
              "gives, or the file"},
+    {PARAM_CHOICE_OF("conditioning", wt_read_options, conditioning, "mend|keep"),
+     .help = "keep: data count as they stand in the files, also copies, rows that the instrument "
+             "flags, outliers, pauses and a zero of a friction record, and a drift of the "
+             "temperature within an isotherm; default: they are left out or corrected, and named"},
 };
 
 PARAM_TABLE(wt_read_params, wt_read_options, rows, wt_read_defaults, NO_PARTS)

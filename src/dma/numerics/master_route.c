@@ -581,7 +581,7 @@ wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options,
     if (status == WT_OK)
         status = fit_at_reference(&shifted, final, log, master, err);
     if (status == WT_OK && n_drifting > 0)
-        wt_log_action(log, WT_NOTE, WT_CORRECTED, n_drifting, NULL, NULL, NULL,
+        wt_log_action(log, WT_NOTE, WT_CORRECTED, n_drifting, WT_KEEP_OPTION, NULL, NULL,
                       "the temperature drifts within %zu isotherm%s: each point counts at its own "
                       "temperature, by the slope of the shifts",
                       n_drifting, n_drifting > 1 ? "s" : "");
