@@ -82,6 +82,7 @@ static void check_moduli(const wt_sweep *sweep, wt_log *log)
  * extrapolated over many decades, follow one another. */
 static void check_frequencies(const wt_isotherm *t, wt_log *log)
 {
+    /* Isotherms have a point in each decade at least; a day number is 450 times 100 Hz. */
     static const double largest_step = 30;
     size_t first = t->n;
     while (first > 0 && t->angular_frequency[first - 1] > ranges[FREQUENCY].high)

@@ -473,27 +473,25 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
         status = wt_record_read(work->formats, input, &read, work->log, &record, err);
     wt_input_close(input);
     const bool keep = read.conditioning == WT_CONDITIONING_KEEP;
-    if (status == WT_OK && !keep)
+    const wt_estimate stated = job->track_radius, read_radius = {record.radius, 0, 0, "m"},
+                      radius = isnan(stated.value) ? read_radius : stated;
+    if (status == WT_OK && !keep) {
         condition_record(&record, file->name, work->log);
-    wt_estimate radius = job->track_radius;
-    if (isnan(radius.value))
-        radius = (wt_estimate){record.radius, 0, 0, "m"};
-    if (status == WT_OK) {
-        if (!keep)
-            pauses = record_remove_pauses(&record);
+        pauses = record_remove_pauses(&record);
+    }
+    if (status == WT_OK)
         status =
             wt_cycles_compute(&record, job->cycle, radius.value, job->load.value, &cycles, err);
-    }
     if (status == WT_OK && cycles.n == 0)
         status = wt_fail(err, WT_E_EMPTY, "the record holds no whole cycle");
     if (status == WT_OK) {
         warn_difference(work, &cycles, file->name);
         check_friction_coefficient(cycles.cycle[cycles.n / 2].coefficient, file->name, work->log);
         warn_pauses(work, &pauses, file->name);
-        if (cycles.n_unloaded > 0)
-            wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, cycles.n_unloaded,
-                          keep ? NULL : WT_KEEP_OPTION, file->name, NULL,
-                          "%zu of %zu samples are at no load and left out", cycles.n_unloaded,
+        const size_t n = cycles.n_unloaded;
+        if (n > 0)
+            wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, n, keep ? NULL : WT_KEEP_OPTION,
+                          file->name, NULL, "%zu of %zu samples are at no load and left out", n,
                           record.n);
         status = add_steps(job, work, &cycles, &pauses, file->name, w, err);
     }
