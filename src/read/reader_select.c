@@ -94,9 +94,8 @@ static const wt_param rows[] = {
      .help = "what tells the samples of DMA sweeps apart: the name that a column or the header "
              "gives, or the file"},
     {PARAM_CHOICE_OF("conditioning", wt_read_options, conditioning, "mend|keep"),
-     .help = "keep: data count as they stand in the files, also copies, rows that the instrument "
-             "flags, outliers, pauses and a zero of a friction record, and a drift of the "
-             "temperature within an isotherm; default: they are left out or corrected, and named"},
+     .help = "keep: copies, flagged rows, outliers, pauses, zeros and drifts count as they stand; "
+             "otherwise left out or corrected"},
 };
 
 PARAM_TABLE(wt_read_params, wt_read_options, rows, wt_read_defaults, NO_PARTS)
