@@ -201,6 +201,8 @@ WT_API void wt_log_add(wt_log *log, wt_severity severity, const char *file, cons
 WT_API void wt_log_add_topic(wt_log *log, wt_severity severity, wt_log_topic topic,
                              const char *file, const char *place, const char *format, ...)
     WT_PRINTF(6, 7);
+/* The option of actions that wt_read_options.conditioning overrides. */
+#define WT_KEEP_OPTION "--conditioning keep"
 /* Adds an entry of an action on data. n_values and option: see wt_log_entry; option may be NULL. */
 WT_API void wt_log_action(wt_log *log, wt_severity severity, wt_action action, size_t n_values,
                           const char *option, const char *file, const char *place,

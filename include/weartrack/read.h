@@ -110,6 +110,14 @@ typedef enum wt_sample_grouping {
     WT_SAMPLE_BY_FILE  /* each file is a sample with the name of the file */
 } wt_sample_grouping;
 
+/* Use of data that the instrument or a check calls faulty, of copies, and of what could be
+ * corrected.
+ */
+typedef enum wt_conditioning {
+    WT_CONDITIONING_MEND, /* they are left out or corrected, and named */
+    WT_CONDITIONING_KEEP  /* all data count as they stand in the files */
+} wt_conditioning;
+
 /* Convention of the densities of a power spectrum; q = 2 pi / wavelength in each. */
 typedef enum wt_spectrum_convention {
     WT_CONVENTION_WEARTRACK,          /* h_rms^2 = 2 pi int q C dq = 2 int_0^inf C1 dq */
@@ -155,6 +163,7 @@ typedef struct wt_read_options {
     const char
         *height_unit; /* for images whose values have no unit of length in the file; NULL = none */
     double frequency; /* [Hz] for strain or temperature sweeps whose file states none; NaN = none */
+    wt_conditioning conditioning;
 } wt_read_options;
 WT_API wt_read_options wt_read_defaults(void); /* Reads everything, replaces nothing. */
 WT_API const wt_params *wt_read_params(void);

@@ -297,8 +297,8 @@ static bool check_compare_options(compare_call *call, bool materials, bool maste
         !((sample_alone && (materials || master)) || (materials && compare_has_isotherms(call))))
         return cmd_usage_error(&call->s,
                                "--temperature, --units, --format, --sheet, --deformation, "
-                               "--strain and --sample-by are for measured isotherms, --sample for "
-                               "materials and --master; %s",
+                               "--strain, --sample-by and --conditioning are for measured "
+                               "isotherms, --sample for materials and --master; %s",
                                materials ? "all that is given are results" : "there are none");
     return true;
 }
@@ -351,7 +351,7 @@ int cmd_compare(int argc, char **argv)
         .first = "master indentation-temperature track-temperature cantilevers "
                  "spring-constant-error tip-error at-temperature at-frequency output",
         .master = "temperature temperature-in-name units format sheet deformation strain sample "
-                  "sample-by",
+                  "sample-by conditioning",
         .n_files = CMD_ONE_OR_MORE};
     compare_dma_options own = {0};
     compare_call call = {.s = cmd_session_defaults(),
@@ -367,7 +367,7 @@ int cmd_compare(int argc, char **argv)
         [PART_RUBBER] = {wt_master_job_params(), &call.master, "poisson-ratio", 0},
         [PART_READING] = {wt_read_params(), &call.set.read,
                           "temperature temperature-in-name units format sheet deformation strain "
-                          "sample sample-by",
+                          "sample sample-by conditioning",
                           0}};
     if (cmd_parse(&call.s, &usage, parts, N_PARTS, argc, argv) &&
         read_compare_inputs(&call, own.master != NULL ? 1 : 2)) {

@@ -20,7 +20,8 @@ int cmd_dwell(int argc, char **argv)
     wt_file_set set = {.read = wt_read_defaults()};
     cmd_option_group parts[] = {
         {wt_indent_job_params(), &job, "tip poisson-ratio sample-thickness unbonded", 0},
-        {wt_read_params(), &set.read, "spring-constant sensitivity units format sheet", 0}};
+        {wt_read_params(), &set.read, "spring-constant sensitivity units format sheet conditioning",
+         0}};
     cmd_session s = cmd_session_defaults();
     wt_dwell_tables made = {0};
     wt_table **const tables[] = {&made.dwell, &made.dwell_moduli, &made.dwell_points};

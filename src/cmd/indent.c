@@ -37,11 +37,12 @@ int cmd_indent(int argc, char **argv)
     enum { PART_DMA = 4 };
     wt_rubber rubber = {0};
     wt_result *dma = NULL;
-    cmd_option_group parts[] = {{indent_dma_params(), &own, NULL, 0},
-                                {wt_indent_job_params(), &job, NULL, 0},
-                                {wt_file_set_params(), &set, "spot units format sheet", 0},
-                                {wt_job_params(), &s.work, "threads", 0},
-                                [PART_DMA] = {wt_read_params(), &dma_read, "sample", 0}};
+    cmd_option_group parts[] = {
+        {indent_dma_params(), &own, NULL, 0},
+        {wt_indent_job_params(), &job, NULL, 0},
+        {wt_file_set_params(), &set, "spot units format sheet conditioning", 0},
+        {wt_job_params(), &s.work, "threads", 0},
+        [PART_DMA] = {wt_read_params(), &dma_read, "sample", 0}};
     wt_indent_tables tables = {0};
     wt_table *groups = NULL, *budget = NULL;
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set) ||

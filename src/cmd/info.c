@@ -83,19 +83,21 @@ static void print_missing_options(const file_kind *found)
 /* True if `word` is an option of reading that the suggested subcommand takes as well. */
 static bool is_taken_by(const char *subcommand, const char *word)
 {
-#define OF_SWEEPS " columns deformation format formats frequency sample sample-by sheet units "
+#define OF_SWEEPS                                                                                  \
+    " columns conditioning deformation format formats frequency sample sample-by sheet units "
     static const struct {
         const char *subcommand, *options; /* names between blanks */
     } taken[] = {
         {"convert", OF_SWEEPS " height-unit pixel-size sensitivity spectrum-convention "
                               "spring-constant strain temperature temperature-in-name "},
-        {"indent --tip", " columns format formats sensitivity sheet spring-constant units "},
+        {"indent --tip",
+         " columns conditioning format formats sensitivity sheet spring-constant units "},
         {"master", OF_SWEEPS " strain temperature temperature-in-name "},
         {"new-case", " formats "},
         {"payne", OF_SWEEPS " temperature temperature-in-name "},
         {"ramp", OF_SWEEPS " strain temperature-in-name "},
-        {"record", " columns format formats sheet units "},
-        {"thermal", " columns format formats sensitivity sheet units "},
+        {"record", " columns conditioning format formats sheet units "},
+        {"thermal", " columns conditioning format formats sensitivity sheet units "},
     };
 #undef OF_SWEEPS
     char name[64];

@@ -410,7 +410,7 @@ int cmd_master(int argc, char **argv)
         [COMMON] = {wt_shared_shift_law_job_params(), &common, NULL, 0},
         {wt_read_params(), &set.read,
          "temperature temperature-in-name frequency units format sheet deformation strain sample "
-         "sample-by",
+         "sample-by conditioning",
          0}};
     cmd_session s = cmd_session_defaults();
     wt_result *given = NULL;

@@ -21,7 +21,7 @@ int cmd_payne(int argc, char **argv)
     cmd_option_group parts[] = {
         {wt_read_params(), &set.read,
          "units format sheet temperature temperature-in-name frequency deformation "
-         "sample sample-by",
+         "sample sample-by conditioning",
          0}};
     cmd_session s = cmd_session_defaults();
     wt_payne_tables made = {0};

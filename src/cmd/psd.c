@@ -22,7 +22,7 @@ int cmd_psd(int argc, char **argv)
     wt_file_set set = {.read = wt_read_defaults()};
     cmd_option_group parts[] = {
         {wt_topography_job_params(), &job, NULL, 0},
-        {wt_read_params(), &set.read, "units pixel-size height-unit format sheet", 0}};
+        {wt_read_params(), &set.read, "units pixel-size height-unit format sheet conditioning", 0}};
     cmd_session s = cmd_session_defaults();
     wt_topography_tables made = {0};
     wt_table **const tables[] = {&made.power_spectrum, &made.place_errors, &made.angular_spectrum,

@@ -20,7 +20,8 @@ int cmd_ramp(int argc, char **argv)
     cmd_option_group parts[] = {
         {wt_ramp_job_params(), &job, NULL, 0},
         {wt_read_params(), &set.read,
-         "temperature-in-name frequency units format sheet deformation strain sample sample-by",
+         "temperature-in-name frequency units format sheet deformation strain sample sample-by "
+         "conditioning",
          0}};
     cmd_session s = cmd_session_defaults();
     wt_ramp_tables made = {0};

@@ -18,8 +18,9 @@ int cmd_record(int argc, char **argv)
         .n_files = CMD_ONE_OR_MORE};
     wt_record_job job = wt_record_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    cmd_option_group parts[] = {{wt_record_job_params(), &job, NULL, 0},
-                                {wt_read_params(), &set.read, "units format sheet", 0}};
+    cmd_option_group parts[] = {
+        {wt_record_job_params(), &job, NULL, 0},
+        {wt_read_params(), &set.read, "units format sheet conditioning", 0}};
     cmd_session s = cmd_session_defaults();
     wt_record_tables made = {0};
     wt_table **const tables[] = {&made.record, &made.record_cycles, &made.wear};

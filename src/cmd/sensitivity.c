@@ -20,7 +20,7 @@ int cmd_sensitivity(int argc, char **argv)
     wt_file_set set = {.read = wt_read_defaults()};
     cmd_option_group parts[] = {
         {wt_sensitivity_job_params(), &job, NULL, 0},
-        {wt_read_params(), &set.read, "spring-constant units format sheet", 0}};
+        {wt_read_params(), &set.read, "spring-constant units format sheet conditioning", 0}};
     cmd_session s = cmd_session_defaults();
     wt_sensitivity_tables made = {0};
     wt_table **const tables[] = {&made.sensitivity, &made.sensitivity_curves};

@@ -56,7 +56,7 @@ void cmd_sliding_init(cmd_sliding *s, cmd_option_group own)
     s->parts[CMD_READ] = (cmd_option_group){
         wt_read_params(), &s->set.read,
         "temperature temperature-in-name units pixel-size height-unit format sheet deformation "
-        "sample spectrum-convention",
+        "sample spectrum-convention conditioning",
         0};
     s->parts[CMD_SUBCOMMAND] = own;
 }

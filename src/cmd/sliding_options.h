@@ -21,7 +21,7 @@ typedef struct cmd_contact {
 /* Options for DMA files, which weartrack master documents. */
 #define CMD_DMA_OPTIONS                                                                            \
     "shift-law reference-temperature vertical-shift temperature temperature-in-name units format " \
-    "sheet deformation sample"
+    "sheet deformation sample conditioning"
 
 /* Option groups; CMD_SUBCOMMAND has those of the subcommand itself. */
 enum {

@@ -16,8 +16,9 @@ int cmd_thermal(int argc, char **argv)
         .n_files = CMD_ONE_OR_MORE};
     wt_thermal_job job = wt_thermal_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    cmd_option_group parts[] = {{wt_thermal_job_params(), &job, NULL, 0},
-                                {wt_read_params(), &set.read, "sensitivity units format sheet", 0}};
+    cmd_option_group parts[] = {
+        {wt_thermal_job_params(), &job, NULL, 0},
+        {wt_read_params(), &set.read, "sensitivity units format sheet conditioning", 0}};
     cmd_session s = cmd_session_defaults();
     wt_table *made = NULL;
     wt_table **const tables[] = {&made};

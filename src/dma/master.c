@@ -74,8 +74,8 @@ static wt_status check_strain_sweeps(const wt_sweep *sweep, const wt_job *work, 
 {
     const size_t n = sweep->n_strain_sweeps;
     if (n > 0 && sweep->n_isotherms + sweep->n_ramps > 0)
-        wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, n, NULL, sweep->strain_sweeps[0].source,
-                      NULL,
+        wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, n, "weartrack payne",
+                      sweep->strain_sweeps[0].source, NULL,
                       "%zu strain sweep%s left out of the master curve: see `weartrack payne`", n,
                       n > 1 ? "s are" : " is");
     if (n == 0 || sweep->n_isotherms + sweep->n_ramps > 0)

@@ -150,7 +150,7 @@ static usable_points select_usable_points(const wt_ramp *ramp, arena *memory, wt
         u.n++;
     }
     if (u.n < ramp->n)
-        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, 0, NULL, ramp->source, NULL,
+        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, ramp->n - u.n, "--columns", ramp->source, NULL,
                       "temperature sweep at %.4g rad/s: %zu of %zu points left out, no positive "
                       "modulus",
                       ramp->angular_frequency, ramp->n - u.n, ramp->n);

@@ -237,9 +237,9 @@ static void report_windows(const wt_sweep *sweep, const windows *w, const wt_mas
                frequencies > 1 ? "ies" : "y", sweep->n_ramps > 1 ? "are" : "is", w->n,
                given ? " that is given" : "");
     if (w->n_left_out > 0)
-        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, 0, NULL, sweep->ramps[0].source, NULL,
-                      "%zu points of the temperature sweeps left out, no positive modulus",
-                      w->n_left_out);
+        wt_log_action(
+            log, WT_WARNING, WT_LEFT_OUT, w->n_left_out, "--columns", sweep->ramps[0].source, NULL,
+            "%zu points of the temperature sweeps left out, no positive modulus", w->n_left_out);
     if (moved >= convergence_limit)
         wt_log_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
                    "the shift law and what it makes of the temperature sweeps do not agree "

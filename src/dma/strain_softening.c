@@ -510,7 +510,8 @@ static usable_points select_usable_points(const wt_strain_sweep *sweep, arena *m
         u.loss[u.n++] = loss;
     }
     if (u.n < sweep->n)
-        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, 0, NULL, sweep->source, NULL,
+        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, sweep->n - u.n, "--columns", sweep->source,
+                      NULL,
                       "strain sweep at %.4g rad/s: %zu of %zu points left out, no positive "
                       "modulus",
                       sweep->angular_frequency, sweep->n - u.n, sweep->n);

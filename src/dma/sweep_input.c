@@ -75,6 +75,15 @@ static size_t count_sweeps(const wt_sweep *sweep)
     return sweep->n_isotherms + sweep->n_ramps + sweep->n_strain_sweeps;
 }
 
+/* All points of an isotherm count at its temperature. */
+static void ignore_drift(wt_sweep *sweep)
+{
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        free(sweep->isotherms[i].point_temperature);
+        sweep->isotherms[i].point_temperature = NULL;
+    }
+}
+
 static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                              wt_sweep *sweep, wt_error *err)
 {
@@ -110,7 +119,10 @@ static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_jo
     }
     if (status == WT_OK) {
         wt_sweep_sort(sweep);
-        wt_sweep_remove_duplicates(sweep, work->log);
+        if (n_sets > 0 && sets[0].read.conditioning == WT_CONDITIONING_KEEP)
+            ignore_drift(sweep);
+        else
+            wt_sweep_remove_duplicates(sweep, work->log);
         check_sweep(sweep, work->log);
         if (work->dma != NULL)
             copy_sweep(work->dma, sweep);

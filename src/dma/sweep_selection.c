@@ -303,7 +303,7 @@ static wt_status apply_exclusion(const char *text, wt_sweep *sweep, wt_log *log,
     const size_t points = exclude_points(&c, sweep, drop);
     remove_sweeps(sweep, drop, removed);
     const bool none = removed[0] + removed[1] + points == 0;
-    wt_log_action(log, none ? WT_WARNING : WT_NOTE, WT_LEFT_OUT, 0, NULL, NULL, NULL,
+    wt_log_action(log, none ? WT_WARNING : WT_NOTE, WT_LEFT_OUT, 0, "--exclude", NULL, NULL,
                   "left out by %s: %zu isotherms, %zu temperature sweeps, %zu points of others%s",
                   text, removed[0], removed[1], points, none ? "; nothing lies there" : "");
     free(drop);
@@ -453,7 +453,7 @@ static void remove_other_amplitudes(wt_sweep *sweep, const sweep_entry *entries,
         }
     for (size_t k = 0; k < 2; k++)
         if (removed[k] > 0)
-            wt_log_action(log, WT_WARNING, WT_LEFT_OUT, removed[k], NULL, first[k], NULL,
+            wt_log_action(log, WT_WARNING, WT_LEFT_OUT, removed[k], "--strain", first[k], NULL,
                           "%zu %s%s of other strain amplitudes left out", removed[k], kinds[k],
                           removed[k] > 1 ? "s" : "");
     remove_sweeps(sweep, drop, removed);

@@ -18,13 +18,16 @@ typedef struct plausible_range {
     const char *cause_below, *cause_above;
 } plausible_range;
 
-enum { MODULUS, FREQUENCY, TEMPERATURE, COEFFICIENT };
+enum { MODULUS, SHEAR_MODULUS, FREQUENCY, TEMPERATURE, COEFFICIENT };
 static const plausible_range ranges[] = {
     [MODULUS] = {"modulus", "Pa", 1e3, 1e11, "a unit such as mPa for MPa, or Pa for MPa",
                  "a unit such as GPa for MPa, or a decimal separator that is lost"},
+    /* Gels have shear moduli of some 100 Pa. */
+    [SHEAR_MODULUS] = {"shear modulus", "Pa", 10, 4e10, "a unit such as mPa for MPa, or Pa for MPa",
+                       "a unit such as GPa for MPa, or a decimal separator that is lost"},
     /* Instruments reach 200 Hz, some 1 kHz; a day number of a spreadsheet is above 36,000. */
     [FREQUENCY] = {"frequency", "rad/s", 1e-7, 2 * M_PI * 1e4, "a time in place of a frequency",
-                   "a cell that a spreadsheet turned into a date, or an extrapolated master curve"},
+                   "a cell that a spreadsheet turned into a date, or a wrong unit"},
     [TEMPERATURE] = {"temperature", "K", 70, 900, "degrees Celsius read as kelvin",
                      "a wrong unit or column"},
     [COEFFICIENT] = {"friction coefficient", "1", 1e-3, 10, "a wrong unit or column of a force",
@@ -68,10 +71,25 @@ static void check_moduli(const wt_sweep *sweep, wt_log *log)
         return;
     const char *const source =
         sweep->n_isotherms > 0 ? sweep->isotherms[0].source : sweep->ramps[0].source;
-    if (high < ranges[MODULUS].low)
-        check_value(high, MODULUS, source, log);
-    else if (low > ranges[MODULUS].high)
-        check_value(low, MODULUS, source, log);
+    const size_t which = sweep->deformation == WT_SHEAR ? SHEAR_MODULUS : MODULUS;
+    if (high < ranges[which].low)
+        check_value(high, which, source, log);
+    else if (low > ranges[which].high)
+        check_value(low, which, source, log);
+}
+
+/* A date among frequencies stands far from them. The frequencies of a master curve, which may be
+ * extrapolated over many decades, follow one another. */
+static void check_frequencies(const wt_isotherm *t, wt_log *log)
+{
+    /* Isotherms have a point in each decade at least; a day number is 450 times 100 Hz. */
+    static const double largest_step = 30;
+    size_t first = t->n;
+    while (first > 0 && t->angular_frequency[first - 1] > ranges[FREQUENCY].high)
+        first--;
+    if (first == 0 || first == t->n ||
+        t->angular_frequency[first] > largest_step * t->angular_frequency[first - 1])
+        check_value(t->angular_frequency[t->n - 1], FREQUENCY, t->source, log);
 }
 
 /* ---- isotherms of one temperature ------------------------------------------------------------ */
@@ -118,7 +136,7 @@ static void check_repeated(const wt_sweep *sweep, wt_log *log)
     }
     if (n > 0)
         wt_log_action(
-            log, WT_WARNING, WT_CONTRADICTED, n, NULL, first->source, NULL,
+            log, WT_WARNING, WT_CONTRADICTED, n, "--exclude", first->source, NULL,
             "two isotherms of the same temperature differ by %.0f %% in the storage modulus "
             "(at %.4g degC%s): two specimens, or a material that changed between two runs; "
             "separate the runs into files and take one",
@@ -137,7 +155,7 @@ void check_sweep(const wt_sweep *sweep, wt_log *log)
             continue; /* one message for a file and step */
         check_value(t->temperature, TEMPERATURE, t->source, log);
         if (sweep->loading == WT_OSCILLATION && !t->shift_is_stated)
-            check_value(t->angular_frequency[t->n - 1], FREQUENCY, t->source, log);
+            check_frequencies(t, log);
     }
     for (size_t i = 0; i < sweep->n_ramps; i++) {
         const wt_ramp *const r = &sweep->ramps[i];
@@ -198,7 +216,7 @@ static void leave_out_outliers(double *x, size_t n, const char *what, const char
             x[k] = (double)NAN;
     }
     if (count > 0)
-        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, count, NULL, file, NULL,
+        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, count, WT_KEEP_OPTION, file, NULL,
                       "%zu of %zu samples of the %s left out as outliers, more than %.0f times the "
                       "usual value; the first is %.6g at sample %zu",
                       count, n, what, outlier_factor, value, first + 1);
@@ -243,7 +261,7 @@ static void subtract_zero(double *force, const double *load, size_t n, const cha
     for (size_t i = 0; i < n; i++)
         force[i] -= mean;
     wt_log_action(
-        log, WT_WARNING, WT_CORRECTED, n, NULL, file, NULL,
+        log, WT_WARNING, WT_CORRECTED, n, WT_KEEP_OPTION, file, NULL,
         "a zero of the friction force of %.4g N is seen in %zu samples before loading, and "
         "is subtracted",
         mean, count);

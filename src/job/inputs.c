@@ -119,7 +119,8 @@ static void remove_marked(flow_files *files, const size_t *copy_of, const wt_job
     size_t n = 0;
     for (size_t i = 0; i < files->n; i++)
         if (copy_of[i] != i)
-            wt_log_action(work->log, WT_WARNING, WT_COPIED, 1, NULL, files->file[i].name, NULL,
+            wt_log_action(work->log, WT_WARNING, WT_COPIED, 1, WT_KEEP_OPTION, files->file[i].name,
+                          NULL,
                           "the same bytes as %s: a copy, left out; both count as one measurement",
                           files->file[copy_of[i]].name);
     for (size_t i = 0; i < files->n; i++) {
@@ -139,9 +140,10 @@ static void file_copies_remove(flow_files *files, const wt_job *work)
     const size_t n = files->n;
     file_identity *const file = wt_alloc(n, sizeof *file);
     size_t *const copy_of = wt_alloc(n, sizeof *copy_of);
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n; i++) { /* a size of 0 is compared with none */
         copy_of[i] = i;
-        file[i] = (file_identity){i, size_of_file(files->file[i].path), 0};
+        const bool kept = files->file[i].set->read.conditioning == WT_CONDITIONING_KEEP;
+        file[i] = (file_identity){i, kept ? 0 : size_of_file(files->file[i].path), 0};
     }
     qsort(file, n, sizeof *file, compare_identities);
     for (size_t i = 0, to; i < n; i = to) {
@@ -341,11 +343,12 @@ static void repeated_paths_remove(flow_files *files, const wt_job *work)
     size_t n = 0;
     for (size_t i = 0; i < files->n; i++) {
         flow_file *const file = &files->file[i];
-        if (n == 0 || strcmp(files->file[n - 1].path, file->path) != 0) {
+        if (n == 0 || strcmp(files->file[n - 1].path, file->path) != 0 ||
+            file->set->read.conditioning == WT_CONDITIONING_KEEP) {
             files->file[n++] = *file;
             continue;
         }
-        wt_log_action(work->log, WT_WARNING, WT_COPIED, 1, NULL, file->path, NULL,
+        wt_log_action(work->log, WT_WARNING, WT_COPIED, 1, WT_KEEP_OPTION, file->path, NULL,
                       "named more than once; it is taken once");
         free((void *)file->path);
     }
@@ -487,7 +490,7 @@ bool flow_skip_file(const wt_job *work, const flow_file *file, const wt_error *f
     const bool unknown = failure->status == WT_E_FORMAT && file->format == NULL;
     if (!file->from_folder || !(unknown || failure->status == WT_E_EMPTY))
         return false;
-    wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, 1, NULL, file->name, NULL,
+    wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, 1, "--format", file->name, NULL,
                   "left out of its folder: %s%s%s", failure->message,
                   failure->found[0] != '\0' ? "; found " : "", failure->found);
     return true;

@@ -75,8 +75,8 @@ static wt_status check_spring_constant(wt_force_source *source, const force_meta
         return status;
     source->constant_checked = true;
     if (fabs(fitted / k - 1) > constant_tolerance + 1 - share)
-        wt_log_action(source->log, WT_WARNING, WT_CONTRADICTED, 0, NULL, source->name,
-                      metadata->place,
+        wt_log_action(source->log, WT_WARNING, WT_CONTRADICTED, 0, "--spring-constant",
+                      source->name, metadata->place,
                       "force and deflection of the file mean a spring constant of %.4g N/m, %s "
                       "%.4g N/m",
                       fitted, own > 0 ? "the file says" : "given is", k);

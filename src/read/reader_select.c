@@ -93,6 +93,9 @@ static const wt_param rows[] = {
     {PARAM_CHOICE_OF("sample-by", wt_read_options, sample_by, "name|file"),
      .help = "what tells the samples of DMA sweeps apart: the name that a column or the header "
              "gives, or the file"},
+    {PARAM_CHOICE_OF("conditioning", wt_read_options, conditioning, "mend|keep"),
+     .help = "keep: copies, flagged rows, outliers, pauses, zeros and drifts count as they stand; "
+             "otherwise left out or corrected"},
 };
 
 PARAM_TABLE(wt_read_params, wt_read_options, rows, wt_read_defaults, NO_PARTS)

@@ -324,7 +324,7 @@ static void warn_difference(const wt_job *work, const wt_cycles *cycles, const c
     for (size_t i = 0; i < cycles->n; i++)
         sum += cycles->cycle[i].coefficient;
     if (cycles->difference > same_friction * sum / (double)cycles->n)
-        wt_log_action(work->log, WT_WARNING, WT_CONTRADICTED, cycles->n, NULL, file, NULL,
+        wt_log_action(work->log, WT_WARNING, WT_CONTRADICTED, cycles->n, "--columns", file, NULL,
                       "the friction coefficient of the file and its friction force over its load "
                       "differ by up to %.3g; the first is used",
                       cycles->difference);
@@ -336,7 +336,7 @@ static void warn_pauses(const wt_job *work, const record_pauses *pauses, const c
     for (size_t i = 0; i < pauses->n; i++)
         all += pauses->of[i].time;
     if (pauses->n > 0)
-        wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, pauses->n, NULL, file, NULL,
+        wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, pauses->n, WT_KEEP_OPTION, file, NULL,
                       "%zu pause%s of %s%.4g s in mid-record, %s at %.4g s of sliding: no time "
                       "of sliding, and left out",
                       pauses->n, pauses->n > 1 ? "s" : "", pauses->n > 1 ? "together " : "", all,
@@ -472,25 +472,26 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
     if (status == WT_OK)
         status = wt_record_read(work->formats, input, &read, work->log, &record, err);
     wt_input_close(input);
-    if (status == WT_OK)
+    const bool keep = read.conditioning == WT_CONDITIONING_KEEP;
+    const wt_estimate stated = job->track_radius, read_radius = {record.radius, 0, 0, "m"},
+                      radius = isnan(stated.value) ? read_radius : stated;
+    if (status == WT_OK && !keep) {
         condition_record(&record, file->name, work->log);
-    wt_estimate radius = job->track_radius;
-    if (isnan(radius.value))
-        radius = (wt_estimate){record.radius, 0, 0, "m"};
-    if (status == WT_OK) {
         pauses = record_remove_pauses(&record);
+    }
+    if (status == WT_OK)
         status =
             wt_cycles_compute(&record, job->cycle, radius.value, job->load.value, &cycles, err);
-    }
     if (status == WT_OK && cycles.n == 0)
         status = wt_fail(err, WT_E_EMPTY, "the record holds no whole cycle");
     if (status == WT_OK) {
         warn_difference(work, &cycles, file->name);
         check_friction_coefficient(cycles.cycle[cycles.n / 2].coefficient, file->name, work->log);
         warn_pauses(work, &pauses, file->name);
-        if (cycles.n_unloaded > 0)
-            wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, cycles.n_unloaded, NULL, file->name,
-                          NULL, "%zu of %zu samples are at no load and left out", cycles.n_unloaded,
+        const size_t n = cycles.n_unloaded;
+        if (n > 0)
+            wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, n, keep ? NULL : WT_KEEP_OPTION,
+                          file->name, NULL, "%zu of %zu samples are at no load and left out", n,
                           record.n);
         status = add_steps(job, work, &cycles, &pauses, file->name, w, err);
     }

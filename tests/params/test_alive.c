@@ -138,6 +138,7 @@ static const struct {
     {NULL, "sample", "for sweeps of several samples: cli_samples"},
     {NULL, "spectrum-convention", "for spectra of other programs: cli_psd"},
     {NULL, "sample-by", "for sweeps of several samples: cli_samples"},
+    {NULL, "conditioning", "for faulty data: cli_conditioning"},
     {NULL, "strain", "for isotherms of several amplitudes: tests/cli/payne.txt"},
     {NULL, "deformation", "for moduli whose names leave it open: tests/formats"},
     {NULL, "temperature", "for files without a temperature: tests/formats"},

@@ -266,7 +266,7 @@ static void remove_duplicate_points(wt_isotherm *t, wt_log *log)
 {
     const size_t dropped = remove_repeated_points(t);
     if (dropped > 0)
-        wt_log_action(log, WT_WARNING, WT_COPIED, dropped, NULL, t->source, NULL,
+        wt_log_action(log, WT_WARNING, WT_COPIED, dropped, WT_KEEP_OPTION, t->source, NULL,
                       "%zu points of the isotherm at %.1f degC stand there twice; the copies are "
                       "left out",
                       dropped, t->temperature - WT_ZERO_CELSIUS);
@@ -284,7 +284,7 @@ static void remove_duplicate_ramps(wt_sweep *sweep, wt_log *log)
             sweep->ramps[kept++] = *t;
             continue;
         }
-        wt_log_action(log, WT_WARNING, WT_COPIED, 1, NULL, t->source, NULL,
+        wt_log_action(log, WT_WARNING, WT_COPIED, 1, WT_KEEP_OPTION, t->source, NULL,
                       "this temperature sweep is a copy of that of %s and left out", b->source);
         free_points(ramp_points(t));
     }
@@ -303,7 +303,7 @@ static void remove_duplicate_strain_sweeps(wt_sweep *sweep, wt_log *log)
             sweep->strain_sweeps[kept++] = *t;
             continue;
         }
-        wt_log_action(log, WT_WARNING, WT_COPIED, 1, NULL, t->source, NULL,
+        wt_log_action(log, WT_WARNING, WT_COPIED, 1, WT_KEEP_OPTION, t->source, NULL,
                       "this strain sweep is a copy of that of %s and left out", b->source);
         free_points(strain_sweep_points(t));
     }
@@ -346,9 +346,10 @@ void wt_sweep_remove_duplicates(wt_sweep *sweep, wt_log *log)
     remove_duplicate_ramps(sweep, log);
     remove_duplicate_strain_sweeps(sweep, log);
     if (n > 0)
-        wt_log_action(
-            log, WT_WARNING, WT_COPIED, n, NULL, NULL, NULL, "%zu %s and left out; the first: %s",
-            n, n > 1 ? "isotherms are copies of others" : "isotherm is a copy of another", first);
+        wt_log_action(log, WT_WARNING, WT_COPIED, n, WT_KEEP_OPTION, NULL, NULL,
+                      "%zu %s and left out; the first: %s", n,
+                      n > 1 ? "isotherms are copies of others" : "isotherm is a copy of another",
+                      first);
 }
 
 /* ---- samples --------------------------------------------------------------------------------- */

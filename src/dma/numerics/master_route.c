@@ -526,21 +526,25 @@ static double shift_slope(const wt_master *m, size_t i)
     return isfinite(by_law) ? by_law : isfinite(slope) ? slope : 0;
 }
 
-/* Sets the frequencies of the drifting isotherms to those at the temperature of the isotherm. */
-static void shift_drifting_points(const wt_sweep *sweep, const wt_master *m, wt_isotherm *shifted)
+/* Sets the frequencies of the drifting isotherms to those at the temperature of the isotherm.
+ * Returns the number of isotherms that change. */
+static size_t shift_drifting_points(const wt_sweep *sweep, const wt_master *m, wt_isotherm *shifted)
 {
+    size_t n_changed = 0;
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         const wt_isotherm *const t = &sweep->isotherms[i];
         size_t k = 0;
         while (k < m->n_shifts && m->shifts[k].temperature != t->temperature)
             k++;
         const double slope = k < m->n_shifts ? shift_slope(m, k) : 0;
+        n_changed += t->point_temperature != NULL && slope != 0;
         for (size_t j = 0; t->point_temperature != NULL && j < t->n; j++) {
             const double off = t->point_temperature[j] - t->temperature;
             shifted[i].angular_frequency[j] =
                 t->angular_frequency[j] * (isnan(off) ? 1 : pow(10, slope * off));
         }
     }
+    return n_changed;
 }
 
 /* Copies the isotherms, and the frequencies of those that drift. The other arrays are shared. */
@@ -569,22 +573,23 @@ wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options,
     arena memory = {0};
     wt_sweep shifted = *sweep;
     const size_t n_drifting = copy_drifting(sweep, &memory, &shifted.isotherms);
+    size_t n_changed = 0;
     wt_status status = WT_OK;
     quick.series_only = true;
     for (size_t i = 0; n_drifting > 0 && status == WT_OK && i < DRIFT_FITS; i++) {
         wt_master fit = {0};
         status = fit_at_reference(&shifted, quick, NULL, &fit, err);
         if (status == WT_OK)
-            shift_drifting_points(sweep, &fit, shifted.isotherms);
+            n_changed = shift_drifting_points(sweep, &fit, shifted.isotherms);
         wt_master_clear(&fit);
     }
     if (status == WT_OK)
         status = fit_at_reference(&shifted, final, log, master, err);
-    if (status == WT_OK && n_drifting > 0)
-        wt_log_action(log, WT_NOTE, WT_CORRECTED, n_drifting, NULL, NULL, NULL,
+    if (status == WT_OK && n_changed > 0)
+        wt_log_action(log, WT_NOTE, WT_CORRECTED, n_changed, WT_KEEP_OPTION, NULL, NULL,
                       "the temperature drifts within %zu isotherm%s: each point counts at its own "
                       "temperature, by the slope of the shifts",
-                      n_drifting, n_drifting > 1 ? "s" : "");
+                      n_changed, n_changed > 1 ? "s" : "");
     arena_free(&memory);
     return status;
 }

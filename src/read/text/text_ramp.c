@@ -80,7 +80,7 @@ static bool add_temperature_sweeps(sweep_builder *b, const size_t *all, size_t n
         used += end - first;
     }
     if (used > 0 && n < n_all)
-        wt_log_action(b->log, WT_WARNING, WT_LEFT_OUT, 0, NULL, b->file->name,
+        wt_log_action(b->log, WT_WARNING, WT_LEFT_OUT, n_all - n, "--columns", b->file->name,
                       format_line_position(b->table->names_line).text,
                       "%zu points at %g rad/s without a temperature above absolute zero left out",
                       n_all - n, sweep_angular_frequency(b, rows[0]));

@@ -162,7 +162,7 @@ static wt_status fill_record(const text_file *file, wt_record *record, wt_log *l
     if (status == WT_OK && record->n == 0)
         status = text_fail_empty(file, "record of friction", err);
     if (left_out > 0)
-        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, left_out, NULL, file->name, NULL,
+        wt_log_action(log, WT_WARNING, WT_LEFT_OUT, left_out, "--columns", file->name, NULL,
                       "%zu row%s without friction or without a time left out", left_out,
                       left_out == 1 ? "" : "s");
     return status;

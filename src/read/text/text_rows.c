@@ -268,7 +268,7 @@ static void warn_ignored_cell(text_scanner *s, const text_column *column)
 {
     char found[16];
     text_copy(found, sizeof found, s->row.cells[column->cell]);
-    wt_log_action(s->log, WT_WARNING, WT_LEFT_OUT, 1, NULL, s->file->name,
+    wt_log_action(s->log, WT_WARNING, WT_LEFT_OUT, 1, "--columns", s->file->name,
                   format_line_position(s->i + 1).text,
                   "\"%s\" in column %zu (%s) is no value and is left out", found, column->cell + 1,
                   column->name);

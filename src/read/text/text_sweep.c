@@ -232,10 +232,11 @@ static void ignore_count_column(const sweep_builder *b)
         n++;
         numbers = numbers && wt_number_parse(names->items[i], strlen(names->items[i]), '.', &value);
     }
-    const bool counts = numbers && n > 1 && 4 * n > 3 * t->n_rows;
+    const bool counts = numbers && n > 1 && 4 * n > 3 * t->n_rows &&
+                        b->options->conditioning != WT_CONDITIONING_KEEP;
     if (t->sample_cell == SIZE_MAX || !(counts || names->n >= SAMPLES_MAX))
         return;
-    wt_log_action(b->log, WT_WARNING, WT_LEFT_OUT, 0, NULL, b->file->name,
+    wt_log_action(b->log, WT_WARNING, WT_LEFT_OUT, 0, counts ? WT_KEEP_OPTION : NULL, b->file->name,
                   format_line_position(t->names_line).text,
                   "column %zu, which would name the sample, %s: left out", t->sample_cell + 1,
                   counts ? "is different in every row" : "has too many names");
@@ -255,8 +256,8 @@ static size_t drop_flagged_rows(const sweep_builder *b, size_t *rows, size_t n)
             line = line == 0 ? t->row_lines[rows[i]] : line;
     if (kept == n)
         return n;
-    wt_log_action(b->log, WT_WARNING, kept > 0 ? WT_LEFT_OUT : WT_IMPLAUSIBLE, n - kept, NULL,
-                  b->file->name, format_line_position(line).text,
+    wt_log_action(b->log, WT_WARNING, kept > 0 ? WT_LEFT_OUT : WT_IMPLAUSIBLE, n - kept,
+                  kept > 0 ? WT_KEEP_OPTION : NULL, b->file->name, format_line_position(line).text,
                   kept > 0 ? "rows that the instrument flags as outside of its limits are left "
                              "out: %zu of %zu in the table"
                            : "the instrument flags all rows of the table as outside of its limits; "
@@ -276,11 +277,12 @@ static wt_status split_table(sweep_builder *b)
         if (sweep_is_valid_row(b, row))
             rows[n++] = row;
     if (n < t->n_rows)
-        wt_log_action(b->log, WT_NOTE, WT_LEFT_OUT, t->n_rows - n, NULL, b->file->name,
+        wt_log_action(b->log, WT_NOTE, WT_LEFT_OUT, t->n_rows - n, "--columns", b->file->name,
                       format_line_position(t->names_line).text,
                       "%zu rows without a positive frequency or without a modulus left out",
                       t->n_rows - n);
-    n = drop_flagged_rows(b, rows, n);
+    if (b->options->conditioning != WT_CONDITIONING_KEEP)
+        n = drop_flagged_rows(b, rows, n);
     while (status == WT_OK && n > 0) {
         const wt_sweep before = *b->sweep;
         size_t taken = 0, kept = 0;

@@ -137,15 +137,16 @@ static void warn_contradictions(const text_file *file, const text_table *t, wt_l
     if (c.storage != NULL && c.loss != NULL && c.factor != NULL) {
         const double usual = usual_ratio(t, &c, ratio_of_loss_factor);
         if (is_outside(usual, same_factor))
-            wt_log_action(log, WT_WARNING, WT_CONTRADICTED, t->n_rows, NULL, file->name, place.text,
-                          "the loss factor is %.3g times E''/E' in most rows; the moduli are used",
-                          usual);
+            wt_log_action(
+                log, WT_WARNING, WT_CONTRADICTED, t->n_rows, "--columns", file->name, place.text,
+                "the loss factor is %.3g times E''/E' in most rows; the moduli are used", usual);
     }
     if (text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1) != NULL &&
         text_table_column(t, WT_Q_FREQUENCY, -1) != NULL) {
         const double usual = usual_ratio(t, &c, ratio_of_frequency);
         if (is_outside(usual, same_frequency))
-            wt_log_action(log, WT_WARNING, WT_CONTRADICTED, t->n_rows, NULL, file->name, place.text,
+            wt_log_action(log, WT_WARNING, WT_CONTRADICTED, t->n_rows, "--columns", file->name,
+                          place.text,
                           "the angular frequency disagrees with the frequency: it is %.3g times "
                           "2 pi f in most rows; a unit of one of them is wrong, and the angular "
                           "frequency is used",
@@ -174,7 +175,7 @@ static void report_other_temperature(const text_file *file, const text_table *t,
     free(differences);
     if (fabs(median) > same)
         wt_log_action(log, text_column_is_of_sample(used) ? WT_NOTE : WT_WARNING, WT_CONTRADICTED,
-                      n, NULL, file->name, format_line_position(t->names_line).text,
+                      n, "--columns", file->name, format_line_position(t->names_line).text,
                       "two columns of temperature differ by %.1f K in most rows: \"%s\" is used, "
                       "not \"%s\"",
                       fabs(median), used->name, other->name);
