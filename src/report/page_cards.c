@@ -7,6 +7,7 @@
 #include "report/typography.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A ratio without a unit that has the neutral value 0 is a relative change and shown in percent. */
@@ -85,6 +86,31 @@ static void write_bar(page_writer *page, const char *name, const char *class, co
     text_free(&text);
 }
 
+/* Writes what disqualifies a number: the warnings of the limits that concern it, without their
+ * details. The predictions rest on the material and on one another. */
+static void write_card_warnings(page_writer *page, finding_question question)
+{
+    static const unsigned subjects[FINDING_QUESTIONS] = {
+        [FINDING_TRACK_DIFFERS] = 1u << LIMITS_INDENTATION,
+        [FINDING_LAYER_THICKNESS] = 1u << LIMITS_MATERIAL | 1u << LIMITS_LAYER,
+        [FINDING_FRICTION_CHANGE] =
+            1u << LIMITS_MATERIAL | 1u << LIMITS_LAYER | 1u << LIMITS_FRICTION};
+    const table_view *const limits = &page->tables->limits;
+    for (size_t i = 0; i < limits->n_rows; i++) {
+        const int subject = limits_enum(limits, i, LIMITS_SUBJECT);
+        if (limits_enum(limits, i, LIMITS_SEVERITY) != WT_WARNING || subject < 0 ||
+            subject >= LIMIT_SUBJECT_UNKNOWN || (subjects[question] >> subject & 1) == 0)
+            continue;
+        const char *const text = limits_text(limits, i, LIMITS_LIMIT);
+        char *const brief = wt_strndup(text, length_without_reason(text));
+        text_add(&page->out, "<p class=\"warned\">⚠ ");
+        text_typographic(&page->out, brief);
+        text_html(&page->out, "%s <a href=\"#limits\">Details</a></p>\n",
+                  strlen(brief) < strlen(text) ? "." : "");
+        free(brief);
+    }
+}
+
 static void write_card(page_writer *page, const finding *f)
 {
     static const char *const class[FINDING_VERDICT_UNKNOWN] = {[FINDING_YES] = "v-yes",
@@ -121,6 +147,7 @@ static void write_card(page_writer *page, const finding *f)
         text_add(&page->out,
                  " The track is not shown to differ: the number is as if there were a layer.");
     text_add(&page->out, "</p>\n");
+    write_card_warnings(page, f->question);
     if (value->range.widest != NULL)
         text_html(&page->out, "<p class=\"widest\">Widest choice: %s.</p>\n", value->range.widest);
     /* A section of the page exists for each number. */

@@ -71,14 +71,18 @@ static void write_parts(page_writer *page, const result_rows *list, size_t from,
     text_add(&page->out, "</ul>\n");
 }
 
+/* True if the first reason of a row explains its verdict. */
+static bool has_reason(const result_row *row)
+{
+    return row->kind == RESULT_ROW_TEXT && row->reasons[0].text != NULL;
+}
+
 /* The reason of a verdict is on its card, the others are folded. */
 static void write_reasons(page_writer *page, const result_row *row)
 {
-    size_t first = 0;
-    if (row->kind == RESULT_ROW_TEXT && row->reasons[0].text != NULL) {
+    const size_t first = has_reason(row) ? 1 : 0;
+    if (first > 0)
         page_reason(page, row->reasons[0].text);
-        first = 1;
-    }
     if (first == RESULT_ROW_REASONS || row->reasons[first].text == NULL)
         return;
     text_add(&page->out, "<details><summary>Why</summary>\n");
@@ -108,7 +112,8 @@ static void write_row_card(page_writer *page, const result_rows *list, size_t fi
                       row->number.range_low, row->number.range_high);
         text_add(&page->out, "</dl>\n");
     }
-    if (row->note[0] != '\0') {
+    /* the reason of a verdict is more complete than its note */
+    if (row->note[0] != '\0' && !has_reason(row)) {
         text_add(&page->out, "<p>");
         text_typographic(&page->out, row->note);
         text_add(&page->out, "</p>\n");

@@ -69,8 +69,9 @@ static void write_limit_items(page_writer *page, size_t from, size_t to)
     const table_view *const limits = &page->tables->limits;
     text_add(&page->out, "<ul>\n");
     for (size_t i = from; i < to; i++) {
-        text_html(&page->out, "<li%s>",
-                  limits_enum(limits, i, LIMITS_SEVERITY) == WT_WARNING ? " class=\"warned\"" : "");
+        text_add(&page->out, limits_enum(limits, i, LIMITS_SEVERITY) == WT_WARNING
+                                 ? "<li class=\"warned\">"
+                                 : "<li>");
         text_typographic(&page->out, limits_text(limits, i, LIMITS_LIMIT));
         text_add(&page->out, "</li>\n");
     }
