@@ -11,8 +11,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static void page_head(const page_writer *page, text_buffer *out, const char *title)
+static void page_head(page_writer *page, const char *title)
 {
+    text_buffer *const out = &page->out;
     text_html(out, "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\" "
                    "xml:lang=\"en\">\n<head>\n<meta charset=\"utf-8\" />\n" REPORT_MARK);
     if (page->with_provenance)
@@ -25,10 +26,9 @@ static void page_head(const page_writer *page, text_buffer *out, const char *tit
     text_add(out, embedded_file_text("page.css"));
     if (page->font != NULL) // only letters, digits, blanks and hyphens
         text_format(out, ":root { --figure-font: \"%s\"; }\n", page->font);
-    text_html(out,
-              "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>%s</h1>\n"
-              "<nav aria-label=\"Contents\">\n<ul>\n",
-              title);
+    text_html(out, "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>%s</h1>\n", title);
+    page_conditions(page);
+    text_add(out, "<nav aria-label=\"Contents\">\n<ul>\n");
     text_add(out, text_string(&page->contents));
     text_add(out, "</ul>\n</nav>\n</header>\n");
 }
@@ -217,6 +217,7 @@ wt_status page_write(page_writer *page, wt_error *err)
     // The body comes first, as the table of contents depends on it.
     text_buffer body = {0};
     page_cards(page);
+    page_rows(page);
     page_failures(page);
     page_summary(page);
     wt_status status = page_sections(page, err);
@@ -228,7 +229,7 @@ wt_status page_write(page_writer *page, wt_error *err)
         page_record(page);
         body = page->out;
         page->out = (text_buffer){0};
-        page_head(page, &page->out, page_title(page));
+        page_head(page, page_title(page));
         text_bytes(&page->out, text_string(&body), body.length);
         text_add(&page->out, "</main>\n</body>\n</html>\n");
     }

@@ -32,8 +32,13 @@ wt_status page_write(page_writer *page, wt_error *err) WT_NODISCARD;
 
 /* ---- parts; each is empty without its tables ---------------------------------------------------
  */
-void page_cards(page_writer *page);   /* findings */
+void page_cards(page_writer *page);   /* findings, measured against predicted friction */
 void page_summary(page_writer *page); /* remedies, limits, data used */
+/* Conditions of a result and the data that it rests on, in one line below the title. */
+void page_conditions(page_writer *page);
+/* Cards of a result that answers none of the questions of a case, and a table of what does not fit
+ * on them. */
+void page_rows(page_writer *page);
 /* Main numbers of one section; nothing if the result has none. */
 void page_numbers(page_writer *page, page_section section);
 void page_results(page_writer *page);     /* result tables */
@@ -45,6 +50,15 @@ void page_record(page_writer *page); /* case file, provenance */
 
 /* Unit in which the value of a finding is shown. A relative change is shown in percent. */
 display_unit select_finding_unit(const result_value *f);
+
+/* Writes a bar from `low` to `high` on the axis of a number, with its limits as text; nothing if
+ * these are not finite. `class` selects the drawing: interval or choices. */
+void page_bar(page_writer *page, const char *name, const char *class, const char *text,
+              const result_value *f, double low, double high);
+
+/* Writes the reason behind a verdict "no: the reason" as a sentence; a text without a reason as it
+ * is. */
+void page_reason(page_writer *page, const char *verdict);
 
 /* ---- shared by the parts ------------------------------------------------------------------------
  */
@@ -67,11 +81,14 @@ void page_whole_table(page_writer *page, const table_view *table, const char *ca
  * none. */
 void page_keys(page_writer *page, const table_view *table, const char *caption);
 
-/* Write a table of estimates line by line. `interval` (plain text) replaces the statistical error
- * if it is not NULL. */
-void page_estimates_begin(page_writer *page, const char *caption, bool remarks);
+/* Write a table of estimates with both standard errors line by line. */
+void page_estimates_begin(page_writer *page, const char *caption);
 void page_estimate(page_writer *page, const char *words, const wt_estimate *estimate,
-                   wt_quantity quantity, const char *interval, const char *remark);
+                   wt_quantity quantity);
+/* Write a table of main numbers with their 95 % intervals and ranges over model choices line by
+ * line. A standard error of zero means that the number has no error. */
+void page_numbers_begin(page_writer *page, const char *caption);
+void page_number(page_writer *page, const char *words, const result_value *f, const char *remark);
 void page_table_end(page_writer *page);
 
 #endif

@@ -4,8 +4,10 @@
 
 #include "core/base/array.h"
 #include "core/table/finding.h"
+#include "report/typography.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A ratio without a unit that has the neutral value 0 is a relative change and shown in percent. */
@@ -16,43 +18,97 @@ display_unit select_finding_unit(const result_value *f)
     return select_display_unit(f->quantity, f->number.unit, f->number.value);
 }
 
-/* Limits of the axis of a bar: all numbers of the card, with a margin. */
+/* Limits of the axis of the bars: all numbers of the card, with a margin. Without a reference or a
+ * second bar the axis begins at zero, so that the bar shows the width relative to the value. */
 static void bar_axis(const result_value *f, double *low, double *high)
 {
-    const double ends[] = {f->number.value, f->low,        f->high,
-                           f->range.low,    f->range.high, f->neutral};
-    *low = *high = f->number.value;
-    for (size_t i = 0; i < COUNT_OF(ends); i++) {
-        *low = fmin(*low, ends[i]); /* fmin and fmax ignore NaN */
-        *high = fmax(*high, ends[i]);
-    }
+    const bool alone = isnan(f->neutral) && isnan(f->range.low);
+    const double ends[] = {f->number.value,
+                           f->low,
+                           f->high,
+                           f->range.low,
+                           f->range.high,
+                           f->neutral,
+                           alone ? 0 : f->number.value};
+    *low = (double)INFINITY;
+    *high = -(double)INFINITY;
+    for (size_t i = 0; i < COUNT_OF(ends); i++)
+        if (isfinite(ends[i])) {
+            *low = fmin(*low, ends[i]);
+            *high = fmax(*high, ends[i]);
+        }
     const double margin = *high > *low ? 0.05 * (*high - *low) : 1;
     *low -= margin;
     *high += margin;
 }
 
-/* Writes one bar with its limits; nothing if these or the value are not finite. */
-static void write_bar(page_writer *page, const char *name, const char *class, const result_value *f,
-                      double low, double high)
+void page_bar(page_writer *page, const char *name, const char *class, const char *text,
+              const result_value *f, double low, double high)
 {
     double left = 0, right = 0;
-    if (!isfinite(low) || !isfinite(high) || !isfinite(f->number.value))
+    if (!isfinite(low) || !isfinite(high))
         return;
-    const display_unit lab = select_finding_unit(f);
-    const int digits = result_value_digits(f->number.value, low, high);
     bar_axis(f, &left, &right);
-    text_html(&page->out, "<div><dt>%s</dt><dd class=\"limits\">", name);
-    text_format(&page->out, "%s to %s", NUMBER(to_display_value(&lab, low), digits),
-                NUMBER(to_display_value(&lab, high), digits));
-    text_format(&page->out, "%s%s</dd><dd class=\"bar\" aria-hidden=\"true\">",
-                lab.label[0] != '\0' ? " " : "", lab.label);
+    text_html(&page->out, "<div><dt>%s</dt><dd class=\"bar\" aria-hidden=\"true\">", name);
     if (!isnan(f->neutral))
         text_format(&page->out, "<i class=\"neutral\" style=\"left:%s%%\"></i>",
                     FIXED(100 * (f->neutral - left) / (right - left), 1));
     text_format(&page->out, "<i class=\"%s\" style=\"left:%s%%;width:%s%%\"></i>", class,
                 FIXED(100 * (low - left) / (right - left), 1),
                 FIXED(100 * (high - low) / (right - left), 1));
-    text_add(&page->out, "</dd></div>\n");
+    text_html(&page->out, "</dd><dd class=\"limits\">%s</dd></div>\n", text);
+}
+
+void page_reason(page_writer *page, const char *verdict)
+{
+    const size_t n = length_without_reason(verdict);
+    const char *const reason = verdict[n] != '\0' ? verdict + n + 2 : verdict;
+    char first[2] = "";
+    /* a name such as E' begins with a capital letter already */
+    if (reason[0] >= 'a' && reason[0] <= 'z')
+        first[0] = (char)(reason[0] - 'a' + 'A');
+    text_html(&page->out, "<p>%s", first);
+    text_typographic(&page->out, first[0] != '\0' ? reason + 1 : reason);
+    text_add(&page->out, ".</p>\n");
+}
+
+/* Writes one bar of a finding with its limits, whose unit is that of the number above. */
+static void write_bar(page_writer *page, const char *name, const char *class, const result_value *f,
+                      double low, double high)
+{
+    const display_unit lab = select_finding_unit(f);
+    const int digits = result_value_digits(f->number.value, low, high);
+    text_buffer text = {0};
+    text_format(&text, "%s to %s", NUMBER(to_display_value(&lab, low), digits),
+                NUMBER(to_display_value(&lab, high), digits));
+    if (isfinite(f->number.value))
+        page_bar(page, name, class, text_string(&text), f, low, high);
+    text_free(&text);
+}
+
+/* Writes what disqualifies a number: the warnings of the limits that concern it, without their
+ * details. The predictions rest on the material and on one another. */
+static void write_card_warnings(page_writer *page, finding_question question)
+{
+    static const unsigned subjects[FINDING_QUESTIONS] = {
+        [FINDING_TRACK_DIFFERS] = 1u << LIMITS_INDENTATION,
+        [FINDING_LAYER_THICKNESS] = 1u << LIMITS_MATERIAL | 1u << LIMITS_LAYER,
+        [FINDING_FRICTION_CHANGE] =
+            1u << LIMITS_MATERIAL | 1u << LIMITS_LAYER | 1u << LIMITS_FRICTION};
+    const table_view *const limits = &page->tables->limits;
+    for (size_t i = 0; i < limits->n_rows; i++) {
+        const int subject = limits_enum(limits, i, LIMITS_SUBJECT);
+        if (limits_enum(limits, i, LIMITS_SEVERITY) != WT_WARNING || subject < 0 ||
+            subject >= LIMIT_SUBJECT_UNKNOWN || (subjects[question] >> subject & 1) == 0)
+            continue;
+        const char *const text = limits_text(limits, i, LIMITS_LIMIT);
+        char *const brief = wt_strndup(text, length_without_reason(text));
+        text_add(&page->out, "<p class=\"warned\">⚠ ");
+        text_typographic(&page->out, brief);
+        text_html(&page->out, "%s <a href=\"#limits\">Details</a></p>\n",
+                  strlen(brief) < strlen(text) ? "." : "");
+        free(brief);
+    }
 }
 
 static void write_card(page_writer *page, const finding *f)
@@ -76,8 +132,7 @@ static void write_card(page_writer *page, const finding *f)
         const display_unit lab = select_finding_unit(value);
         text_format(&page->out, "<p class=\"number\">%s <span class=\"unit\">%s</span></p>\n<dl>\n",
                     NUMBER(to_display_value(&lab, value->number.value), 3),
-                    f->question == FINDING_TRACK_DIFFERS ? "modulus of the track over bulk"
-                                                         : lab.label);
+                    f->question == FINDING_TRACK_DIFFERS ? "× bulk modulus" : lab.label);
         write_bar(page, "95 % interval", "interval", value, value->low, value->high);
         write_bar(page, "Model choices", "choices", value, value->range.low, value->range.high);
         text_add(&page->out, "</dl>\n");
@@ -85,18 +140,69 @@ static void write_card(page_writer *page, const finding *f)
     /* a run states why a number is missing */
     const table_view *const answer = &page->tables->answer;
     const bool stated = f->verdict == FINDING_NOT_COMPUTED && findings_are_stated(answer);
-    text_html(&page->out, "<p>%s%s</p>\n",
-              stated ? answer_text(answer, f->question, ANSWER_ANSWER) : f->sentence,
-              f->as_if_layer && !isnan(value->number.value)
-                  ? " The track is not shown to differ: the number is as if there were a layer."
-                  : "");
+    text_add(&page->out, "<p>");
+    text_typographic(&page->out,
+                     stated ? answer_text(answer, f->question, ANSWER_ANSWER) : f->sentence);
+    if (f->as_if_layer && !isnan(value->number.value))
+        text_add(&page->out,
+                 " The track is not shown to differ: the number is as if there were a layer.");
+    text_add(&page->out, "</p>\n");
+    write_card_warnings(page, f->question);
     if (value->range.widest != NULL)
-        text_html(&page->out, "<p class=\"widest\">Widest model choice: %s.</p>\n",
-                  value->range.widest);
-    text_html(&page->out, "<p><a href=\"#%s\">Why</a></p>\n",
-              f->question == FINDING_TRACK_DIFFERS     ? "indentation"
-              : f->question == FINDING_LAYER_THICKNESS ? "layer"
-                                                       : "friction");
+        text_html(&page->out, "<p class=\"widest\">Widest choice: %s.</p>\n", value->range.widest);
+    /* A section of the page exists for each number. */
+    if (!isnan(value->number.value))
+        text_html(&page->out, "<p class=\"why\"><a href=\"#%s\">Why</a></p>\n",
+                  f->question == FINDING_TRACK_DIFFERS     ? "indentation"
+                  : f->question == FINDING_LAYER_THICKNESS ? "layer"
+                                                           : "friction");
+    text_add(&page->out, "</section>\n");
+}
+
+/* Writes the card of a comparison of measured with predicted friction. */
+static void write_validation_card(page_writer *page)
+{
+    static const struct {
+        const char *class, *text;
+    } outcomes[] = {[OUTCOME_INCONCLUSIVE] = {"v-open", "inconclusive"},
+                    [OUTCOME_EXPLAINS] = {"v-yes", "yes"},
+                    [OUTCOME_EXPLAINS_WITH_SHEAR] = {"v-yes", "yes, with another shear stress"},
+                    [OUTCOME_DOES_NOT] = {"v-yes", "no"}};
+    const table_view *const v = &page->tables->validation;
+    if (v->table == NULL)
+        return;
+    const int outcome = validation_key_enum(v, VALIDATION_KEY_OUTCOME);
+    const bool known = outcome >= 0 && outcome < (int)COUNT_OF(outcomes);
+    const double none = (double)NAN;
+    const result_value ratio = {
+        .number = {validation_value(v, VALIDATION_KEY_RATIO).value, none, none, "1"},
+        .low = validation_value(v, VALIDATION_KEY_RATIO_LOW).value,
+        .high = validation_value(v, VALIDATION_KEY_RATIO_HIGH).value,
+        .neutral = 1,
+        .range = {.low = none, .high = none}};
+    text_html(&page->out,
+              "<section class=\"finding %s\">\n<h2>Does theory match measured friction?</h2>\n"
+              "<p class=\"verdict\"><strong>%s</strong> <span class=\"basis\">measured</span></p>"
+              "\n",
+              known ? outcomes[outcome].class : "v-nodata",
+              known ? outcomes[outcome].text : "not tested");
+    if (!isnan(ratio.number.value) && !isnan(ratio.low)) {
+        text_format(&page->out,
+                    "<p class=\"number\">%s <span class=\"unit\">× predicted</span>"
+                    "</p>\n<dl>\n",
+                    NUMBER(ratio.number.value, 3));
+        write_bar(page, "95 % interval", "interval", &ratio, ratio.low, ratio.high);
+        text_add(&page->out, "</dl>\n");
+    }
+    const char *const settled = validation_key_text(v, VALIDATION_KEY_SETTLED_BY),
+                      *const verdict = validation_key_text(v, VALIDATION_KEY_VERDICT);
+    if (verdict != NULL)
+        page_reason(page, verdict);
+    if (settled != NULL) {
+        text_add(&page->out, "<p class=\"widest\">How to decide it: ");
+        text_typographic(&page->out, settled);
+        text_add(&page->out, "</p>\n");
+    }
     text_add(&page->out, "</section>\n");
 }
 
@@ -111,5 +217,6 @@ void page_cards(page_writer *page)
     text_add(&page->out, "<div class=\"findings\">\n");
     for (size_t i = 0; i < FINDING_QUESTIONS; i++)
         write_card(page, &findings[i]);
+    write_validation_card(page);
     text_add(&page->out, "</div>\n");
 }

@@ -1,44 +1,12 @@
-/* Writes the main numbers of the page with both errors.
+/* Writes the main numbers of the sections with their intervals.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
 
+#include "core/math/students_t.h"
 #include "core/table/result_value.h"
 
 #include <math.h>
-
-/* Adds "0.59 to 0.69 MPa" in the unit of the value. */
-static void add_limits(text_buffer *text, const result_value *f, double low, double high,
-                       int digits)
-{
-    display_unit lab = select_display_unit(f->quantity, f->number.unit, f->number.value);
-    text_format(text, "%s to %s%s%s", NUMBER(to_display_value(&lab, low), digits),
-                NUMBER(to_display_value(&lab, high), digits), lab.label[0] != '\0' ? " " : "",
-                lab.label);
-}
-
-/* Writes a row with the interval as statistical error, and the range over the model choices at the
- * end of the remark. */
-static void write_result_value_row(page_writer *page, const char *name, const result_value *f,
-                                   text_buffer *remark)
-{
-    text_buffer interval = {0};
-    const wt_estimate estimate = {f->number.value, (f->high - f->low) / 4,
-                                  f->number.numerical_error, f->number.unit};
-    if (isfinite(f->low) && isfinite(f->high)) {
-        add_limits(&interval, f, f->low, f->high,
-                   result_value_digits(f->number.value, f->low, f->high));
-        text_add(&interval, " (95 % interval)");
-    } else
-        text_add(&interval, "not known");
-    if (!isnan(f->range.low)) {
-        text_add(remark, remark->length > 0 ? "; " : "");
-        add_limits(remark, f, f->range.low, f->range.high, 3);
-        text_add(remark, " over all choices of the model");
-    }
-    page_estimate(page, name, &estimate, f->quantity, text_string(&interval), text_string(remark));
-    text_free(&interval);
-}
 
 static void write_ratio_row(page_writer *page, const result_value_tables *found)
 {
@@ -54,7 +22,7 @@ static void write_ratio_row(page_writer *page, const result_value_tables *found)
     if (unit != NULL)
         text_format(&remark, ", unit of analysis: %s", unit);
     f.number.numerical_error = 0;
-    write_result_value_row(page, f.words, &f, &remark);
+    page_number(page, f.words, &f, text_string(&remark));
     text_free(&remark);
 }
 
@@ -74,10 +42,23 @@ static void write_group_rows(page_writer *page, const result_value_tables *found
                     n_spots == 1 ? "spot" : "spots",
                     modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED), f.includes);
         f.number.numerical_error = 0;
-        write_result_value_row(page, text_string(&name), &f, &remark);
+        page_number(page, text_string(&name), &f, text_string(&remark));
         text_free(&name);
         text_free(&remark);
     }
+}
+
+/* A number without a range over model choices, with the 95 % interval of its normal error. */
+static result_value normal_value(const wt_estimate *estimate, wt_quantity quantity)
+{
+    const double half = NORMAL_95 * estimate->standard_error, none = (double)NAN;
+    const bool known = half > 0 && isfinite(half);
+    return (result_value){.quantity = quantity,
+                          .number = *estimate,
+                          .low = known ? estimate->value - half : none,
+                          .high = known ? estimate->value + half : none,
+                          .neutral = none,
+                          .range = {.low = none, .high = none}};
 }
 
 enum { EVERY_KEY = SCHEMA_FIELDS_MAX };
@@ -89,16 +70,12 @@ static void headline_rows(page_writer *page, const result_value_tables *found,
     for (unsigned i = 0; i < table->schema->n_keys; i++) {
         const schema_field *key = &table->schema->keys[i];
         const wt_estimate estimate = view_key(table, table->schema, i);
-        result_value f;
         if (key->headline == NULL || isnan(estimate.value))
             continue;
-        text_buffer words = {0};
-        text_add(&words, remarked == EVERY_KEY || remarked == i ? remark : "");
-        if (result_value_from_key(found, key, &f))
-            write_result_value_row(page, key->headline, &f, &words);
-        else
-            page_estimate(page, key->headline, &estimate, key->quantity, NULL, text_string(&words));
-        text_free(&words);
+        result_value f;
+        if (!result_value_from_key(found, key, &f))
+            f = normal_value(&estimate, key->quantity);
+        page_number(page, key->headline, &f, remarked == EVERY_KEY || remarked == i ? remark : "");
     }
 }
 
@@ -106,12 +83,7 @@ static void headline_rows(page_writer *page, const result_value_tables *found,
 static void write_reference_rows(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &page->tables->friction;
-    text_buffer remark = {0};
-    text_format(
-        &remark, "at the reference velocity, %s",
-        VALUE(WT_Q_VELOCITY, NULL, friction_value(table, FRICTION_KEY_REFERENCE_VELOCITY).value));
-    headline_rows(page, found, table, EVERY_KEY, text_string(&remark));
-    text_free(&remark);
+    headline_rows(page, found, table, EVERY_KEY, "");
 }
 
 static void write_largest_friction_row(page_writer *page)
@@ -136,8 +108,8 @@ static void write_largest_friction_row(page_writer *page)
     const wt_estimate estimate = {friction_get(table, best, FRICTION_TOTAL),
                                   friction_get(table, best, FRICTION_TOTAL_STANDARD_ERROR),
                                   friction_get(table, best, FRICTION_TOTAL_NUMERICAL_ERROR), "1"};
-    page_estimate(page, "Friction coefficient, largest", &estimate, WT_Q_NONE, NULL,
-                  text_string(&remark));
+    const result_value f = normal_value(&estimate, WT_Q_NONE);
+    page_number(page, "Friction coefficient, largest", &f, text_string(&remark));
     text_free(&remark);
 }
 
@@ -190,7 +162,14 @@ void page_numbers(page_writer *page, page_section section)
     result_value_tables found;
     if (!has_numbers(t, section) || result_values_bind(page->result, &found, NULL) != WT_OK)
         return; /* figure_tables_bind has reported this error */
-    page_estimates_begin(page, "Main numbers; ±: one standard error", true);
+    text_buffer caption = {0};
+    text_add(&caption, "Main numbers");
+    if (section == SECTION_FRICTION)
+        text_format(&caption, " at %s",
+                    VALUE(WT_Q_VELOCITY, NULL,
+                          friction_value(&t->friction, FRICTION_KEY_REFERENCE_VELOCITY).value));
+    page_numbers_begin(page, text_string(&caption));
+    text_free(&caption);
     if (section == SECTION_INDENTATION) {
         write_ratio_row(page, &found);
         write_group_rows(page, &found);

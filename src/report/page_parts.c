@@ -254,17 +254,15 @@ void page_whole_table(page_writer *page, const table_view *table, const char *ca
 /* ---- values with both errors ----------------------------------------------------------------- */
 
 static const char value_heading[] = "Value", statistical_heading[] = "Statistical error",
-                  numerical_heading[] = "Numerical error", remark_heading[] = "Remark";
+                  numerical_heading[] = "Numerical error";
 
-void page_estimates_begin(page_writer *page, const char *caption, bool remarks)
+void page_estimates_begin(page_writer *page, const char *caption)
 {
-    begin_html_table(page, caption, remarks ? 5 : 4);
+    begin_html_table(page, caption, 4);
     heading_cell(page, "Quantity", "", false);
     heading_cell(page, value_heading, "", true);
     heading_cell(page, statistical_heading, "", true);
     heading_cell(page, numerical_heading, "", true);
-    if (remarks)
-        heading_cell(page, remark_heading, "", false);
     text_add(&page->out, "</tr></thead>\n<tbody>\n");
 }
 
@@ -307,30 +305,82 @@ static void add_error_text(text_buffer *text, double error, const display_unit *
     }
 }
 
-void page_estimate(page_writer *page, const char *words, const wt_estimate *estimate,
-                   wt_quantity quantity, const char *interval, const char *remark)
+/* Begins a row with the name of a value and the value. */
+static void begin_value_row(page_writer *page, const char *words, const wt_estimate *estimate,
+                            const display_unit *lab)
 {
-    display_unit lab = select_display_unit(quantity, estimate->unit, estimate->value);
     text_html(&page->out, "<tr><th scope=\"row\">%s</th>", words);
     begin_labelled_cell(page, value_heading, "", true);
-    add_value_text(&page->out, estimate, &lab);
+    add_value_text(&page->out, estimate, lab);
     if (isfinite(estimate->value))
-        add_unit_label(&page->out, lab.label);
+        add_unit_label(&page->out, lab->label);
     text_add(&page->out, "</td>");
-    begin_labelled_cell(page, statistical_heading, "", true);
-    if (interval != NULL)
-        text_html(&page->out, "%s", interval);
-    else
-        add_error_text(&page->out, estimate->standard_error, &lab);
+}
+
+static void write_error_cell(page_writer *page, const char *heading, double error,
+                             const display_unit *lab)
+{
+    begin_labelled_cell(page, heading, "", true);
+    add_error_text(&page->out, error, lab);
     text_add(&page->out, "</td>");
-    begin_labelled_cell(page, numerical_heading, "", true);
-    add_error_text(&page->out, estimate->numerical_error, &lab);
-    text_add(&page->out, "</td>");
-    if (remark != NULL) {
-        begin_labelled_cell(page, remark_heading, "", false);
-        text_html(&page->out, "%s</td>", remark);
-    }
+}
+
+void page_estimate(page_writer *page, const char *words, const wt_estimate *estimate,
+                   wt_quantity quantity)
+{
+    const display_unit lab = select_display_unit(quantity, estimate->unit, estimate->value);
+    begin_value_row(page, words, estimate, &lab);
+    write_error_cell(page, statistical_heading, estimate->standard_error, &lab);
+    write_error_cell(page, numerical_heading, estimate->numerical_error, &lab);
     text_add(&page->out, "</tr>\n");
+}
+
+/* ---- main numbers ---------------------------------------------------------------------------- */
+
+static const char interval_heading[] = "95 % interval", choices_heading[] = "Model choices",
+                  remark_heading[] = "Remark";
+
+void page_numbers_begin(page_writer *page, const char *caption)
+{
+    begin_html_table(page, caption, 6);
+    heading_cell(page, "Quantity", "", false);
+    heading_cell(page, value_heading, "", true);
+    heading_cell(page, interval_heading, "", true);
+    heading_cell(page, choices_heading, "", true);
+    heading_cell(page, numerical_heading, "", true);
+    heading_cell(page, remark_heading, "", false);
+    text_add(&page->out, "</tr></thead>\n<tbody>\n");
+}
+
+/* Writes "0.59 to 0.69" in the unit of the value, `unknown` without limits. */
+static void write_limits_cell(page_writer *page, const char *heading, const display_unit *lab,
+                              double low, double high, int digits, const char *unknown)
+{
+    begin_labelled_cell(page, heading, "", true);
+    if (isfinite(low) && isfinite(high))
+        text_format(&page->out, "%s to %s", NUMBER(to_display_value(lab, low), digits),
+                    NUMBER(to_display_value(lab, high), digits));
+    else
+        text_add(&page->out, unknown);
+    text_add(&page->out, "</td>");
+}
+
+void page_number(page_writer *page, const char *words, const result_value *f, const char *remark)
+{
+    /* the digits of the value follow its interval */
+    const wt_estimate estimate = {f->number.value, (f->high - f->low) / 4,
+                                  f->number.numerical_error, f->number.unit};
+    const display_unit lab = select_display_unit(f->quantity, estimate.unit, estimate.value);
+    begin_value_row(page, words, &estimate, &lab);
+    write_limits_cell(page, interval_heading, &lab, f->low, f->high,
+                      result_value_digits(to_display_value(&lab, f->number.value),
+                                          to_display_value(&lab, f->low),
+                                          to_display_value(&lab, f->high)),
+                      f->number.standard_error == 0 ? "–" : "not known");
+    write_limits_cell(page, choices_heading, &lab, f->range.low, f->range.high, 3, "–");
+    write_error_cell(page, numerical_heading, f->number.numerical_error, &lab);
+    begin_labelled_cell(page, remark_heading, "", false);
+    text_html(&page->out, "%s</td></tr>\n", remark);
 }
 
 /* ---- keys ------------------------------------------------------------------------------------ */
@@ -372,7 +422,7 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
     const size_t n = table->table != NULL ? wt_table_n_keys(table->table) : 0;
     if (n == 0)
         return;
-    page_estimates_begin(page, caption, false);
+    page_estimates_begin(page, caption);
     for (size_t i = 0; i < n; i++) {
         const char *name = wt_table_key_name(table->table, i);
         const schema_field *key = find_schema_key(table, name);
@@ -380,8 +430,7 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
         wt_estimate estimate;
         key_label(name, key, label, sizeof label);
         if (wt_table_estimate(table->table, name, &estimate))
-            page_estimate(page, label, &estimate, key != NULL ? key->quantity : WT_Q_NONE, NULL,
-                          NULL);
+            page_estimate(page, label, &estimate, key != NULL ? key->quantity : WT_Q_NONE);
         else {
             text_html(&page->out,
                       "<tr><th scope=\"row\">%s</th><td data-label=\"%s\" colspan=\"3\">", label,

@@ -29,7 +29,7 @@ void page_inputs(page_writer *page)
     folded_table(page, "inputs", "Inputs", &t->inputs, "Files read, with their digests");
     folded_table(page, "methods", "Methods", &t->methods,
                  "Methods, what they did here, and where they are described");
-    folded_table(page, "notes", "Notes of reading and fitting", &t->notes, "Notes and warnings");
+    folded_table(page, "notes", "Notes", &t->notes, "Notes and warnings");
 }
 
 void page_cost(page_writer *page)
@@ -49,7 +49,7 @@ void page_cost(page_writer *page)
         if (n[out] < STAGES)
             rows[out][n[out]++] = row;
     }
-    page_fold(page, "cost", "Cost and error by stage", PAGE_UNPRINTED);
+    page_fold(page, "cost", "Cost", PAGE_UNPRINTED);
     if (n[0] > 0)
         page_table(page, table, "Stages that ran", ran,
                    COUNT_OF(ran) - (page->with_provenance ? 0 : N_TIMES), rows[0], n[0]);

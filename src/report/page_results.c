@@ -220,7 +220,7 @@ void page_indentation(page_writer *page)
         const table_view *table = &page->tables->indentation[i];
         text_buffer caption = {0};
         if (i == 0)
-            page_fold(page, "indentation-record", "Indentation record", PAGE_UNPRINTED);
+            page_fold(page, "indentation-record", "Curves", PAGE_UNPRINTED);
         write_rejected_curves(page, table);
         text_format(&caption, "%s: how it was indented", table->suffix);
         page_keys(page, table, text_string(&caption));

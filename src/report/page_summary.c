@@ -5,6 +5,7 @@
 #include "core/base/array.h"
 #include "core/table/finding.h"
 #include "core/table/result_row.h"
+#include "report/typography.h"
 
 #include <math.h>
 #include <string.h>
@@ -30,7 +31,9 @@ static void write_remedy_row(page_writer *page, const finding *f)
         add_range(&page->out, value);
     } else
         text_add(&page->out, "the 95 % interval");
-    text_html(&page->out, "</td><td data-label=\"Do this\">%s</td></tr>\n", remedy);
+    text_add(&page->out, "</td><td data-label=\"Do this\">");
+    text_typographic(&page->out, remedy);
+    text_add(&page->out, "</td></tr>\n");
 }
 
 static bool has_remedy(const finding *f)
@@ -48,11 +51,11 @@ static void write_remedies(page_writer *page, const finding *findings)
         n_rows += has_remedy(&findings[i]);
     if (n_rows == 0)
         return;
-    text_add(&page->out,
-             "<section>\n<h2 id=\"certain\">What would make this more certain</h2>\n"
-             "<table>\n<caption>Widest uncertainty of each answer</caption>\n<thead><tr><th "
-             "scope=\"col\">Answer</th><th scope=\"col\">Held "
-             "back by</th><th scope=\"col\">Do this</th></tr></thead>\n<tbody>\n");
+    text_add(&page->out, "<section>\n<h2 id=\"certain\">What would make this more certain</h2>\n"
+                         "<table>\n<caption class=\"hidden\">Widest uncertainty of each "
+                         "answer</caption>\n<thead><tr><th "
+                         "scope=\"col\">Answer</th><th scope=\"col\">Held "
+                         "back by</th><th scope=\"col\">Do this</th></tr></thead>\n<tbody>\n");
     for (size_t i = FINDING_QUESTIONS; i-- > 0;) /* friction first: it rests on the other answers */
         if (has_remedy(&findings[i]))
             write_remedy_row(page, &findings[i]);
@@ -65,10 +68,13 @@ static void write_limit_items(page_writer *page, size_t from, size_t to)
 {
     const table_view *const limits = &page->tables->limits;
     text_add(&page->out, "<ul>\n");
-    for (size_t i = from; i < to; i++)
-        text_html(&page->out, "<li%s>%s</li>\n",
-                  limits_enum(limits, i, LIMITS_SEVERITY) == WT_WARNING ? " class=\"warned\"" : "",
-                  limits_text(limits, i, LIMITS_LIMIT));
+    for (size_t i = from; i < to; i++) {
+        text_add(&page->out, limits_enum(limits, i, LIMITS_SEVERITY) == WT_WARNING
+                                 ? "<li class=\"warned\">"
+                                 : "<li>");
+        text_typographic(&page->out, limits_text(limits, i, LIMITS_LIMIT));
+        text_add(&page->out, "</li>\n");
+    }
     text_add(&page->out, "</ul>\n");
 }
 
@@ -145,8 +151,12 @@ static void write_use(text_buffer *out, const figure_tables *t, const char *role
         text_format(out, "%zu of %zu isotherms", used, t->shift_factors.n_rows);
     } else if (strcmp(role, "record") == 0 && t->record.n_rows > 0)
         text_format(out, "%zu step%s", t->record.n_rows, t->record.n_rows == 1 ? "" : "s");
-    else
-        text_add(out, "used");
+    else {
+        size_t n = 0;
+        for (size_t i = 0; i < t->inputs.n_rows; i++)
+            n += strcmp(inputs_text(&t->inputs, i, INPUTS_ROLE), role) == 0;
+        text_format(out, "%zu file%s", n, n == 1 ? "" : "s");
+    }
 }
 
 static void write_role_row(page_writer *page, size_t first)
@@ -179,6 +189,16 @@ static void write_role_row(page_writer *page, size_t first)
     text_add(&page->out, "</td></tr>\n");
 }
 
+/* True for the first file of a role that holds data. */
+static bool is_first_of_role(const table_view *inputs, size_t row)
+{
+    const char *const role = inputs_text(inputs, row, INPUTS_ROLE);
+    size_t before = 0;
+    while (before < row && strcmp(inputs_text(inputs, before, INPUTS_ROLE), role) != 0)
+        before++;
+    return before == row && strcmp(role, "case") != 0;
+}
+
 static void write_data_used(page_writer *page)
 {
     const table_view *const inputs = &page->tables->inputs;
@@ -186,48 +206,49 @@ static void write_data_used(page_writer *page)
         return;
     page_heading(page, "data", "Data used");
     text_add(&page->out,
-             "<table>\n<caption>Input files by role</caption>\n<thead><tr><th "
+             "<table>\n<caption class=\"hidden\">Input files by role</caption>\n<thead><tr><th "
              "scope=\"col\">Input</th><th scope=\"col\">Files</th><th "
              "scope=\"col\">Used</th><th scope=\"col\">Remarks</th></tr></thead>\n<tbody>\n");
-    for (size_t i = 0; i < inputs->n_rows; i++) {
-        const char *const role = inputs_text(inputs, i, INPUTS_ROLE);
-        size_t before = 0;
-        while (before < i && strcmp(inputs_text(inputs, before, INPUTS_ROLE), role) != 0)
-            before++;
-        if (before == i && strcmp(role, "case") != 0)
+    for (size_t i = 0; i < inputs->n_rows; i++)
+        if (is_first_of_role(inputs, i))
             write_role_row(page, i);
-    }
     text_add(&page->out, "</tbody>\n</table>\n");
-    page_whole_table(page, &page->tables->data_quality, "What was done to the data", NULL, 0);
 }
 
-/* ---- without findings ------------------------------------------------------------------------ */
+/* ---- conditions ------------------------------------------------------------------------------ */
 
-/* Writes the main numbers of a result that answers none of the questions of a case. */
-static void write_main_numbers(page_writer *page)
+/* Adds "bulk: 48 curves on 4 spots, 0 rejected" for each role of the inputs. */
+static void add_data_line(page_writer *page)
+{
+    const table_view *const inputs = &page->tables->inputs;
+    const char *between = " ";
+    for (size_t i = 0; i < inputs->n_rows; i++)
+        if (is_first_of_role(inputs, i)) {
+            const char *const role = inputs_text(inputs, i, INPUTS_ROLE);
+            text_html(&page->out, "%s%s ", between, role);
+            write_use(&page->out, page->tables, role);
+            between = "; ";
+        }
+}
+
+void page_conditions(page_writer *page)
 {
     result_rows list;
-    result_rows_compute(page->result, &list);
-    if (list.n > 0)
-        text_html(
-            &page->out,
-            "<table class=\"few\" id=\"main\">\n<caption>%s</caption>\n<thead><tr>"
-            "<th scope=\"col\">Quantity</th><th scope=\"col\">Value</th>"
-            "<th scope=\"col\">95 &#37; interval</th><th scope=\"col\">Note</th></tr></thead>\n"
-            "<tbody>\n",
-            list.heading[0] != '\0' ? list.heading : "Main numbers");
-    for (size_t i = 0; i < list.n; i++) {
-        const result_row *const row = &list.rows[i];
-        const row_number_text number = row_number_format(&row->number);
-        text_html(
-            &page->out,
-            "<tr><th scope=\"row\">%s</th><td data-label=\"Value\">%s</td>"
-            "<td data-label=\"95 &#37; interval\">%s</td><td data-label=\"Note\">%s</td></tr>\n",
-            row->name, row->kind == RESULT_ROW_TEXT ? row->text : number.value, number.interval,
-            row->note);
+    if (!result_rows_of_findings(page->result, &list)) {
+        result_rows_clear(&list);
+        result_rows_compute(page->result, &list);
     }
-    if (list.n > 0)
-        text_add(&page->out, "</tbody>\n</table>\n");
+    const bool has_data = page->tables->inputs.n_rows > 0;
+    if (list.heading[0] != '\0' || has_data) {
+        text_add(&page->out, "<p class=\"conditions\">");
+        text_typographic(&page->out, list.heading);
+        if (has_data) {
+            text_html(&page->out,
+                      "%s<a href=\"#data\">Data</a>:", list.heading[0] != '\0' ? ". " : "");
+            add_data_line(page);
+        }
+        text_add(&page->out, "</p>\n");
+    }
     result_rows_clear(&list);
 }
 
@@ -235,13 +256,26 @@ void page_summary(page_writer *page)
 {
     result_value_tables tables;
     finding findings[FINDING_QUESTIONS];
-    text_add(&page->out, "<div class=\"summary\">\n");
+    const text_buffer before = page->out;
+    page->out = (text_buffer){0};
     if (result_values_bind(page->result, &tables, NULL) == WT_OK &&
         (findings_compute(&tables, findings) || findings_are_stated(&page->tables->answer)))
         write_remedies(page, findings);
-    else
-        write_main_numbers(page);
-    write_limits(page);
-    text_add(&page->out, "</div>\n");
     write_data_used(page);
+    text_buffer left = page->out;
+    page->out = (text_buffer){0};
+    write_limits(page);
+    text_buffer right = page->out;
+    page->out = before;
+    if (left.length > 0 || right.length > 0) {
+        text_html(&page->out, "<div class=\"%s\">\n",
+                  left.length > 0 && right.length > 0 ? "summary" : "summary alone");
+        if (left.length > 0)
+            text_format(&page->out, "<div>\n%s</div>\n", text_string(&left));
+        text_add(&page->out, text_string(&right));
+        text_add(&page->out, "</div>\n");
+    }
+    text_free(&left);
+    text_free(&right);
+    page_whole_table(page, &page->tables->data_quality, "What was done to the data", NULL, 0);
 }

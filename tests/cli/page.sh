@@ -1,6 +1,7 @@
 #!/bin/sh
-# The page of a report in a real browser: at three widths and on paper nothing is cut off, no link is
-# dead, and it reads the same as HTML and as XML. Usage: page.sh WEARTRACK FIXTURES WORK
+# The page of a report in a real browser: at three widths and on paper nothing is cut off, the answers
+# are on the first screen, text has a contrast of 4.5, no link is dead, and it reads the same as HTML
+# and as XML. Usage: page.sh WEARTRACK FIXTURES WORK
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 fixtures=$2 work=$3
@@ -26,11 +27,46 @@ browse() { # nothing of the user's, nothing from the network
 # width, as no window is as narrow as a telephone; on paper is what `@media print` says, everywhere, in
 # the 180 mm between the margins of A4.
 cat > judge.js <<'JUDGE'
-const widths = {telephone: 390, tablet: 768, desk: 1400, paper: 680};
+const widths = {telephone: 390, tablet: 768, desk: 1400, paper: 680, dark: 1400};
 const lines = [];
 const say = (...words) => lines.push(words.join(' '));
+// Relative luminance and contrast by WCAG 2; a colour without opacity is that of what is behind it.
+const luminance = rgb => rgb.slice(0, 3).map(c => c / 255).map(c => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
+  .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
+const rgb_of = colour => colour.match(/[\d.]+/g).map(Number);
+function background(element) {
+  for (let e = element; e; e = e.parentElement) {
+    const rgb = rgb_of(e.ownerDocument.defaultView.getComputedStyle(e).backgroundColor);
+    if (rgb.length < 4 || rgb[3] > 0) return rgb;
+  }
+  return [255, 255, 255];
+}
+function judge_contrast(name, page) {
+  let least = 21, where = '';
+  for (const e of page.querySelectorAll('main *:not(svg, svg *)')) {
+    if (![...e.childNodes].some(n => n.nodeType === 3 && n.data.trim())) continue;
+    const light = [luminance(rgb_of(page.defaultView.getComputedStyle(e).color)), luminance(background(e))].sort((a, b) => b - a);
+    const contrast = (light[0] + 0.05) / (light[1] + 0.05);
+    if (contrast < least) { least = contrast; where = e.localName + '.' + e.className; }
+  }
+  say(name, 'contrast', least >= 4.5 ? 'good' : 'low', least.toFixed(1), where);
+}
+// The first screen: cards, remedies, data and limits. The words are those of the page as it opens.
+function judge_first_screen(name, page) {
+  const cards = [...page.querySelectorAll('.finding')];
+  const cut = cards.flatMap(c => [c, ...c.querySelectorAll('p, dl, li, .limits')]).filter(e => e.scrollWidth > e.clientWidth + 1 ||
+    e.getBoundingClientRect().right > e.closest('.finding').getBoundingClientRect().right + 1);
+  say(name, 'cards', cards.length, 'cut', cut.length, cut.map(e => e.localName + ':' + e.textContent.trim().replace(/\s+/g, ' ')).join('; ').slice(0, 300));
+  const last = page.querySelector('.summary') ?? page.querySelector('.findings');
+  say(name, 'first_screen_ends', last ? Math.round(last.getBoundingClientRect().bottom) : -1);
+}
+function judge_words(page) {
+  for (const picture of page.querySelectorAll('svg')) picture.remove();
+  say('words', page.querySelector('main').innerText.split(/\s+/).filter(w => w).length);
+}
 function judge(name, width, frame) {
   const page = frame.contentDocument, root = page.documentElement, beyond = [];
+  judge_first_screen(name, page);
   for (const fold of page.querySelectorAll('details')) fold.open = true;
   say(name, 'overflow', Math.max(0, root.scrollWidth - width));
   for (const box of page.querySelectorAll('.scroll'))
@@ -39,7 +75,8 @@ function judge(name, width, frame) {
   say(name, 'tables_cut', beyond.length, beyond.join('; ').slice(0, 400));
   const sizes = [...page.querySelectorAll('.card svg')].map(s => 15 * s.getScreenCTM().a);
   say(name, 'type', Math.min(...sizes).toFixed(1), 'to', Math.max(...sizes).toFixed(1));
-  const first = page.querySelector('.finding .verdict, #main td');
+  judge_contrast(name, page);
+  const first = page.querySelector('.finding .verdict, .finding .number');
   say(name, 'answer_begins', first ? Math.round(first.getBoundingClientRect().top) : -1);
 }
 function judge_links(page, text) {
@@ -69,10 +106,15 @@ async function all(text) {
   for (const [name, width] of Object.entries(widths)) {
     let shown = text;
     if (name === 'paper') shown = text.replace('@media print', '@media all').replaceAll('@media screen and', '@media not all and');
+    if (name === 'dark') shown = text.replaceAll('(prefers-color-scheme: dark)', '(min-width: 0px)');
     const frame = await frame_of(shown, width);
     if (name === 'desk') judge_links(frame.contentDocument, text);
     judge(name, width, frame);
     frame.remove();
+    if (name !== 'desk') continue;
+    const opened = await frame_of(text, width);
+    judge_words(opened.contentDocument);
+    opened.remove();
   }
   const out = document.createElement('pre');
   out.id = 'judgement';
@@ -93,11 +135,22 @@ for name in case dma texture record; do
   for width in telephone desk paper; do # a tablet may have to push
     grep -q "JUDGED $width tables_cut 0" "$name.judged" || fail "$name: columns cut: $(grep "$width tables" "$name.judged")"
   done
-  if [ $name = case ]; then # the answer begins on the first screen; texture asks for maps alone
-    for width in telephone desk; do
-      begin=$(sed -n "s/.*JUDGED $width answer_begins //p" "$name.judged")
-      [ "$begin" -ge 0 ] && [ "$begin" -lt 300 ] || fail "$name: the answer begins at $begin of the $width"
-    done
+  for width in telephone desk; do # the answer begins on the first screen, with each kind of result
+    begin=$(sed -n "s/.*JUDGED $width answer_begins //p" "$name.judged")
+    [ "$begin" -ge 0 ] && [ "$begin" -lt 300 ] || fail "$name: the answer begins at $begin of the $width"
+  done
+  for width in telephone tablet desk paper; do
+    grep -q "JUDGED $width cards [1-9][0-9]* cut 0 *\$" "$name.judged" || fail "$name: cards: $(grep "$width cards" "$name.judged")"
+  done
+  for width in desk dark; do
+    grep -q "JUDGED $width contrast good" "$name.judged" || fail "$name: $(grep "$width contrast" "$name.judged")"
+  done
+  end=$(sed -n 's/.*JUDGED desk first_screen_ends //p' "$name.judged")
+  [ "$end" -gt 0 ] && [ "$end" -le 900 ] || fail "$name: answers, remedies, data and limits end at $end"
+  if [ $name = case ]; then
+    words=$(sed -n 's/.*JUDGED words //p' "$name.judged")
+    [ "$words" -gt 300 ] && [ "$words" -le 900 ] || fail "$name: $words words are not folded"
+    [ "$(wc -c < "$name.html")" -lt 1000000 ] || fail "$name: $(wc -c < "$name.html") bytes"
   fi
   grep -q 'JUDGED links [1-9][0-9]* dead 0' "$name.judged" || fail "$name: $(grep links "$name.judged")"
   grep -q 'JUDGED xml whole same true' "$name.judged" || fail "$name: not the same as HTML and as XML: $(grep xml "$name.judged")"

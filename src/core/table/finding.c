@@ -59,6 +59,8 @@ static const char *general_sentence(const finding *f)
         return "There is no layer: wear removes the rubber faster than it is modified.";
     if (f->question == FINDING_LAYER_THICKNESS && isinf(value))
         return "The layer has no steady state: it grows without limit.";
+    if (f->question == FINDING_FRICTION_CHANGE && f->verdict == FINDING_PREDICTED)
+        return "There is no layer that could change the friction.";
     if (f->basis == FINDING_GIVEN)
         return "The critical energy is calibrated to this stated thickness.";
     const double neutral = f->value.neutral;
@@ -106,6 +108,9 @@ bool findings_compute(const result_value_tables *t, finding findings[FINDING_QUE
                         .as_if_layer = assumed,
                         .value = result_value_friction(t, FRICTION_KEY_RELATIVE_CHANGE)};
     change->verdict = change_verdict(&change->value);
+    /* a change of exactly nothing needs no interval */
+    if (change->verdict == FINDING_NOT_ENOUGH_DATA && thickness->value.number.value == 0)
+        change->verdict = FINDING_PREDICTED;
     for (size_t i = 0; i < FINDING_QUESTIONS; i++)
         if (findings[i].verdict == FINDING_YES)
             findings[i].sign = result_value_sign(&findings[i].value);
