@@ -62,6 +62,44 @@ static bool compare_has_isotherms(const compare_call *call)
     return any;
 }
 
+static bool names_sample(const wt_table *shift_factors)
+{
+    const char *const name = shift_factors != NULL ? wt_table_key(shift_factors, "sample") : NULL;
+    return name != NULL && name[0] != '\0';
+}
+
+/* Fits the isotherms of one file. A file that has no sweep of the sample of --sample is fitted
+ * whole if it names no sample at all: such a file is one material. */
+static wt_status fit_isotherms(const wt_master_job *job, wt_file_set *set, wt_job work,
+                               wt_master_tables *tables, compare_input *input, wt_error *failure)
+{
+    wt_log *const log = work.log;
+    wt_log *first = wt_log_new(), *second = wt_log_new();
+    work.log = first;
+    wt_status status = wt_master_compute(job, &work, tables, &input->rubber, failure);
+    if (status == WT_E_NOT_FOUND && set->read.sample != NULL) {
+        wt_error unused = WT_ERROR_INIT;
+        set->read.sample = NULL;
+        work.log = second;
+        work.provenance = NULL; /* the first reading recorded the file */
+        const wt_status whole = wt_master_compute(job, &work, tables, &input->rubber, &unused);
+        if (whole == WT_OK && !names_sample(tables->shift_factors)) {
+            wt_log_add(second, WT_NOTE, input->path, NULL,
+                       "the file names no sample and is one material: --sample is for the others");
+            status = WT_OK;
+        } else if (whole == WT_OK) {
+            wt_master_tables_clear(tables);
+            wt_rubber_clear(&input->rubber);
+        }
+        if (status != WT_OK)
+            work.log = first;
+    }
+    wt_log_append(log, work.log, NULL);
+    wt_log_free(first);
+    wt_log_free(second);
+    return status;
+}
+
 static wt_status fit_compared_material(compare_call *call, compare_input *input, wt_error *err)
 {
     wt_master_tables tables = {0};
@@ -79,7 +117,7 @@ static wt_status fit_compared_material(compare_call *call, compare_input *input,
     set.n_patterns = 1;
     job.sets = &set;
     job.n_sets = 1;
-    wt_status status = wt_master_compute(&job, &work, &tables, &input->rubber, &failure);
+    const wt_status status = fit_isotherms(&job, &set, work, &tables, input, &failure);
     input->shift_factors = tables.shift_factors;
     tables.shift_factors = NULL;
     wt_master_tables_clear(&tables);
@@ -91,12 +129,21 @@ static wt_status fit_compared_material(compare_call *call, compare_input *input,
     return status;
 }
 
+/* Returns the sample of --sample, or NULL for a result of one material without a name. */
+static const char *sample_of_input(const compare_call *call, const compare_input *input)
+{
+    const bool one = wt_result_find(input->tables, "prony") != NULL;
+    return one && !names_sample(wt_result_find(input->tables, "shift_factors"))
+               ? NULL
+               : call->set.read.sample;
+}
+
 static wt_status read_compared_material(compare_call *call, compare_input *input, wt_error *err)
 {
     if (is_isotherm_input(input))
         return fit_compared_material(call, input, err);
     if (input->tables != NULL)
-        return cmd_rubber_from_tables(input->tables, input->path, call->set.read.sample,
+        return cmd_rubber_from_tables(input->tables, input->path, sample_of_input(call, input),
                                       call->master.poisson_ratio, &input->rubber, err);
     *err = input->failure;
     return err->status;
@@ -142,7 +189,7 @@ static void compare_materials(compare_call *call)
         status = read_compared_material(call, input, &s->err);
         const wt_table *shifts = input->shift_factors;
         if (status == WT_OK && input->tables != NULL && shifts == NULL)
-            shifts = cmd_sample_table(input->tables, "shift_factors", call->set.read.sample);
+            shifts = cmd_sample_table(input->tables, "shift_factors", sample_of_input(call, input));
         if (status == WT_E_EMPTY && input->tables == NULL)
             wt_error_advice(&s->err,
                             "force curves go to `weartrack indent` first, bulk and track each: "

@@ -293,7 +293,7 @@ static wt_status fail_uncalibrated(const force_signal *signal, const wt_cantilev
                           : "deflection sensitivity");
     wt_error_place(err, "%s", place != NULL ? place : "");
     wt_error_advice(err, "give %s%s%s", no_constant ? "--spring-constant 0.1N/m" : "",
-                    both ? " and " : "", no_sensitivity ? "--sensitivity 120nm/V" : "");
+                    both ? " and " : "", no_sensitivity ? "--sensitivity 60nm/V" : "");
     wt_error_options(err, "%s%s%s", no_constant ? "spring-constant" : "", both ? " " : "",
                      no_sensitivity ? "sensitivity" : "");
     return WT_E_MISSING;

@@ -233,20 +233,16 @@ static wt_anisotropy significant_anisotropy(const surface_result *w)
     return a;
 }
 
-/* Formats the options of anisotropy for sliding along x. The result is "none" if no order is
- * significant, or if two orders cannot represent the anisotropy. */
+/* Formats the options of friction for sliding along x, which has the second order only. The result
+ * is "none" if that order is not significant, or if it makes the spectrum negative. */
 static void print_anisotropy(const surface_result *w, char *to, size_t size)
 {
-    static const char *const names[][2] = {{"anisotropy", "texture-angle"},
-                                           {"anisotropy-fourth", "texture-angle-fourth"}};
-    const wt_anisotropy a = significant_anisotropy(w);
-    to[0] = '\0';
-    const bool usable = wt_anisotropy_check(&a, NULL) == WT_OK;
-    for (size_t k = 0; usable && k < sizeof names / sizeof *names; k++)
-        if (a.amplitude[k] > 0)
-            clocale_append(to, size, "%s--%s %.4g --%s %.4gdeg", to[0] != '\0' ? " " : "",
-                           names[k][0], a.amplitude[k], names[k][1], a.angle[k] * 180 / M_PI);
-    if (to[0] == '\0')
+    wt_anisotropy a = significant_anisotropy(w);
+    a.amplitude[1] = 0;
+    if (a.amplitude[0] > 0 && wt_anisotropy_check(&a, NULL) == WT_OK)
+        clocale_print(to, size, "--anisotropy %.4g --texture-angle %.4gdeg", a.amplitude[0],
+                      a.angle[0] * 180 / M_PI);
+    else
         clocale_print(to, size, "none");
 }
 

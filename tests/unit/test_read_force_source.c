@@ -358,11 +358,11 @@ static void missing_calibration(void **state)
     } cases[] = {
         {WT_Q_DEFLECTION_VOLTAGE, WT_Q_FORCE, (double)NAN, (double)NAN,
          "the file does not say the spring constant and deflection sensitivity",
-         "give --spring-constant 0.1N/m and --sensitivity 120nm/V"},
+         "give --spring-constant 0.1N/m and --sensitivity 60nm/V"},
         {WT_Q_DEFLECTION_VOLTAGE, WT_Q_FORCE, 0.3, (double)NAN,
-         "the file does not say the deflection sensitivity", "give --sensitivity 120nm/V"},
+         "the file does not say the deflection sensitivity", "give --sensitivity 60nm/V"},
         {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, 0.3, (double)NAN,
-         "the file does not say the deflection sensitivity", "give --sensitivity 120nm/V"},
+         "the file does not say the deflection sensitivity", "give --sensitivity 60nm/V"},
         {WT_Q_DEFLECTION, WT_Q_FORCE, (double)NAN, (double)NAN,
          "the file does not say the spring constant", "give --spring-constant 0.1N/m"},
         {WT_Q_FORCE, WT_Q_DEFLECTION, (double)NAN, 50e-9,
@@ -474,7 +474,7 @@ static void described(void **state)
         {"spring constant", "unknown", "N/m", "here"},
         {"deflection sensitivity", "unknown", "m/V", "there"},
         {"missing", "the file does not say the spring constant and deflection sensitivity", "",
-         "give --spring-constant 0.1N/m and --sensitivity 120nm/V"},
+         "give --spring-constant 0.1N/m and --sensitivity 60nm/V"},
         {"spring constant", "2", "N/m", "given by the user"},
         {"deflection sensitivity", "1e-7", "m/V", "given by the user"}};
     assert_int_equal(table_end(&list, &table), WT_OK);

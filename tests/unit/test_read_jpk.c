@@ -258,7 +258,7 @@ static void missing_calibration(void **state)
         double spring_constant, sensitivity;
         const char *advice;
     } cases[] = {
-        {(double)NAN, (double)NAN, "give --spring-constant 0.1N/m and --sensitivity 120nm/V"},
+        {(double)NAN, (double)NAN, "give --spring-constant 0.1N/m and --sensitivity 60nm/V"},
         {(double)NAN, 60e-9, "give --spring-constant 0.1N/m"},
     };
     for (size_t i = 0; i < 2; i++) {

@@ -145,7 +145,7 @@ static void is_uncalibrated(open_file *f, wt_read_options o)
     o.want = WT_Q_BIT(WT_Q_FORCE);
     assert_int_equal(wt_force_open(formats, f->input, &o, f->log, &f->source, &err), WT_OK);
     assert_int_equal(wt_force_next(f->source, &f->curve, &err), WT_E_MISSING);
-    assert_string_equal(err.advice, "give --spring-constant 0.1N/m and --sensitivity 120nm/V");
+    assert_string_equal(err.advice, "give --spring-constant 0.1N/m and --sensitivity 60nm/V");
     assert_int_equal(wt_force_next(f->source, &f->curve, &err), WT_END);
     wt_force_close(f->source);
 }

@@ -216,7 +216,7 @@ static void oddities(void **state)
     assert_int_equal(nanoscope_write(&f), 0);
     assert_int_equal(open_force(&r, path, &o), WT_OK);
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_E_MISSING);
-    assert_string_equal(r.err.advice, "give --spring-constant 0.1N/m and --sensitivity 120nm/V");
+    assert_string_equal(r.err.advice, "give --spring-constant 0.1N/m and --sensitivity 60nm/V");
     close_all(&r);
 }
 

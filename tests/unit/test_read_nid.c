@@ -189,7 +189,7 @@ static void missing_calibration(void **state)
     o.want = WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT);
     assert_int_equal(open_force(&r, path, &o), WT_OK);
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_E_MISSING);
-    assert_string_equal(r.err.advice, "give --spring-constant 0.1N/m and --sensitivity 120nm/V");
+    assert_string_equal(r.err.advice, "give --spring-constant 0.1N/m and --sensitivity 60nm/V");
     close_all(&r);
     o.spring_constant = 0.5;
     o.sensitivity = 1e-7;

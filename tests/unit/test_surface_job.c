@@ -226,7 +226,8 @@ static void test_heights(void **state)
 }
 
 /* A made surface with x and y in each other's place, as a Gwyddion simple field. */
-static void write_turned(const char *path, const made_surface *made)
+/* With `crossed`, grooves along x and along y are added, as random as two lines of the surface. */
+static void write_turned(const char *path, const made_surface *made, bool crossed)
 {
     const size_t n = made->n;
     double *z = make_surface(made);
@@ -240,7 +241,8 @@ static void write_turned(const char *path, const made_surface *made)
     for (int i = 0; i < 4 - used % 4; i++)
         assert_int_equal(fputc(0, out), 0);
     for (size_t k = 0; k < n * n; k++) {
-        const float height = (float)z[k % n * n + k / n];
+        const float height =
+            (float)(z[k % n * n + k / n] + (crossed ? z[k % n] + z[n * n / 2 + k / n] : 0));
         assert_int_equal(fwrite(&height, sizeof height, 1, out), 1);
     }
     assert_int_equal(fclose(out), 0);
@@ -259,7 +261,7 @@ static void test_directions(void **state)
     const char *const file[] = {path};
     made_surface made = behind;
     made.stretch = 0.6;
-    write_turned(path, &made);
+    write_turned(path, &made, false);
     making m = {.job = wt_topography_job_defaults()};
     make(&m, file, 1);
     assert_int_equal(m.status, WT_OK);
@@ -307,6 +309,23 @@ static void test_directions(void **state)
     assert_int_equal(m.status, WT_OK);
     assert_null(m.tables.angular_spectrum);
     assert_string_equal(wt_table_key(m.tables.power_spectrum, "anisotropy_option"), "none");
+    clear(&m);
+    unlink(path);
+}
+
+/* Grooves that cross have an anisotropy of order 4 only. Friction has no option for it. */
+static void test_crossing_grooves_give_no_option(void **state)
+{
+    (void)state;
+    static const char path[] = "test_surface_job_crossing.gsf";
+    write_turned(path, &behind, true);
+    making m = {.job = wt_topography_job_defaults()};
+    make(&m, (const char *const[]){path}, 1);
+    assert_int_equal(m.status, WT_OK);
+    const wt_table *t = m.tables.power_spectrum;
+    assert_true(key(t, "anisotropy_fourth") > 4 * error_of(t, "anisotropy_fourth"));
+    assert_true(key(t, "anisotropy") < 3 * error_of(t, "anisotropy"));
+    assert_string_equal(wt_table_key(t, "anisotropy_option"), "none");
     clear(&m);
     unlink(path);
 }
@@ -919,6 +938,7 @@ int main(void)
         cmocka_unit_test(test_ends),
         cmocka_unit_test(test_heights),
         cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_crossing_grooves_give_no_option),
         cmocka_unit_test(test_alone),
         cmocka_unit_test(test_numerical_errors),
         cmocka_unit_test(test_replicates),

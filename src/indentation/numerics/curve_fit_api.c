@@ -37,7 +37,7 @@ static wt_status fail_no_force(wt_error *err, const wt_segment *segment)
     if (wt_segment_channel(segment, WT_Q_DEFLECTION_VOLTAGE) != NULL)
         return fail_missing(err, segment, "the deflection sensitivity",
                             "metres per volt in the file or given",
-                            "give it, e.g. --sensitivity 120nm/V");
+                            "give it, e.g. --sensitivity 60nm/V");
     return fail_missing(err, segment, "the force",
                         "a channel of force, deflection or deflection voltage",
                         "see what the file holds with: weartrack info FILE");

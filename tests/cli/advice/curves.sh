@@ -1,16 +1,16 @@
 # Force curves, images of spots and thermal noise. SPDX-License-Identifier: GPL-3.0-or-later
 
 volts=$fixtures/formats/table-force/volts.csv
-piece '--spring-constant 0.1N/m' '--sensitivity 120nm/V'
+piece '--spring-constant 0.1N/m' '--sensitivity 60nm/V'
 cause '--spring-constant 0.1N/m' indent --tip "$tip" "$fixtures/formats/afm-workshop/curve.csv"
-leads indent --tip "$tip" --spring-constant 0.1N/m --sensitivity 120nm/V "$fixtures/formats/afm-workshop/curve.csv"
-cause '--sensitivity 120nm/V' indent --tip "$tip" "$volts"
-leads indent --tip "$tip" --spring-constant 0.1N/m --sensitivity 120nm/V "$volts"
+leads indent --tip "$tip" --spring-constant 0.1N/m --sensitivity 60nm/V "$fixtures/formats/afm-workshop/curve.csv"
+cause '--sensitivity 60nm/V' indent --tip "$tip" "$volts"
+leads indent --tip "$tip" --spring-constant 0.1N/m --sensitivity 60nm/V "$volts"
 cause 'give --spring-constant 0.1N/m' info "$fixtures/formats/afm-workshop/curve.csv"
 helps info --spring-constant 0.1N/m --sensitivity 60nm/V "$fixtures/formats/afm-workshop/curve.csv"
 says '^next: weartrack indent .*--spring-constant 0.1N/m --sensitivity 60nm/V'
 not_advice 'see what the file holds with: weartrack info FILE' 'of a segment that the readers never make'
-no_input 'give it, e.g. --sensitivity 120nm/V' 'the library only: readers refuse such a file before'
+no_input 'give it, e.g. --sensitivity 60nm/V' 'the library only: readers refuse such a file before'
 no_input 'give it, e.g. --spring-constant 0.1N/m' 'the library only: readers refuse such a file before'
 
 piece "Poisson's ratio of %g or more, or --unbonded"

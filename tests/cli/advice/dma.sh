@@ -4,6 +4,10 @@ sed 's/20,10,/20,9.9,/' samples.csv > more.csv
 piece 'choose one with --sample NAME; --sample all if they are of one material'
 cause '--sample NAME' compare samples.csv more.csv
 helps compare --sample a samples.csv more.csv --poisson-ratio 0.5
+# a file or a result of one material without a name
+cause '--sample NAME' compare samples.csv unnamed.csv --poisson-ratio 0.5
+helps compare --sample a samples.csv unnamed.csv --poisson-ratio 0.5
+helps compare --sample a samples.csv three.h5 --poisson-ratio 0.5
 
 piece 'choose one with --sample NAME, here or of weartrack master'
 cause 'choose one with --sample NAME, here or of weartrack master' friction --material samples.h5 \
