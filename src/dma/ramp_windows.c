@@ -267,6 +267,7 @@ wt_status flow_ramps_fit(wt_sweep *sweep, const wt_master_options *options,
     wt_master_options quick = *options;
     if (quick.vertical != WT_VERTICAL_NONE)
         quick.vertical = WT_VERTICAL_PHYSICAL; /* accurate enough for the law */
+    quick.series_only = true;
     bool last = false;
     double moved = 0;
     for (int round = 0; status == WT_OK && !last; round++) {

@@ -5,12 +5,10 @@
 #include "core/base/array.h"
 #include "core/base/memory.h"
 #include "core/math/arena_gsl.h"
-#include "core/math/root.h"
 #include "core/math/special.h"
-#include "core/math/students_t.h"
+#include "dma/numerics/posterior.h"
 
 #include <gsl/gsl_blas.h>
-#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
@@ -25,8 +23,6 @@ enum { PARABOLA = GP_PARABOLA_TERMS };
 static const double lengths[] = {0.25, 0.4, 0.6, 1.0, 1.6, 2.5};
 static const double ratios[] = {1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
 enum { MAX_COMPONENTS = COUNT_OF(lengths) * COUNT_OF(ratios) };
-/* Halvings of an interval of about one standard error: to 1e-12 of it. */
-enum { HALVINGS = 40 };
 /* Components below this weight relative to the best one are dropped. All 48 together then weigh
  * less than a twentieth, which changes no shown digit. */
 static const double negligible_weight = 1e-3;
@@ -252,85 +248,37 @@ double gaussian_process_mean(const gaussian_process *s, double x, gp_order order
     return mean * output_scale(s, order);
 }
 
-/* Means and errors of all components at one x. */
-typedef struct model_mixture {
-    size_t n;
-    double weight[MAX_COMPONENTS], mean[MAX_COMPONENTS], error[MAX_COMPONENTS], freedom;
-} model_mixture;
-
-static model_mixture evaluate_components(const gaussian_process *s, double x, gp_order order)
+/* Fills the distributions of all components at one x and returns their number. */
+static size_t evaluate_components(const gaussian_process *s, double x, gp_order order,
+                                  mixture_component part[MAX_COMPONENTS])
 {
-    model_mixture o = {.n = s->n_components, .freedom = (double)(s->n - PARABOLA)};
     const double at = (x - s->centre) / s->half, scale = output_scale(s, order);
-    for (size_t i = 0; i < o.n; i++) {
-        o.weight[i] = s->components[i].weight;
-        o.mean[i] = scale * component_mean(s, &s->components[i], at, order);
-        o.error[i] = scale * component_error(s, &s->components[i], at, order);
+    for (size_t i = 0; i < s->n_components; i++) {
+        const gp_hyperparameters *w = &s->components[i];
+        part[i] = (mixture_component){w->weight, scale * component_mean(s, w, at, order),
+                                      scale * component_error(s, w, at, order)};
     }
-    return o;
+    return s->n_components;
 }
 
-static double probability_below(const model_mixture *o, double limit)
+static double degrees_of_freedom(const gaussian_process *s)
 {
-    double probability = 0;
-    for (size_t i = 0; i < o->n; i++) {
-        const double away = limit - o->mean[i];
-        probability +=
-            o->weight[i] *
-            (o->error[i] > 0 ? gsl_cdf_tdist_P(away / o->error[i], o->freedom) : away > 0);
-    }
-    return probability;
+    return (double)(s->n - PARABOLA);
 }
 
 double gaussian_process_probability_below(const gaussian_process *s, double x, gp_order order,
                                           double limit)
 {
-    const model_mixture o = evaluate_components(s, x, order);
-    return probability_below(&o, limit);
-}
-
-typedef struct mixture_level_search {
-    const model_mixture *o;
-    double probability;
-} mixture_level_search;
-
-static bool is_below_model_quantile(double x, void *user)
-{
-    const mixture_level_search *l = user;
-    return probability_below(l->o, x) < l->probability;
-}
-
-/* Finds a quantile. The search starts at `from`, on the other side of the quantile, with steps
- * that double. */
-static double model_mixture_quantile(const model_mixture *o, double probability, double from,
-                                     double step)
-{
-    double other = from + step;
-    while (step != 0 && (probability_below(o, other) < probability) == (step > 0) &&
-           isfinite(other))
-        other += step *= 2;
-    mixture_level_search l = {o, probability};
-    double low = fmin(from, other), high = fmax(from, other);
-    root_bisect(is_below_model_quantile, &l, &low, &high, 0, HALVINGS);
-    return 0.5 * (low + high);
-}
-
-static wt_interval model_mixture_interval(const model_mixture *o)
-{
-    double mean = 0, error = 0;
-    for (size_t i = 0; i < o->n; i++) {
-        mean += o->weight[i] * o->mean[i];
-        error = fmax(error, o->error[i]);
-    }
-    const double low = model_mixture_quantile(o, 0.025, mean, -error),
-                 high = model_mixture_quantile(o, 0.975, mean, error);
-    return (wt_interval){mean, (high - low) / (2 * NORMAL_95), low, high};
+    mixture_component part[MAX_COMPONENTS];
+    const size_t n = evaluate_components(s, x, order, part);
+    return mixture_probability(part, n, degrees_of_freedom(s), limit);
 }
 
 wt_interval gaussian_process_interval(const gaussian_process *s, double x)
 {
-    const model_mixture o = evaluate_components(s, x, GP_VALUE);
-    return model_mixture_interval(&o);
+    mixture_component part[MAX_COMPONENTS];
+    const size_t n = evaluate_components(s, x, GP_VALUE, part);
+    return student_mixture_interval(part, n, degrees_of_freedom(s));
 }
 
 /* ---- statistics of slopes -------------------------------------------------------------------- */
@@ -442,19 +390,22 @@ wt_interval gaussian_process_slope_interval(const gaussian_process *s, const dou
 {
     arena memory = {0};
     slope_workspace v = slope_workspace_new(s, x, n, &memory);
-    model_mixture o = {.freedom = (double)(s->n - PARABOLA)};
+    mixture_component part[MAX_COMPONENTS];
+    size_t known = 0;
     double sum = 0;
     wt_interval interval = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     for (size_t i = 0; i < s->n_components; i++) {
-        o.weight[o.n] = s->components[i].weight;
-        if (!component_statistic(s, &s->components[i], &v, statistic, &o.mean[o.n], &o.error[o.n]))
+        mixture_component *p = &part[known];
+        p->weight = s->components[i].weight;
+        if (!component_statistic(s, &s->components[i], &v, statistic, &p->mean, &p->deviation))
             continue;
-        sum += o.weight[o.n++];
+        sum += p->weight;
+        known++;
     }
-    for (size_t i = 0; i < o.n; i++)
-        o.weight[i] /= sum;
+    for (size_t i = 0; i < known; i++)
+        part[i].weight /= sum;
     if (sum >= 1 - max_undefined_share)
-        interval = model_mixture_interval(&o);
+        interval = student_mixture_interval(part, known, degrees_of_freedom(s));
     gsl_eigen_symmv_free(v.eigen);
     arena_free(&memory);
     return interval;

@@ -192,8 +192,9 @@ wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double ge
     return status;
 }
 
-/* Creates a spectrum for the placed curves and the arrays of the posterior for each curve. */
-wt_status master_new_spectrum(master_work *work, wt_error *err)
+/* Creates a spectrum for the placed curves at their present shifts, without outliers, and the
+ * arrays of the posterior for each curve. */
+static wt_status new_spectrum(master_work *work, wt_error *err)
 {
     wt_posterior *p = work->posterior;
     const size_t evaluations = work->s->evaluations;
@@ -208,7 +209,7 @@ wt_status master_new_spectrum(master_work *work, wt_error *err)
     p->temperature = arena_numbers(m, n);
     p->mean_b = arena_numbers(m, n);
     p->slope = arena_numbers(m, n);
-    p->scratch = arena_numbers(m, 7 * n + 4 * work->s->n_linear);
+    p->scratch = arena_numbers(m, 9 * n + 4 * work->s->n_linear);
     p->cross_covariance = arena_numbers(m, 3 * n + work->s->n_linear);
     work->vertical.mean = p->mean_b;
     size_t curve = 0;
@@ -236,7 +237,7 @@ static wt_status exclude_outliers(master_work *work, wt_error *err)
 }
 
 /* Fits with a heavy-tailed noise distribution, then without outliers. */
-wt_status master_fit_robust(master_work *work, wt_error *err)
+static wt_status fit_robust(master_work *work, wt_error *err)
 {
     const wt_status status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
     return status == WT_OK ? exclude_outliers(work, err) : status;
@@ -312,9 +313,9 @@ static wt_status refine_line_spectrum(master_work *work, wt_error *err)
         return WT_OK;
     work->lines = true;
     work->terms_per_decade = sharp_terms;
-    const wt_status status = master_new_spectrum(work, err);
+    const wt_status status = new_spectrum(work, err);
     work->s->smooth = lines_smooth;
-    return status == WT_OK ? master_fit_robust(work, err) : status;
+    return status == WT_OK ? fit_robust(work, err) : status;
 }
 
 /* Measures the misfit beyond the noise within the isotherms. */
@@ -349,7 +350,7 @@ static wt_status restart_from_overlaps(master_work *work, wt_error *err)
             work->a[i] = work->edge[i].a;
         }
     (void)spectrum_select_connected(&work->set, work->anchor, work->a, work->placed, work->overlap);
-    wt_status status = master_new_spectrum(work, err);
+    wt_status status = new_spectrum(work, err);
     if (status == WT_OK)
         status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
     if (status == WT_OK)
@@ -374,7 +375,7 @@ wt_status master_find_initial_shifts(master_work *work, wt_error *err)
                                                    work->overlap);
         if (round > 0 && n == before && moved < max_start_shift)
             break;
-        status = master_new_spectrum(work, err);
+        status = new_spectrum(work, err);
         if (status == WT_OK)
             status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
         if (status == WT_OK && round == 0 && !work->part && !work->plain)
@@ -458,9 +459,9 @@ wt_status master_use_overlap_shifts(master_work *work, wt_error *err)
     work->route = WT_SHIFTS_FROM_OVERLAP;
     work->options.vertical = physical ? WT_VERTICAL_PHYSICAL : WT_VERTICAL_NONE;
     work->lines = false;
-    const wt_status status = master_new_spectrum(work, err);
+    const wt_status status = new_spectrum(work, err);
     if (status != WT_OK)
         return status;
     master_set_shift_errors(work);
-    return master_fit_robust(work, err);
+    return fit_robust(work, err);
 }

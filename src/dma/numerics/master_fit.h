@@ -81,9 +81,6 @@ wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double ge
                             double departure, wt_error *err) WT_NODISCARD;
 /* Returns true if the spectrum contains the isotherm at the reference temperature. */
 bool master_reference_is_fitted(const master_work *work);
-/* Creates a spectrum for the placed curves at their present shifts, without outliers. */
-wt_status master_new_spectrum(master_work *work, wt_error *err) WT_NODISCARD;
-wt_status master_fit_robust(master_work *work, wt_error *err) WT_NODISCARD;
 /* Computes log_a [set->n], in decades, 0 at the anchor. It is NaN if no isotherm towards the
  * anchor shares enough height, or without a storage modulus. */
 void closed_form_shifts(const shift_set *set, size_t anchor, double *log_a);

@@ -7,12 +7,15 @@
 #include "dma/numerics/shift_law.h"
 #include "dma/numerics/spectrum.h"
 
-/* A normal distribution of a mixture. */
+/* A distribution of a mixture: normal, or Student's t with `freedom`. */
 typedef struct mixture_component {
     double weight, mean, deviation;
 } mixture_component;
-/* Returns the mean, the 95 % limits and the corresponding standard error. The weights must sum
- * to 1. */
+/* Returns the probability of values up to x. The weights must sum to 1. An infinite freedom means
+ * normal distributions. */
+double mixture_probability(const mixture_component *part, size_t n, double freedom, double x);
+/* Returns the mean, the 95 % limits and the corresponding standard error. */
+wt_interval student_mixture_interval(const mixture_component *part, size_t n, double freedom);
 wt_interval mixture_interval(const mixture_component *part, size_t n);
 /* Returns the interval of x + by, and of a rising function of x. */
 wt_interval interval_offset(wt_interval x, double by);
@@ -50,7 +53,7 @@ struct wt_posterior {
     double *temperature;      /* [n_curves] */
     double *mean_b;           /* [n_curves] prior of ln b */
     double *slope;            /* [n_curves] slope of the law */
-    double *scratch;          /* [7 n_curves + 4 n_linear] */
+    double *scratch;          /* [9 n_curves + 4 n_linear] */
     double *cross_covariance; /* [3 n_curves + n_linear] scratch */
     char no_law_reason[256];  /* reason why there is no law */
     size_t *curve;            /* [isotherms of the sweep] index in the spectrum */

@@ -13,52 +13,64 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- mixtures of normal distributions -------------------------------------------------------- */
+/* ---- mixtures ------------------------------------------------------------------------------- */
 
-/* Relative accuracy of a quantile, and distance from the means [standard deviations] at which a
- * normal tail is below 1e-19. */
-static const double relative_tolerance = 1e-12, max_deviations = 9.0;
-enum { MOST_HALVINGS = 2200 }; /* more than between the largest and the smallest double */
+/* Distance from the means [standard deviations] at which a normal tail is below 1e-19, and one of
+ * Student's t with two degrees of freedom below 1 %. */
+static const double max_deviations = 9.0;
 
 typedef struct mixture_level {
     const mixture_component *part;
     size_t n;
-    double probability;
+    double freedom, probability;
 } mixture_level;
 
-static bool is_below_quantile(double x, void *user)
+double mixture_probability(const mixture_component *part, size_t n, double freedom, double x)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        const double away = x - part[i].mean, scaled = away / part[i].deviation;
+        sum += part[i].weight * (!(part[i].deviation > 0.0) ? (away >= 0.0 ? 1.0 : 0.0)
+                                 : isinf(freedom)           ? gsl_cdf_ugaussian_P(scaled)
+                                                            : gsl_cdf_tdist_P(scaled, freedom));
+    }
+    return sum;
+}
+
+static double excess_probability(double x, void *user)
 {
     const mixture_level *l = user;
-    double sum = 0.0;
-    for (size_t i = 0; i < l->n; i++) {
-        const mixture_component *p = &l->part[i];
-        sum += p->weight * (p->deviation > 0.0 ? gsl_cdf_ugaussian_P((x - p->mean) / p->deviation)
-                                               : (x >= p->mean ? 1.0 : 0.0));
-    }
-    return sum < l->probability;
+    return mixture_probability(l->part, l->n, l->freedom, x) - l->probability;
 }
 
-static double normal_mixture_quantile(const mixture_component *part, size_t n, double probability)
+static double mixture_quantile(mixture_level l)
 {
-    mixture_level l = {part, n, probability};
     double low = HUGE_VAL, high = -HUGE_VAL;
-    for (size_t i = 0; i < n; i++) {
-        low = fmin(low, part[i].mean - max_deviations * part[i].deviation);
-        high = fmax(high, part[i].mean + max_deviations * part[i].deviation);
+    for (size_t i = 0; i < l.n; i++) {
+        low = fmin(low, l.part[i].mean - max_deviations * l.part[i].deviation);
+        high = fmax(high, l.part[i].mean + max_deviations * l.part[i].deviation);
     }
-    root_bisect(is_below_quantile, &l, &low, &high, relative_tolerance, MOST_HALVINGS);
-    return 0.5 * (low + high);
+    double quantile = low < high ? low : high; /* where exact components reach the probability */
+    if (excess_probability(low, &l) < 0.0 &&
+        root_find(excess_probability, &l, low, high, 0.0, &quantile, NULL) != WT_OK)
+        quantile = (double)NAN;
+    return quantile;
 }
 
-wt_interval mixture_interval(const mixture_component *part, size_t n)
+wt_interval student_mixture_interval(const mixture_component *part, size_t n, double freedom)
 {
     wt_interval interval = {0};
     for (size_t i = 0; i < n; i++)
         interval.value += part[i].weight * part[i].mean;
-    interval.low = normal_mixture_quantile(part, n, 0.025);
-    interval.high = normal_mixture_quantile(part, n, 0.975);
+    interval.low = mixture_quantile((mixture_level){part, n, freedom, 0.025});
+    interval.high = mixture_quantile((mixture_level){part, n, freedom, 0.975});
     interval.standard_error = (interval.high - interval.low) / (2.0 * NORMAL_95);
     return interval;
+}
+
+wt_interval mixture_interval(const mixture_component *part, size_t n)
+{
+    return student_mixture_interval(part, n, (double)INFINITY);
 }
 
 wt_interval interval_offset(wt_interval x, double by)
@@ -164,52 +176,56 @@ double posterior_a_per_b(const wt_posterior *p, size_t curve)
                : gsl_matrix_get(v, (size_t)a, (size_t)b) / gsl_matrix_get(v, (size_t)b, (size_t)b);
 }
 
-/* A quantity that depends linearly on the unknowns of spectrum and law. Its value is that of a
- * component before the feedback of the law. */
+/* A quantity that depends linearly on the unknowns of spectrum and law. Value and variance are
+ * those of a component before the feedback of the law. */
 struct linear_quantity {
     double value;
-    const double *by_unknown; /* [n_unknowns], or NULL if it depends on the law alone */
     double by_law[LAW_MAX_UNKNOWNS];
+    double variance;
+    const double *with; /* [n_curves] covariance with log a, or NULL: it depends on the law alone */
 };
 
-/* Computes the covariance of a quantity with all unknowns of a cell [n_unknowns] and returns its
- * variance. */
+/* Computes the covariance of a quantity with log a in a cell [n_curves] from its derivatives by the
+ * unknowns [n_unknowns], and returns its variance. */
 static double cell_variance(const wt_posterior *p, const posterior_cell *cell, const double *by,
-                            double *cross_covariance)
+                            double *with)
 {
     const size_t n = p->frame.n_unknowns;
-    double variance = 0.0;
+    double variance = 0.0, *const cross_covariance = p->cross_covariance;
+    size_t first = 0, end = n; /* most quantities depend on the terms or on one unknown */
+    while (first < end && by[first] == 0.0)
+        first++;
+    while (end > first && by[end - 1] == 0.0)
+        end--;
     memset(cross_covariance, 0, n * sizeof *cross_covariance);
-    for (size_t i = 0; i < n; i++)
-        if (by[i] != 0.0)
-            dense_add_rows(cross_covariance, n, by + i, 1,
-                           gsl_matrix_const_ptr(cell->covariance, i, 0), n, 1);
-    for (size_t i = 0; i < n; i++)
+    if (first < end)
+        dense_add_rows(cross_covariance, n, by + first, 1,
+                       gsl_matrix_const_ptr(cell->covariance, first, 0), cell->covariance->tda,
+                       end - first);
+    for (size_t i = first; i < end; i++)
         variance += by[i] * cross_covariance[i];
+    for (size_t k = 0; k < p->frame.n_curves; k++) {
+        size_t column;
+        with[k] = posterior_column(p, k, &column) ? cross_covariance[column] / M_LN10 : 0.0;
+    }
     return variance;
 }
 
-/* Returns the mean and variance of a quantity in a component; with: [n_curves] covariance with
- * log a. */
+/* Returns the mean and variance of a quantity in a component. */
 static mixture_component component_moments(const wt_posterior *p,
                                            const posterior_component *component,
-                                           const struct linear_quantity *x, double *with)
+                                           const struct linear_quantity *x)
 {
     const size_t n_curves = p->frame.n_curves;
-    double *cross_covariance = p->cross_covariance,
-           *pulled = cross_covariance + p->frame.n_unknowns;
-    double variance = 0.0, mean = x->value;
-    if (x->by_unknown != NULL) {
-        variance = cell_variance(p, component->cell, x->by_unknown, cross_covariance);
+    const double *const with = x->with;
+    double *const pulled = p->cross_covariance; /* no longer needed */
+    double variance = x->variance, mean = x->value;
+    if (with != NULL) {
         memset(pulled, 0, n_curves * sizeof *pulled);
+        dense_add_rows(pulled, n_curves, with, 1, component->inner->data, component->inner->tda,
+                       n_curves);
     }
-    for (size_t k = 0; x->by_unknown != NULL && k < n_curves; k++) {
-        size_t column;
-        with[k] = posterior_column(p, k, &column) ? cross_covariance[column] / M_LN10 : 0.0;
-        dense_add_rows(pulled, n_curves, with + k, 1, gsl_matrix_const_ptr(component->inner, k, 0),
-                       n_curves, 1);
-    }
-    for (size_t k = 0; x->by_unknown != NULL && k < n_curves; k++) {
+    for (size_t k = 0; with != NULL && k < n_curves; k++) {
         mean += with[k] * gsl_vector_get(component->pull, k);
         variance -= with[k] * pulled[k];
         for (size_t u = 0; u < component->law.n_unknowns; u++)
@@ -227,7 +243,7 @@ wt_interval posterior_law(const wt_posterior *p, double temperature)
     for (size_t i = 0; i < p->n_components; i++) {
         struct linear_quantity x = {0};
         x.value = law_value(&p->shape, p->components[i].law.unknown, temperature, x.by_law);
-        component[i] = component_moments(p, &p->components[i], &x, NULL);
+        component[i] = component_moments(p, &p->components[i], &x);
     }
     return mixture_interval(component, p->n_components);
 }
@@ -244,7 +260,7 @@ wt_interval posterior_slope(const wt_posterior *p, double temperature)
         x.value = (x.value - before.value) / (2.0 * step);
         for (size_t u = 0; u < LAW_MAX_UNKNOWNS; u++)
             x.by_law[u] = (x.by_law[u] - before.by_law[u]) / (2.0 * step);
-        component[i] = component_moments(p, &p->components[i], &x, NULL);
+        component[i] = component_moments(p, &p->components[i], &x);
     }
     return mixture_interval(component, p->n_components);
 }
@@ -255,20 +271,23 @@ wt_interval posterior_constant(const wt_posterior *p, size_t unknown)
     for (size_t i = 0; i < p->n_components; i++) {
         struct linear_quantity x = {.value = p->components[i].law.unknown[unknown]};
         x.by_law[unknown] = 1.0;
-        component[i] = component_moments(p, &p->components[i], &x, NULL);
+        component[i] = component_moments(p, &p->components[i], &x);
     }
     return mixture_interval(component, p->n_components);
 }
 
-/* scratch: covariance with log a, terms, and derivatives of both moduli and the loss factor */
+/* scratch: covariances with log a, terms, and derivatives of both moduli and the loss factor */
 void posterior_moduli(const wt_posterior *p, double x, bool measured,
                       wt_interval modulus[WITH_LOSS_FACTOR])
 {
     const size_t n = p->frame.n_unknowns;
     mixture_component component[WITH_LOSS_FACTOR][MAX_COMPONENTS];
-    double *term = p->scratch + p->frame.n_curves, *const by_storage = term + p->frame.n_linear;
+    double *const with[WITH_LOSS_FACTOR] = {p->scratch, p->scratch + p->frame.n_curves,
+                                            p->scratch + 2 * p->frame.n_curves};
+    double *term = p->scratch + 3 * p->frame.n_curves, *const by_storage = term + p->frame.n_linear;
     double *const gradient[WITH_LOSS_FACTOR] = {by_storage, by_storage + n, by_storage + 2 * n};
     double value[WITH_LOSS_FACTOR], slope[WITH_LOSS_FACTOR], mean[LAW_MAX_UNKNOWNS];
+    double variance[WITH_LOSS_FACTOR];
     const posterior_cell *last = NULL;
     posterior_mean_law(p, mean);
     memset(by_storage, 0, WITH_LOSS_FACTOR * n * sizeof *by_storage);
@@ -282,12 +301,14 @@ void posterior_moduli(const wt_posterior *p, double x, bool measured,
             slope[LOSS_FACTOR] = slope[LOSS] - slope[STORAGE];
             for (size_t u = 0; u < n; u++)
                 gradient[LOSS_FACTOR][u] = gradient[LOSS][u] - gradient[STORAGE][u];
+            for (int q = 0; q < WITH_LOSS_FACTOR; q++)
+                variance[q] = cell_variance(p, last, gradient[q], with[q]);
         }
         for (int q = 0; q < WITH_LOSS_FACTOR; q++) {
             const double off = p->components[i].law.unknown[0] - mean[0];
             const struct linear_quantity e = {
-                value[q] + slope[q] * M_LN10 * off, gradient[q], {slope[q] * M_LN10}};
-            component[q][i] = component_moments(p, &p->components[i], &e, p->scratch);
+                value[q] + slope[q] * M_LN10 * off, {slope[q] * M_LN10}, variance[q], with[q]};
+            component[q][i] = component_moments(p, &p->components[i], &e);
         }
     }
     for (int q = 0; q < WITH_LOSS_FACTOR; q++)
@@ -305,10 +326,13 @@ static wt_interval offset_unknown_interval(const wt_posterior *p, long column, d
     if (column >= 0)
         by_unknown[column] = scale;
     for (size_t i = 0; i < p->n_components; i++) {
-        struct linear_quantity x = {
-            -offset * p->components[i].law.unknown[0], by_unknown, {-offset}};
-        x.value += scale * (column >= 0 ? p->components[i].cell->value[column] : given);
-        component[i] = component_moments(p, &p->components[i], &x, p->scratch);
+        const posterior_cell *cell = p->components[i].cell;
+        struct linear_quantity x = {-offset * p->components[i].law.unknown[0],
+                                    {-offset},
+                                    cell_variance(p, cell, by_unknown, p->scratch),
+                                    p->scratch};
+        x.value += scale * (column >= 0 ? cell->value[column] : given);
+        component[i] = component_moments(p, &p->components[i], &x);
         component[i].deviation = sqrt(component[i].deviation * component[i].deviation + variance);
     }
     return mixture_interval(component, p->n_components);
@@ -318,6 +342,18 @@ wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
 {
     return offset_unknown_interval(p, p->frame.column_a[curve], p->frame.given_a[curve],
                                    extra_variance(p, curve), 1.0 / M_LN10, 1.0);
+}
+
+/* Returns the moments of a quantity with the value and these derivatives, without the law. */
+static mixture_component spectrum_moments(const wt_posterior *p,
+                                          const posterior_component *component, double value,
+                                          const double *by_unknown)
+{
+    const struct linear_quantity x = {.value = value,
+                                      .variance =
+                                          cell_variance(p, component->cell, by_unknown, p->scratch),
+                                      .with = p->scratch};
+    return component_moments(p, component, &x);
 }
 
 /* Sums the terms [from, end) and computes the derivatives of ln of the sum times `sign`
@@ -347,14 +383,12 @@ wt_interval posterior_equilibrium(const wt_posterior *p)
     for (size_t i = 0; i < p->n_components; i++) {
         const double *value = p->components[i].cell->value;
         const double all = sum_term_moduli(value, s->n_measured, s->n_terms + 1, 1.0, by_unknown);
-        const struct linear_quantity modulus = {.value = log(all), .by_unknown = by_unknown};
-        measured[i] = component_moments(p, &p->components[i], &modulus, p->scratch);
+        measured[i] = spectrum_moments(p, &p->components[i], log(all), by_unknown);
         for (size_t place = 0; place < SPECTRUM_ENDS; place++) {
             const size_t end = spectrum_end_term(s, place);
             const double later = sum_term_moduli(value, s->n_measured, end, 1.0, by_unknown);
             const double rest = sum_term_moduli(value, end, s->n_terms + 1, -1.0, by_unknown);
-            const struct linear_quantity x = {.value = log(later / rest), .by_unknown = by_unknown};
-            share[n] = component_moments(p, &p->components[i], &x, p->scratch);
+            share[n] = spectrum_moments(p, &p->components[i], log(later / rest), by_unknown);
             share[n].weight /= SPECTRUM_ENDS;
             left -= share[n].weight * log1p(exp(share[n].mean));
             n++;

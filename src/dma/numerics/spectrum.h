@@ -103,6 +103,7 @@ typedef struct spectrum {
      * and -P S at the side. Eliminating these gives the equations with the prior. Blocks: a and
      * b. */
     bordered_matrix normal[MODULI]; /* J'J of the rows of a modulus */
+    double *right[MODULI];          /* [n_unknowns] J'r of the same rows */
     bordered_matrix precision;      /* normal / noise^2 + priors */
     bordered_matrix factor;         /* Cholesky factor of the precision */
     bordered_matrix covariance;     /* elements of the inverse at the non-zero positions */
@@ -165,9 +166,6 @@ double spectrum_variance(const spectrum *s, size_t curve); /* variance of a fitt
 /* Returns the factor on the ln residual of a point; 0: excluded. */
 double spectrum_weight(const spectrum *s, size_t k, int q);
 double spectrum_squares(const spectrum *s, int q); /* sum of squares of the whitened residuals */
-/* Extension of the terms beyond the measured range [decade]. */
-extern const double spectrum_fast_margin, spectrum_slow_margin;
-void spectrum_set_extrapolation(spectrum *s);
 /* The slow end of a spectrum is unknown. It has equal probability at SPECTRUM_ENDS positions
  * from the first decade beyond the measured range on. The terms from spectrum_end_term() on belong
  * to the equilibrium modulus. */

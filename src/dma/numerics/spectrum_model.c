@@ -5,6 +5,7 @@
 
 #include "core/math/arena_gsl.h"
 #include "core/math/blocked_product.h"
+#include "core/math/cholesky.h"
 
 #include <math.h>
 #include <string.h>
@@ -27,7 +28,7 @@ static const double flattest = 0.01, steepest = 1.5;
 /* Extension of the relaxation times beyond the measured range [decade]. E'' of a term 4.5
  * decades faster is 3e-5 of its modulus at the highest frequency, so faster terms act as a glass
  * modulus. Six slow decades convert a second to two weeks and an hour to a century. */
-const double spectrum_fast_margin = 4.5, spectrum_slow_margin = 6.0;
+static const double fast_margin = 4.5, slow_margin = 6.0;
 
 /* Distance beyond the ends with the measured prior [decade]. E'' of such a term is a tenth of
  * its modulus at the end, so it is measured. */
@@ -49,7 +50,7 @@ size_t spectrum_end_term(const spectrum *s, size_t place)
     return s->n_measured + (s->n_terms - s->n_measured) * (place + 1) / SPECTRUM_ENDS;
 }
 
-void spectrum_set_extrapolation(spectrum *s)
+static void set_extrapolation(spectrum *s)
 {
     const size_t margin = (size_t)ceil(measured_margin * M_LN10 / s->step);
     s->bend_first = s->n_fast - margin;
@@ -92,6 +93,7 @@ static void allocate_spectrum(spectrum *s)
         s->residual[q] = arena_numbers(m, s->n);
         s->row[q] = arena_numbers(m, (s->n + TILE_ROWS - 1) * (s->n_linear + 2));
         s->normal[q] = bordered_new(m, s->n_linear, s->n_curves);
+        s->right[q] = arena_numbers(m, most);
     }
     s->kappa = arena_numbers(m, s->n_curves);
     s->bend = arena_numbers(m, s->n_terms);
@@ -202,11 +204,11 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         wt_error_advice(err, "check the unit of the frequencies, and the shifts if they are given");
         return WT_E_RANGE;
     }
-    s->n_fast = (size_t)ceil(spectrum_fast_margin * terms_per_decade);
-    s->n_measured = (size_t)ceil((high + spectrum_fast_margin - low) * terms_per_decade);
-    s->n_terms = 1 + s->n_measured + (size_t)ceil(spectrum_slow_margin * terms_per_decade);
+    s->n_fast = (size_t)ceil(fast_margin * terms_per_decade);
+    s->n_measured = (size_t)ceil((high + fast_margin - low) * terms_per_decade);
+    s->n_terms = 1 + s->n_measured + (size_t)ceil(slow_margin * terms_per_decade);
     s->n_linear = s->n_terms + (liquid ? 0 : 1);
-    s->log_tau = -(high + spectrum_fast_margin) * M_LN10;
+    s->log_tau = -(high + fast_margin) * M_LN10;
     allocate_spectrum(s);
     double *start = s->trial; /* a, then b */
     size_t curve = 0, k = 0;
@@ -238,7 +240,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         s->bend[j] = 1.0;
         s->time[j] = exp((double)j * s->step);
     }
-    spectrum_set_extrapolation(s);
+    set_extrapolation(s);
     for (int q = 0; q < MODULI; q++)
         s->noise[q] = 0.05;
     /* until a prior is set: the shifts follow the terms, including the anchor */
@@ -494,22 +496,25 @@ static void add_row_products(gsl_matrix *normal, size_t m, const double *row, si
                              (tile_rows){row + i, row + j, width, width, rows}, false);
 }
 
-/* Adds the products of the shifts of a curve with the terms and with each other. */
+/* Adds the products of the shifts of a curve with the terms, with each other and with the
+ * residuals. */
 static void add_shift_products(spectrum *s, size_t curve, int q)
 {
-    const size_t m = s->n_linear, width = m + 2;
-    const bool free[BLOCK_SIDE] = {s->column_a[curve] >= 0, s->column_b[curve] >= 0};
+    const size_t m = s->n_linear, width = m + 2, n = s->first[curve + 1] - s->first[curve];
+    const long column[BLOCK_SIDE] = {s->column_a[curve], s->column_b[curve]};
+    const double *first = s->row[q] + s->first[curve] * width,
+                 *residual = s->residual[q] + s->first[curve];
     double *diagonal = s->normal[q].diagonal + BLOCK_DIAGONAL * curve;
     for (size_t c = 0; c < BLOCK_SIDE; c++) {
-        double *restrict into = gsl_matrix_ptr(s->normal[q].side, BLOCK_SIDE * curve + c, 0);
-        for (size_t k = s->first[curve]; free[c] && k < s->first[curve + 1]; k++) {
-            const double *row = s->row[q] + k * width;
-            const double r = row[m + c];
-            for (size_t j = 0; j < m; j++)
-                into[j] += r * row[j];
+        if (column[c] < 0)
+            continue;
+        dense_add_rows(gsl_matrix_ptr(s->normal[q].side, BLOCK_SIDE * curve + c, 0), m,
+                       first + m + c, width, first, width, n);
+        for (size_t k = 0; k < n; k++) {
+            const double *shift = first + k * width + m;
+            s->right[q][column[c]] += shift[c] * residual[k];
             for (size_t d = 0; d <= c; d++)
-                if (free[d])
-                    diagonal[c + d] += r * row[m + d];
+                diagonal[c + d] += column[d] >= 0 ? shift[c] * shift[d] : 0.0;
         }
     }
 }
@@ -519,7 +524,11 @@ void spectrum_normal(spectrum *s)
     const size_t m = s->n_linear, width = m + 2;
     for (int q = 0; q < MODULI; q++) {
         gsl_matrix *normal = s->normal[q].border;
+        if (!s->used[q])
+            continue; /* its rows are zeros */
         bordered_zero(&s->normal[q]);
+        memset(s->right[q], 0, s->n_unknowns * sizeof *s->right[q]);
+        dense_add_rows(s->right[q], m, s->residual[q], 1, s->row[q], width, s->n);
         for (size_t k = 0; k < s->n; k += TILE_CACHED_ROWS) /* the last rows are zeros */
             add_row_products(normal, m, s->row[q] + k * width, width,
                              k + TILE_CACHED_ROWS < s->n ? TILE_CACHED_ROWS : s->n - k);

@@ -309,23 +309,6 @@ static void add_priors(spectrum *s)
     add_vertical_prior(s);
 }
 
-/* Adds J'r of a modulus times `scale`. */
-static void add_gradient(spectrum *s, int q, double scale)
-{
-    const size_t m = s->n_linear, width = m + 2;
-    double *gradient = gsl_vector_ptr(s->gradient, 0);
-    for (size_t i = 0; i < s->n_curves; i++)
-        for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
-            const double *row = s->row[q] + k * width, r = scale * s->residual[q][k];
-            for (size_t j = 0; j < m; j++)
-                gradient[j] += r * row[j];
-            if (s->column_a[i] >= 0)
-                gradient[s->column_a[i]] += r * row[m];
-            if (s->column_b[i] >= 0)
-                gradient[s->column_b[i]] += r * row[m + 1];
-        }
-}
-
 /* Adds the normal equations of a modulus times `scale`. */
 static void add_normal_equations(bordered_matrix *into, const bordered_matrix *normal, double scale)
 {
@@ -348,7 +331,7 @@ void spectrum_assemble(spectrum *s)
     for (int q = 0; q < MODULI; q++) {
         const double scale = 1.0 / (s->noise[q] * s->noise[q]);
         add_normal_equations(&s->precision, &s->normal[q], scale);
-        add_gradient(s, q, scale);
+        dense_add_rows(s->gradient->data, s->n_unknowns, &scale, 1, s->right[q], s->n_unknowns, 1);
     }
     add_priors(s);
     for (size_t i = 0; i < s->n_curves; i++) { /* fixed shifts */
