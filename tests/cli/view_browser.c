@@ -363,6 +363,26 @@ static void test_sliders(void)
     for (const double end = now() + LIMIT; strcmp(data("mu"), before) == 0;)
         check(now() < end, "friction follows the slider");
     printf("mu %s, with more shear stress %s\n", before, value);
+    (void)snprintf(before, sizeof before, "%s", data("mu"));
+    (void)js("(() => { const s = document.querySelector('#slider-sliding-reference-velocity'); "
+             "s.value = s.min; "
+             "s.dispatchEvent(new Event('input')); s.dispatchEvent(new Event('change')); })()");
+    for (const double end = now() + LIMIT; strcmp(data("mu"), before) == 0;)
+        check(now() < end, "friction follows the velocity");
+    wait_for("document.querySelector('#sliding .form').textContent.includes('Velocity: 0.0001m/s')",
+             "true");
+}
+
+/* A plot is saved as an SVG file of the requested width, without a colour of the page. */
+static void test_saved_plot(void)
+{
+    (void)js("(() => { URL.createObjectURL = (blob) => { blob.text().then((text) => { "
+             "const svg = new DOMParser().parseFromString(text, 'image/svg+xml').documentElement; "
+             "document.documentElement.dataset.saved = [svg.localName, svg.getAttribute('width'), "
+             "svg.textContent.includes('velocity (m/s)'), text.includes('var(')].join(' '); }); "
+             "return 'data:,'; }; "
+             "document.querySelector('#sliding .saving button').click(); })()");
+    wait_for("document.documentElement.dataset.saved", "svg 85mm true false");
 }
 
 /* A folder of data: the page writes a case, names what is missing, runs it and shows the answer. */
@@ -450,6 +470,7 @@ int main(int argc, char **argv)
     test_curves();
     test_shell(argv[1]);
     test_sliders();
+    test_saved_plot();
     check(strcmp(data("error"), "undefined") == 0, "an error of the page");
     test_other_origin(address);
     (void)kill(server, SIGTERM);

@@ -162,6 +162,44 @@ const Plot = (() => {
     }
     host.append(p);
   };
+  /* Saves the plot as a file of its own, with its legend, on white and in the colours of the light page. */
+  const light = {'--ink': '#1b1f24', '--soft': '#57606a', '--line': '#d4dae0', '--s0': '#0b4f8a',
+    '--s1': '#a5470a', '--s2': '#2b6e3f', '--s3': '#5a3794', '--s4': '#57606a', '--fit': '#b3123c'};
+  const save = (host, o, millimetres) => {
+    const copy = host.querySelector('svg').cloneNode(true), {width, height} = copy.viewBox.baseVal;
+    const shown = o.series.filter((s) => s.name), rows = shown.length > 1 ? shown.length : 0;
+    const all = height + 16 * rows;
+    for (const grip of copy.querySelectorAll('.grip')) grip.remove();
+    copy.setAttribute('xmlns', NS);
+    copy.setAttribute('viewBox', `0 0 ${width} ${all}`);
+    copy.setAttribute('width', millimetres + 'mm');
+    copy.setAttribute('height', (millimetres * all / width).toFixed(2) + 'mm');
+    for (let k = 0; k < rows; k++) {
+      node('path', {d: `M62 ${height + 16 * k + 4}h22`, stroke: shown[k].color, 'stroke-width': 3}, copy);
+      node('text', {x: 90, y: height + 16 * k + 8}, copy, shown[k].name);
+    }
+    copy.prepend(node('style', {}, null, 'text{font:12px Helvetica,Arial,sans-serif;fill:var(--ink)}' +
+      '.axis{stroke:var(--soft);fill:none}.grid{stroke:var(--line);fill:none}.marker line{stroke-width:2}'),
+    node('rect', {width, height: all, fill: '#fff'}));
+    const text = new XMLSerializer().serializeToString(copy).replace(/var\((--\w+)\)/g, (_, name) => light[name]);
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(new Blob([text], {type: 'image/svg+xml'}));
+    link.download = (o.title || o.y.label).toLowerCase().replace(/[^a-z0-9]+/g, '-') + `-${millimetres}mm.svg`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  };
+  const saving = (host, o) => {
+    const p = document.createElement('p');
+    p.className = 'saving';
+    for (const millimetres of [85, 170]) {
+      const button = document.createElement('button');
+      button.textContent = `Save, ${millimetres} mm`;
+      button.setAttribute('aria-label', `Save ${o.title || o.y.label} as SVG, ${millimetres} mm wide`);
+      button.onclick = () => save(host, o, millimetres);
+      p.append(button);
+    }
+    host.append(p);
+  };
   /* o: {title, x: {label, unit, log, range}, y: the same, height, series: [{name, x, y, color, kind:
    * 'line' | 'points' | 'band', low, high, dash, width}], markers: [{x, label, unit, moved}]} */
   const draw = (host, o) => {
@@ -210,6 +248,7 @@ const Plot = (() => {
     host.classList.add('plot');
     host.replaceChildren(svg);
     legend(host, o.series);
+    saving(host, o);
     return {update: fill}; /* other series in the same axes */
   };
   const shades = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];

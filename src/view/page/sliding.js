@@ -3,9 +3,9 @@
 'use strict';
 (() => {
   const {element} = View;
-  let ui = null, found = {}, moving = null;
+  let ui = null, found = {}, moving = null, measured = null;
   const sliders = [['sliding/pressure', 'Nominal pressure'], ['sliding/temperature', 'Temperature'],
-    ['sliding/shear-stress', 'Shear stress of the contact'],
+    ['sliding/reference-velocity', 'Velocity'], ['sliding/shear-stress', 'Shear stress of the contact'],
     ['layer/critical-energy', 'Critical energy U_c'], ['layer/specific-wear-rate', 'Specific wear rate']];
 
   /* "5MPa +- 10%" as its number, unit and error, to set the ends of a slider. */
@@ -16,17 +16,24 @@
     const error = m[3] === undefined ? null : m[4] === '%' ? Math.abs(value) * Number(m[3]) / 100 : Number(m[3]);
     return {value, unit: m[2], error, rest: m[3] === undefined ? '' : ` +- ${m[3]}${m[4]}`};
   };
-  /* Ends: two standard errors, else a factor of 2, or 30 degrees for a temperature. */
-  const ends = (p) => p.error !== null ? [p.value - 2 * p.error, p.value + 2 * p.error] :
+  /* Ends: two standard errors, else a factor of 2, or 30 degrees for a temperature. The velocity goes
+   * over the velocities of the case. */
+  const ends = (p, path) => path.endsWith('velocity') ?
+    p.unit === 'm/s' ? Plot.range(found.friction.column('velocity')) : [p.value / 10, p.value * 10] :
+    p.error !== null ? [p.value - 2 * p.error, p.value + 2 * p.error] :
     /degC|K$/.test(p.unit) ? [p.value - 30, p.value + 30] : [p.value / 2, p.value * 2];
   const row = ([path, label]) => {
     const p = parts(View.get(path)), id = 'slider-' + path.replace('/', '-');
-    if (!p) return [];
-    const [low, high] = ends(parts(View.state().caseText && savedValue(path)) || p);
+    if (!p || (path.endsWith('velocity') && !found.friction)) return [];
+    const isLog = path.endsWith('velocity'), to = isLog ? Math.log10 : Number;
+    const [low, high] = ends(parts(View.state().caseText && savedValue(path)) || p, path).map(to);
     const output = element('output', {for: id, style: 'font-weight:600'}, View.get(path));
     const input = element('input', {type: 'range', class: 'wide', id, min: low, max: high, step: (high - low) / 100});
-    input.value = p.value;
-    const text = () => `${Number(Number(input.value).toPrecision(4))}${p.unit}${p.rest}`;
+    input.value = to(p.value);
+    const text = () => {
+      const value = isLog ? 10 ** input.value : Number(input.value);
+      return `${Number(value.toPrecision(4))}${p.unit}${p.rest}`;
+    };
     input.addEventListener('input', () => {
       output.textContent = text();
       moving = id;
@@ -86,8 +93,8 @@
     around('friction', 'var(--s0)', 'without a layer');
     if (with_layer && with_layer.some((v) => v !== null)) around('friction_with_layer', 'var(--s1)', 'with the layer');
     series.push({name: 'hysteresis', x, y: t.column('hysteresis'), color: 'var(--s4)', dash: '6 3'});
-    if (found.record) series.push({name: 'measured', x: found.record.column('velocity'),
-      y: found.record.column('friction'), kind: 'points', width: 7, color: 'var(--fit)'});
+    if (measured) series.push({name: 'measured, last run', x: measured.column('velocity'),
+      y: measured.column('friction_coefficient'), kind: 'points', width: 7, color: 'var(--fit)'});
     const reference = t.keys.reference_velocity;
     Plot.draw(ui.plot, {title: 'Friction against velocity', height: 340, x: {label: 'velocity (m/s)', log: true},
       y: {label: 'mu'}, series, markers: reference ? [{x: reference.value, label: 'reference', unit: 'm/s',
@@ -129,9 +136,11 @@
     },
     async show() {
       if (!View.has('sliding')) throw new Error('The case has no sliding contact (<sliding>).');
+      const tables = View.state().tables;
+      measured = tables.includes('record') ? (await View.stored('record')).record : null;
+      await compute();
       if (moving === null && !ui.form.contains(document.activeElement))
         ui.form.replaceChildren(...sliders.flatMap(row));
-      await compute();
     },
     resize: () => found.friction && draw(),
     command: () => ['# values while a slider moves: without draws, as weartrack run --replicates 0'],

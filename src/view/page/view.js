@@ -390,10 +390,10 @@ const View = (() => {
     tables(await call('trial', {name: names, replicates}, source === undefined ? text : source)));
 
   /* Tables of the result if it is that of the text, else of a trial without draws. */
-  const results = async (names) => state.current && text === state.caseText ?
-    tables(await call('table', {name: names})) : trial(names, 0);
+  const stored = async (names) => tables(await call('table', {name: names}));
+  const results = async (names) => state.current && text === state.caseText ? stored(names) : trial(names, 0);
 
-  return {$, call, results, latest, tables, table, element, show, get, all: texts, has, edit, editDocument, changed, replace,
+  return {$, call, results, stored, latest, tables, table, element, show, get, all: texts, has, edit, editDocument, changed, replace,
     text: () => text, state: () => state, add, guard, trial, create, run, save, quote, command, load, fail,
     setOverrides: (value, digest) => { state.overridesText = value; state.overridesDigest = digest;
       state.current = false; showChanged(); }};
