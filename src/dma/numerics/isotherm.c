@@ -6,7 +6,6 @@
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 
-#include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
@@ -113,13 +112,10 @@ static double robust_mean(const struct point *point, size_t n, int q, double *co
     double sum = 0.0, weights = 0.0;
     for (size_t k = 0; k < n; k++)
         copy[k] = point[k].y[q];
-    gsl_sort(copy, 1, n);
-    const double median = gsl_stats_median_from_sorted_data(copy, 1, n);
+    const double median = numbers_median(copy, n);
     for (size_t k = 0; k < n; k++)
         copy[k] = fabs(point[k].y[q] - median);
-    gsl_sort(copy, 1, n);
-    const double outlier_distance =
-        outlier_limit * 1.4826 * gsl_stats_median_from_sorted_data(copy, 1, n);
+    const double outlier_distance = outlier_limit * 1.4826 * numbers_median(copy, n);
     for (size_t k = 0; k < n; k++) {
         const bool is_inlier = n < LEAST_MANY || fabs(point[k].y[q] - median) <= outlier_distance;
         sum += is_inlier ? point[k].y[q] : 0.0;

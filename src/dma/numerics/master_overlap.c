@@ -8,7 +8,6 @@
 #include "core/math/arena_gsl.h"
 #include "dma/numerics/isotherm.h"
 
-#include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 
@@ -43,14 +42,6 @@ static double area_along_ordinates(const shift_curve *c, double low, double high
     return sum;
 }
 
-static double highest_ordinate(const shift_curve *c)
-{
-    double most = -HUGE_VAL;
-    for (size_t k = 0; k < c->n; k++)
-        most = fmax(most, c->y[STORAGE][k]);
-    return most;
-}
-
 /* Returns the shift of curve `from` onto curve `onto`, with its storage modulus times 10^b
  * [decade]. It is NaN if they share too little height. */
 static double closed_form_step(const shift_set *set, size_t onto, size_t from, double b)
@@ -59,7 +50,8 @@ static double closed_form_step(const shift_set *set, size_t onto, size_t from, d
     if (!set->used[STORAGE] || p->n < LEAST_POINTS || s->n < LEAST_POINTS)
         return (double)NAN;
     const double first[2] = {p->y[STORAGE][0], s->y[STORAGE][0] + b},
-                 last[2] = {highest_ordinate(p), highest_ordinate(s) + b};
+                 last[2] = {gsl_stats_max(p->y[STORAGE], 1, p->n),
+                            gsl_stats_max(s->y[STORAGE], 1, s->n) + b};
     const double low = fmax(first[0], first[1]), high = fmin(last[0], last[1]);
     const double flatter = fmin(last[0] - first[0], last[1] - first[1]);
     size_t points[2];
@@ -164,10 +156,7 @@ static void find_gaps(struct overlap *o, double a)
     add_curve_gaps(o, o->s, o->p, o->slope_s, -a, -1.0);
     for (size_t i = 0; i < o->n; i++)
         o->scratch[i] = fabs(o->gap[i].off);
-    gsl_sort(o->scratch, 1, o->n);
-    const double spread =
-        o->n > 0 ? weight_scale * 1.4826 * gsl_stats_median_from_sorted_data(o->scratch, 1, o->n)
-                 : 0.0;
+    const double spread = o->n > 0 ? weight_scale * 1.4826 * numbers_median(o->scratch, o->n) : 0.0;
     for (size_t i = 0; spread > 0.0 && i < o->n; i++) {
         const double scaled_gap = o->gap[i].off / spread;
         o->gap[i].weight = 1.0 / (1.0 + scaled_gap * scaled_gap);

@@ -155,9 +155,7 @@ wt_shift_law law_constants(const law_shape *shape, const double *unknown)
 wt_status law_gls_covariance(const law_data *data, double spread, gsl_matrix *covariance,
                              wt_error *err)
 {
-    for (size_t i = 0; i < data->n; i++)
-        for (size_t k = 0; k < data->n; k++)
-            gsl_matrix_set(covariance, i, k, gsl_matrix_get(data->covariance, i, k));
+    gsl_matrix_memcpy(covariance, data->covariance);
     for (size_t i = 0; i < data->n; i++)
         *gsl_matrix_ptr(covariance, i, i) += spread * spread * data->slope[i] * data->slope[i];
     if (!dense_factor(covariance))

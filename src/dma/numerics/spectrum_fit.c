@@ -119,13 +119,14 @@ static double line_search(spectrum *s)
     for (int i = 0; i < MAX_HALVINGS && !(gain >= 0.0); i++, share *= 0.5) { /* also handles NaN */
         for (size_t u = 0; u < s->n_unknowns; u++)
             s->trial[u] = s->value[u] + share * gsl_vector_get(s->direction, u);
-        spectrum_evaluate(s, s->trial, false);
+        spectrum_evaluate(s, s->trial, true); /* most trials are accepted */
         gain = s->objective - spectrum_objective(s, s->trial);
     }
     return gain >= 0.0 ? gain : -1.0;
 }
 
-/* Performs a damped step that does not raise the objective. *gain: its gain. */
+/* Performs a damped step that does not raise the objective, and leaves the rows of the values that
+ * it reached. *gain: its gain. */
 static wt_status damped_step(spectrum *s, double *damping, double *gain, wt_error *err)
 {
     *gain = 0.0;
@@ -144,6 +145,7 @@ static wt_status damped_step(spectrum *s, double *damping, double *gain, wt_erro
         }
         *damping = fmax(10.0 * *damping, 1e-3);
     }
+    spectrum_evaluate(s, s->value, true);
     return isfinite(s->objective)
                ? WT_OK
                : wt_fail(err, WT_E_CONVERGENCE, "no spectrum describes the isotherms");
@@ -156,11 +158,17 @@ static void assemble_objective(spectrum *s)
     s->objective = spectrum_objective(s, s->value);
 }
 
+/* Makes the equations of the rows of the present values. */
+static void make_equations(spectrum *s)
+{
+    spectrum_normal(s);
+    assemble_objective(s);
+}
+
 static void prepare_equations(spectrum *s)
 {
     spectrum_evaluate(s, s->value, true);
-    spectrum_normal(s);
-    assemble_objective(s);
+    make_equations(s);
 }
 
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
@@ -178,7 +186,7 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
         status = damped_step(s, &damping, &gain, err);
         if (status != WT_OK)
             break;
-        prepare_equations(s);
+        make_equations(s);
         if (!held) {
             status = invert_precision(s, err);
             if (status != WT_OK)

@@ -6,8 +6,6 @@
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
-#include <gsl/gsl_sort.h>
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -220,6 +218,14 @@ static struct noise_work noise_work_new(const spectrum *s)
     return w;
 }
 
+static double count_used_points(const spectrum *s, int q)
+{
+    double n = 0.0;
+    for (size_t k = 0; k < s->n; k++)
+        n += s->weight[q][k] > 0.0;
+    return n;
+}
+
 void spectrum_measure_misfit(spectrum *s, double all[MODULI], double within[MODULI])
 {
     const double rho = s->rho;
@@ -232,9 +238,7 @@ void spectrum_measure_misfit(spectrum *s, double all[MODULI], double within[MODU
     spectrum_evaluate(s, s->value, false);
     (void)restricted_likelihood(s, &w);
     for (int q = 0; q < MODULI; q++) {
-        double n = 0.0;
-        for (size_t k = 0; k < s->n; k++)
-            n += s->weight[q][k] > 0.0;
+        const double n = count_used_points(s, q);
         all[q] = n > 0.0 ? sqrt(spectrum_squares(s, q) / n) : 0.0;
         within[q] = sqrt(w.scale[q]);
     }
@@ -282,14 +286,6 @@ static const double student_freedom = 4.0;
 /* A point is excluded beyond the first number of standard deviations and restored below the
  * second. For normal noise, one of a thousand points is lost in one of a hundred sweeps. */
 static const double outlier = 5.0, no_outlier = 4.5;
-
-static double count_used_points(const spectrum *s, int q)
-{
-    double n = 0.0;
-    for (size_t k = 0; k < s->n; k++)
-        n += s->weight[q][k] > 0.0;
-    return n;
-}
 
 /* Returns the trace of covariance times normal equations, which do not contain the smooth part. */
 static double product_trace(const bordered_matrix *covariance, const bordered_matrix *normal)
@@ -404,8 +400,7 @@ static double robust_deviation(double *residual, size_t n)
 {
     for (size_t k = 0; k < n; k++)
         residual[k] = fabs(residual[k]);
-    gsl_sort(residual, 1, n);
-    return 1.4826 * gsl_stats_median_from_sorted_data(residual, 1, n);
+    return n > 0 ? 1.4826 * numbers_median(residual, n) : 0.0;
 }
 
 size_t spectrum_outliers(spectrum *s)

@@ -254,18 +254,13 @@ static double parted_share(const struct test_work *x, const struct columns *c)
     return high > low ? 0.5 * (high - low) : 0.0;
 }
 
-static void swap_numbers(double *a, double *b)
-{
-    const double saved = *a;
-    *a = *b;
-    *b = saved;
-}
-
 /* Orthogonalises the remaining columns, largest remainder first, and adds the squares that they
  * explain. */
 static void orthogonalise(struct test_work *x, struct columns *c)
 {
     double *a = c->product;
+    gsl_matrix_view product = gsl_matrix_view_array(a, MOST_COLUMNS, MOST_COLUMNS);
+    gsl_vector_view right = gsl_vector_view_array(c->right, MOST_COLUMNS);
     for (size_t i = 0; i < c->n; i++)
         for (size_t j = 0; j < i; j++)
             a[j * MOST_COLUMNS + i] = a[i * MOST_COLUMNS + j];
@@ -273,11 +268,9 @@ static void orthogonalise(struct test_work *x, struct columns *c)
         size_t pivot = rank;
         for (size_t i = rank; i < c->n; i++)
             pivot = a[i * MOST_COLUMNS + i] > a[pivot * MOST_COLUMNS + pivot] ? i : pivot;
-        for (size_t i = 0; i < c->n; i++)
-            swap_numbers(a + rank * MOST_COLUMNS + i, a + pivot * MOST_COLUMNS + i);
-        for (size_t i = 0; i < c->n; i++)
-            swap_numbers(a + i * MOST_COLUMNS + rank, a + i * MOST_COLUMNS + pivot);
-        swap_numbers(c->right + rank, c->right + pivot);
+        gsl_matrix_swap_rows(&product.matrix, rank, pivot);
+        gsl_matrix_swap_columns(&product.matrix, rank, pivot);
+        gsl_vector_swap_elements(&right.vector, rank, pivot);
         double *const border = c->border[rank];
         c->border[rank] = c->border[pivot];
         c->border[pivot] = border;
