@@ -218,37 +218,48 @@ static void write_data_used(page_writer *page)
 /* ---- conditions ------------------------------------------------------------------------------ */
 
 /* Adds "bulk: 48 curves on 4 spots, 0 rejected" for each role of the inputs. */
-static void add_data_line(page_writer *page)
+static void add_data_line(text_buffer *line, const figure_tables *t)
 {
-    const table_view *const inputs = &page->tables->inputs;
     const char *between = " ";
-    for (size_t i = 0; i < inputs->n_rows; i++)
-        if (is_first_of_role(inputs, i)) {
-            const char *const role = inputs_text(inputs, i, INPUTS_ROLE);
-            text_html(&page->out, "%s%s ", between, role);
-            write_use(&page->out, page->tables, role);
+    for (size_t i = 0; i < t->inputs.n_rows; i++)
+        if (is_first_of_role(&t->inputs, i)) {
+            const char *const role = inputs_text(&t->inputs, i, INPUTS_ROLE);
+            text_html(line, "%s%s ", between, role);
+            write_use(line, t, role);
             between = "; ";
         }
+}
+
+/* Adds "bulk-1.jpk-force-map and 3 more files" for a result without a table of the inputs. */
+static void add_input_names(text_buffer *out, const wt_provenance *provenance)
+{
+    const size_t n = provenance != NULL ? wt_provenance_n_inputs(provenance) : 0;
+    if (n == 0)
+        return;
+    text_add(out, "Data: ");
+    text_html(out, "%s", wt_path_base(wt_provenance_get_input(provenance, 0)->path));
+    if (n > 1)
+        text_format(out, " and %zu more file%s", n - 1, n == 2 ? "" : "s");
 }
 
 void page_conditions(page_writer *page)
 {
     result_rows list;
+    text_buffer line = {0};
     if (!result_rows_of_findings(page->result, &list)) {
         result_rows_clear(&list);
         result_rows_compute(page->result, &list);
     }
-    const bool has_data = page->tables->inputs.n_rows > 0;
-    if (list.heading[0] != '\0' || has_data) {
-        text_add(&page->out, "<p class=\"conditions\">");
-        text_typographic(&page->out, list.heading);
-        if (has_data) {
-            text_html(&page->out,
-                      "%s<a href=\"#data\">Data</a>:", list.heading[0] != '\0' ? ". " : "");
-            add_data_line(page);
-        }
-        text_add(&page->out, "</p>\n");
-    }
+    text_typographic(&line, list.heading);
+    text_add(&line, line.length > 0 ? ". " : "");
+    if (page->tables->inputs.n_rows > 0) {
+        text_add(&line, "<a href=\"#data\">Data</a>:");
+        add_data_line(&line, page->tables);
+    } else
+        add_input_names(&line, wt_result_provenance_const(page->result));
+    if (line.length > 0)
+        text_format(&page->out, "<p class=\"conditions\">%s</p>\n", text_string(&line));
+    text_free(&line);
     result_rows_clear(&list);
 }
 
