@@ -123,6 +123,22 @@ static size_t count_warnings(const figure_tables *t, const char *role)
     return n;
 }
 
+/* Adds how many of the used curves of a group are not accepted without reserve. */
+static void add_reserves(text_buffer *out, const figure_tables *t, const char *role)
+{
+    size_t wide = 0, doubtful = 0;
+    for (size_t i = 0; i < t->n_indentation; i++) {
+        const table_view *const curves = &t->indentation[i];
+        for (size_t row = 0; row < curves->n_rows && strcmp(curves->suffix, role) == 0; row++) {
+            const int verdict = indentation_enum(curves, row, INDENTATION_VERDICT);
+            wide += verdict == WT_CURVE_WIDE;
+            doubtful += verdict == WT_CURVE_DOUBTFUL;
+        }
+    }
+    if (wide + doubtful > 0)
+        text_format(out, " (%zu wide, %zu doubtful)", wide, doubtful);
+}
+
 static bool write_group_use(text_buffer *out, const figure_tables *t, const char *role)
 {
     const table_view *const groups = &t->modulus_groups;
@@ -131,9 +147,9 @@ static bool write_group_use(text_buffer *out, const figure_tables *t, const char
             continue;
         const double spots = modulus_groups_get(groups, row, MODULUS_GROUPS_N_SPOTS),
                      rejected = modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED);
-        text_format(out, "%.0f curves on %.0f spot%s, %.0f rejected",
-                    modulus_groups_get(groups, row, MODULUS_GROUPS_N), spots, spots == 1 ? "" : "s",
-                    rejected);
+        text_format(out, "%.0f curves", modulus_groups_get(groups, row, MODULUS_GROUPS_N));
+        add_reserves(out, t, role);
+        text_format(out, " on %.0f spot%s, %.0f rejected", spots, spots == 1 ? "" : "s", rejected);
         return true;
     }
     return false;
@@ -209,10 +225,19 @@ static void write_data_used(page_writer *page)
              "<table>\n<caption class=\"hidden\">Input files by role</caption>\n<thead><tr><th "
              "scope=\"col\">Input</th><th scope=\"col\">Files</th><th "
              "scope=\"col\">Used</th><th scope=\"col\">Remarks</th></tr></thead>\n<tbody>\n");
+    size_t others = 0; /* warnings that name no file */
+    for (size_t i = 0; i < page->tables->notes.n_rows; i++)
+        others += notes_enum(&page->tables->notes, i, NOTES_SEVERITY) != WT_NOTE &&
+                  notes_text(&page->tables->notes, i, NOTES_FILE)[0] == '\0';
     for (size_t i = 0; i < inputs->n_rows; i++)
         if (is_first_of_role(inputs, i))
             write_role_row(page, i);
     text_add(&page->out, "</tbody>\n</table>\n");
+    if (others > 0)
+        text_format(&page->out,
+                    "<p><a class=\"warned\" href=\"#notes\">%zu warning%s of no single file</a></p>"
+                    "\n",
+                    others, others == 1 ? "" : "s");
 }
 
 /* ---- conditions ------------------------------------------------------------------------------ */
