@@ -111,6 +111,24 @@ static void write_card_warnings(page_writer *page, finding_question question)
     }
 }
 
+/* Links a card with its section, which exists for each number, and with its key figure. */
+static void write_card_links(page_writer *page, const finding *f)
+{
+    static const struct {
+        const char *section, *figure;
+    } links[FINDING_QUESTIONS] = {[FINDING_TRACK_DIFFERS] = {"indentation", "modulus_groups"},
+                                  [FINDING_LAYER_THICKNESS] = {"layer", "layer"},
+                                  [FINDING_FRICTION_CHANGE] = {"friction", "friction"}};
+    if (isnan(f->value.number.value))
+        return;
+    text_html(&page->out, "<p class=\"why\"><a href=\"#%s\">Why</a>", links[f->question].section);
+    for (size_t i = 0; i < page->n_figures; i++)
+        if (page->figures[i].svg.length > 0 &&
+            strcmp(page->figures[i].drawing.figure->name, links[f->question].figure) == 0)
+            text_html(&page->out, " <a href=\"#figure-%s\">Figure</a>", links[f->question].figure);
+    text_add(&page->out, "</p>\n");
+}
+
 static void write_card(page_writer *page, const finding *f)
 {
     static const char *const class[FINDING_VERDICT_UNKNOWN] = {[FINDING_YES] = "v-yes",
@@ -150,12 +168,7 @@ static void write_card(page_writer *page, const finding *f)
     write_card_warnings(page, f->question);
     if (value->range.widest != NULL)
         text_html(&page->out, "<p class=\"widest\">Widest choice: %s.</p>\n", value->range.widest);
-    /* A section of the page exists for each number. */
-    if (!isnan(value->number.value))
-        text_html(&page->out, "<p class=\"why\"><a href=\"#%s\">Why</a></p>\n",
-                  f->question == FINDING_TRACK_DIFFERS     ? "indentation"
-                  : f->question == FINDING_LAYER_THICKNESS ? "layer"
-                                                           : "friction");
+    write_card_links(page, f);
     text_add(&page->out, "</section>\n");
 }
 
@@ -215,8 +228,13 @@ void page_cards(page_writer *page)
     if (!findings_compute(&tables, findings) && !findings_are_stated(&page->tables->answer))
         return;
     text_add(&page->out, "<div class=\"findings\">\n");
+    /* an answer that is there comes before one that is not */
     for (size_t i = 0; i < FINDING_QUESTIONS; i++)
-        write_card(page, &findings[i]);
+        if (findings[i].verdict != FINDING_NOT_COMPUTED)
+            write_card(page, &findings[i]);
     write_validation_card(page);
+    for (size_t i = 0; i < FINDING_QUESTIONS; i++)
+        if (findings[i].verdict == FINDING_NOT_COMPUTED)
+            write_card(page, &findings[i]);
     text_add(&page->out, "</div>\n");
 }

@@ -12,6 +12,19 @@
 
 enum { CARDS = 4, PARTS = 5 }; /* on the first screen */
 
+/* Returns the name of a row as a heading. A name of a file is not changed. */
+typedef struct row_heading {
+    char text[sizeof((result_row *)0)->name];
+} row_heading;
+static row_heading heading_of(const result_row *row)
+{
+    row_heading heading;
+    (void)snprintf(heading.text, sizeof heading.text, "%s", row->name);
+    if (strpbrk(row->name, "./") == NULL && row->name[0] >= 'a' && row->name[0] <= 'z')
+        heading.text[0] = (char)(row->name[0] - 'a' + 'A');
+    return heading;
+}
+
 /* Returns the row after the parts of a row. */
 static size_t end_of_parts(const result_rows *list, size_t first)
 {
@@ -98,7 +111,7 @@ static void write_row_card(page_writer *page, const result_rows *list, size_t fi
 {
     const result_row *const row = &list->rows[first];
     const row_number_text number = row_number_format(&row->number);
-    text_html(&page->out, "<section class=\"finding\">\n<h2>%s</h2>\n", row->name);
+    text_html(&page->out, "<section class=\"finding\">\n<h2>%s</h2>\n", heading_of(row).text);
     if (row->kind == RESULT_ROW_TEXT) {
         text_add(&page->out, "<p class=\"verdict\"><strong>");
         text_typographic(&page->out, row->text);
@@ -147,7 +160,7 @@ static void write_row_table(page_writer *page, const result_rows *list, const bo
         any = true;
         const result_row *const row = &list->rows[i];
         const row_number_text number = row_number_format(&row->number);
-        text_html(&page->out, "<tr><th scope=\"row\">%s</th>", row->name);
+        text_html(&page->out, "<tr><th scope=\"row\">%s</th>", heading_of(row).text);
         write_cell(page, "Value", row->kind == RESULT_ROW_TEXT ? row->text : number.value);
         write_cell(page, "95 % interval", row->kind == RESULT_ROW_TEXT ? "" : number.interval);
         write_cell(page, "Note", row->note);

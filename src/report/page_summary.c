@@ -123,6 +123,22 @@ static size_t count_warnings(const figure_tables *t, const char *role)
     return n;
 }
 
+/* Adds how many of the used curves of a group are not accepted without reserve. */
+static void add_reserves(text_buffer *out, const figure_tables *t, const char *role)
+{
+    size_t wide = 0, doubtful = 0;
+    for (size_t i = 0; i < t->n_indentation; i++) {
+        const table_view *const curves = &t->indentation[i];
+        for (size_t row = 0; row < curves->n_rows && strcmp(curves->suffix, role) == 0; row++) {
+            const int verdict = indentation_enum(curves, row, INDENTATION_VERDICT);
+            wide += verdict == WT_CURVE_WIDE;
+            doubtful += verdict == WT_CURVE_DOUBTFUL;
+        }
+    }
+    if (wide + doubtful > 0)
+        text_format(out, " (%zu wide, %zu doubtful)", wide, doubtful);
+}
+
 static bool write_group_use(text_buffer *out, const figure_tables *t, const char *role)
 {
     const table_view *const groups = &t->modulus_groups;
@@ -131,9 +147,9 @@ static bool write_group_use(text_buffer *out, const figure_tables *t, const char
             continue;
         const double spots = modulus_groups_get(groups, row, MODULUS_GROUPS_N_SPOTS),
                      rejected = modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED);
-        text_format(out, "%.0f curves on %.0f spot%s, %.0f rejected",
-                    modulus_groups_get(groups, row, MODULUS_GROUPS_N), spots, spots == 1 ? "" : "s",
-                    rejected);
+        text_format(out, "%.0f curves", modulus_groups_get(groups, row, MODULUS_GROUPS_N));
+        add_reserves(out, t, role);
+        text_format(out, " on %.0f spot%s, %.0f rejected", spots, spots == 1 ? "" : "s", rejected);
         return true;
     }
     return false;
@@ -209,46 +225,66 @@ static void write_data_used(page_writer *page)
              "<table>\n<caption class=\"hidden\">Input files by role</caption>\n<thead><tr><th "
              "scope=\"col\">Input</th><th scope=\"col\">Files</th><th "
              "scope=\"col\">Used</th><th scope=\"col\">Remarks</th></tr></thead>\n<tbody>\n");
+    size_t others = 0; /* warnings that name no file */
+    for (size_t i = 0; i < page->tables->notes.n_rows; i++)
+        others += notes_enum(&page->tables->notes, i, NOTES_SEVERITY) != WT_NOTE &&
+                  notes_text(&page->tables->notes, i, NOTES_FILE)[0] == '\0';
     for (size_t i = 0; i < inputs->n_rows; i++)
         if (is_first_of_role(inputs, i))
             write_role_row(page, i);
     text_add(&page->out, "</tbody>\n</table>\n");
+    if (others > 0)
+        text_format(&page->out,
+                    "<p><a class=\"warned\" href=\"#notes\">%zu warning%s of no single file</a></p>"
+                    "\n",
+                    others, others == 1 ? "" : "s");
 }
 
 /* ---- conditions ------------------------------------------------------------------------------ */
 
 /* Adds "bulk: 48 curves on 4 spots, 0 rejected" for each role of the inputs. */
-static void add_data_line(page_writer *page)
+static void add_data_line(text_buffer *line, const figure_tables *t)
 {
-    const table_view *const inputs = &page->tables->inputs;
     const char *between = " ";
-    for (size_t i = 0; i < inputs->n_rows; i++)
-        if (is_first_of_role(inputs, i)) {
-            const char *const role = inputs_text(inputs, i, INPUTS_ROLE);
-            text_html(&page->out, "%s%s ", between, role);
-            write_use(&page->out, page->tables, role);
+    for (size_t i = 0; i < t->inputs.n_rows; i++)
+        if (is_first_of_role(&t->inputs, i)) {
+            const char *const role = inputs_text(&t->inputs, i, INPUTS_ROLE);
+            text_html(line, "%s%s ", between, role);
+            write_use(line, t, role);
             between = "; ";
         }
+}
+
+/* Adds "bulk-1.jpk-force-map and 3 more files" for a result without a table of the inputs. */
+static void add_input_names(text_buffer *out, const wt_provenance *provenance)
+{
+    const size_t n = provenance != NULL ? wt_provenance_n_inputs(provenance) : 0;
+    if (n == 0)
+        return;
+    text_add(out, "Data: ");
+    text_html(out, "%s", wt_path_base(wt_provenance_get_input(provenance, 0)->path));
+    if (n > 1)
+        text_format(out, " and %zu more file%s", n - 1, n == 2 ? "" : "s");
 }
 
 void page_conditions(page_writer *page)
 {
     result_rows list;
+    text_buffer line = {0};
     if (!result_rows_of_findings(page->result, &list)) {
         result_rows_clear(&list);
         result_rows_compute(page->result, &list);
     }
-    const bool has_data = page->tables->inputs.n_rows > 0;
-    if (list.heading[0] != '\0' || has_data) {
-        text_add(&page->out, "<p class=\"conditions\">");
-        text_typographic(&page->out, list.heading);
-        if (has_data) {
-            text_html(&page->out,
-                      "%s<a href=\"#data\">Data</a>:", list.heading[0] != '\0' ? ". " : "");
-            add_data_line(page);
-        }
-        text_add(&page->out, "</p>\n");
-    }
+    text_typographic(&line, list.heading);
+    text_add(&line, line.length > 0 ? ". " : "");
+    if (page->tables->inputs.n_rows > 0) {
+        text_add(&line, "<a href=\"#data\">Data</a>:");
+        add_data_line(&line, page->tables);
+    } else
+        add_input_names(&line, wt_result_provenance_const(page->result));
+    if (line.length > 0)
+        text_format(&page->out, "<p class=\"conditions\">%s</p>\n", text_string(&line));
+    text_free(&line);
     result_rows_clear(&list);
 }
 

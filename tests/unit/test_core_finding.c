@@ -78,6 +78,48 @@ static void test_verdicts(void **state)
     assert_string_equal(finding_verdict_text(FINDING_NOT_ENOUGH_DATA), "not enough data");
 }
 
+/* A table with one key. */
+static wt_table *table_of_key(const char *name, const char *key, double value, double error,
+                              const char *unit)
+{
+    wt_table *table = wt_table_new(name, name);
+    if (wt_table_set_estimate(table, key, (wt_estimate){value, error, 0, unit}, NULL) != WT_OK)
+        fail_msg("no key %s", key);
+    return table;
+}
+
+/* Without a layer the change of the friction is none and needs no interval; with one it does. */
+static void test_change_without_a_layer(void **state)
+{
+    (void)state;
+    static const struct {
+        double thickness, change;
+        finding_verdict verdict;
+        const char *sentence;
+    } cases[] = {{0, 0, FINDING_PREDICTED, "There is no layer that could change the friction."},
+                 {1e-6, -0.2, FINDING_NOT_ENOUGH_DATA, "The data do not allow a 95 % interval."}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const double none = (double)NAN;
+        wt_table *const layer = table_of_key("layer", "balance_thickness", cases[i].thickness, none,
+                                             "m"),
+                        *const friction = table_of_key("friction", "relative_change_at_reference",
+                                                       cases[i].change, none, "1");
+        const result_value_tables tables = {
+            .comparison = {.schema = &comparison_schema, .suffix = ""},
+            .what_if = {.schema = &what_if_schema, .suffix = ""},
+            .layer = {.table = layer, .schema = &layer_schema, .suffix = ""},
+            .friction = {.table = friction, .schema = &friction_schema, .suffix = ""}};
+        finding findings[FINDING_QUESTIONS];
+        assert_true(findings_compute(&tables, findings));
+        assert_int_equal(findings[FINDING_FRICTION_CHANGE].verdict, cases[i].verdict);
+        assert_string_equal(findings[FINDING_FRICTION_CHANGE].sentence, cases[i].sentence);
+        assert_int_equal(findings[FINDING_TRACK_DIFFERS].verdict, FINDING_NOT_COMPUTED);
+        assert_non_null(strstr(findings[FINDING_TRACK_DIFFERS].sentence, "weartrack compare"));
+        wt_table_free(layer);
+        wt_table_free(friction);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -85,6 +127,7 @@ int main(void)
         cmocka_unit_test(test_no_findings),
         cmocka_unit_test(test_former_answer),
         cmocka_unit_test(test_verdicts),
+        cmocka_unit_test(test_change_without_a_layer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,6 +6,7 @@
 #include "report/drawing.h"
 #include "report/report_text.h"
 #include "report/svg.h"
+#include "report/typography.h"
 
 #include <locale.h>
 #include <string.h>
@@ -101,6 +102,28 @@ static void test_escaping(void **state)
     assert_text(&text, "\"100 %%s'%%\"");
     text_comment(&text, "a\nb `c` \\");
     assert_text(&text, "# a b  c   \n");
+}
+
+/* Numbers and units in ASCII have the signs of the page; names and words stay. */
+static void test_typography(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        {"-2.88 degC to 104 degC", "−2.88 °C to 104 °C"},
+        {"3.02 um", "3.02 µm"},
+        {"8.89e-13 to 1.92e14 rad/s", "8.89×10⁻¹³ to 1.92×10¹⁴ rad/s"},
+        {"20.0 GJ/m^3, 1e-3 mm^3/(N m)", "20.0 GJ/m³, 1×10⁻³ mm³/(N m)"},
+        {">= 570 nm", "≥ 570 nm"},
+        {"(-5)", "(−5)"},
+        {"a-5, x^y, 10^5, 2e5x, 2e, um-1, umlaut", "a-5, x^y, 10^5, 2e5x, 2e, µm-1, umlaut"},
+        {"bulk-1.jpk-force-map <b> µ", "bulk-1.jpk-force-map &lt;b&gt; µ"},
+        {"-", "-"},
+        {"", ""}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        text_buffer text = {0};
+        text_typographic(&text, cases[i][0]);
+        assert_text(&text, cases[i][1]);
+    }
 }
 
 static void test_lab_units(void **state)
@@ -276,6 +299,7 @@ int main(void)
         cmocka_unit_test(test_numbers_do_not_follow_the_locale),
         cmocka_unit_test(test_literals),
         cmocka_unit_test(test_escaping),
+        cmocka_unit_test(test_typography),
         cmocka_unit_test(test_lab_units),
         cmocka_unit_test(test_svg_is_made_fit_for_a_page),
         cmocka_unit_test(test_svg_symbols_are_shared),

@@ -46,8 +46,14 @@ static const char *general_sentence(const finding *f)
         [FINDING_PREDICTED] = "At this thickness the layer forms as fast as it wears.",
         [FINDING_INCONCLUSIVE] = "The 95 % interval includes no difference.",
         [FINDING_NOT_ENOUGH_DATA] = "The data do not allow a 95 % interval.",
-        [FINDING_NOT_COMPUTED] =
-            "The result has no number for this answer. The reasons are below."};
+        [FINDING_NOT_COMPUTED] = ""};
+    static const char *const missing[FINDING_QUESTIONS] = {
+        [FINDING_TRACK_DIFFERS] = "This result does not compare moduli. Force curves of bulk and "
+                                  "track answer it: weartrack compare, or a case.",
+        [FINDING_LAYER_THICKNESS] = "This result has no layer. The wear rate and the critical "
+                                    "energy answer it: weartrack layer, or a case.",
+        [FINDING_FRICTION_CHANGE] = "This result has no friction with a layer. A shear stress and "
+                                    "a layer answer it: weartrack friction, or a case."};
     static const char *const decided[FINDING_QUESTIONS][2] = {
         [FINDING_TRACK_DIFFERS] = {"The wear track is softer than the bulk.",
                                    "The wear track is stiffer than the bulk."},
@@ -59,6 +65,8 @@ static const char *general_sentence(const finding *f)
         return "There is no layer: wear removes the rubber faster than it is modified.";
     if (f->question == FINDING_LAYER_THICKNESS && isinf(value))
         return "The layer has no steady state: it grows without limit.";
+    if (f->verdict == FINDING_NOT_COMPUTED && f->basis != FINDING_GIVEN)
+        return missing[f->question];
     if (f->question == FINDING_FRICTION_CHANGE && f->verdict == FINDING_PREDICTED)
         return "There is no layer that could change the friction.";
     if (f->basis == FINDING_GIVEN)

@@ -320,13 +320,14 @@ void rows_of_records(rows_source *s)
 static void add_collection(rows_source *s, const table_view *v)
 {
     for (size_t i = 0; i < v->n_rows; i++) {
+        const char *const condition = collection_text(v, i, COLLECTION_CONDITION);
         result_row *row =
             rows_add_number(s, 0,
                             rows_number(collection_get(v, i, COLLECTION_RATIO),
                                         collection_get(v, i, COLLECTION_RATIO_LOW),
                                         collection_get(v, i, COLLECTION_RATIO_HIGH), "1"),
-                            "%s, %s", collection_text(v, i, COLLECTION_SAMPLE),
-                            collection_text(v, i, COLLECTION_CONDITION));
+                            "%s%s%s", collection_text(v, i, COLLECTION_SAMPLE),
+                            condition[0] != '\0' ? ", " : "", condition);
         const char *differs = collection_text(v, i, COLLECTION_DIFFERS);
         rows_note(row, "track / bulk%s%.*s", *differs != '\0' ? "; differs: " : "",
                   (int)length_without_reason(differs), differs);
