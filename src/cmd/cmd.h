@@ -243,10 +243,17 @@ typedef struct cmd_sink {
     wt_atomic_file *file;
     FILE *stream;
     const char *name; /* for errors */
+    FILE *screen;     /* the same stream if it shows the first lines only, or NULL */
 } cmd_sink;
 wt_status cmd_sink_open(const char *output, cmd_sink *sink, wt_error *err);
 /* Closes the sink; after a failure no file appears. Returns the first failure. */
 wt_status cmd_sink_close(cmd_sink *sink, wt_status written, wt_error *err);
+
+/* True if standard output is a terminal, without -o and --verbose: long text shows its first lines
+ * there. */
+bool cmd_shows_first_lines(const cmd_session *s);
+/* Makes an open sink show the first lines of its text if cmd_shows_first_lines. */
+void cmd_show_first_lines(cmd_session *s, cmd_sink *sink);
 
 /* Writes the result to -o: HDF5 for a name that ends in .h5 or .hdf5, its first table for .csv, all
  * tables for .json, else a text stream; without -o or with "-" on standard output. */

@@ -65,7 +65,7 @@ static wt_status write_stream(FILE *out, const wt_result *result, bool with_prov
 wt_status cmd_sink_open(const char *output, cmd_sink *sink, wt_error *err)
 {
     const bool to_file = !cmd_is_standard_stream(output);
-    *sink = (cmd_sink){NULL, stdout, to_file ? output : "standard output"};
+    *sink = (cmd_sink){NULL, stdout, to_file ? output : "standard output", NULL};
     wt_status status = to_file ? wt_outfile_open(output, &sink->file, err) : WT_OK;
     if (sink->file != NULL)
         sink->stream = wt_outfile_stream(sink->file);
@@ -76,6 +76,9 @@ wt_status cmd_sink_close(cmd_sink *sink, wt_status written, wt_error *err)
 {
     wt_atomic_file *file = sink->file;
     sink->file = NULL;
+    if (sink->screen != NULL)
+        (void)fclose(sink->screen);
+    sink->screen = NULL;
     if (written != WT_OK)
         wt_outfile_discard(file);
     else if (file != NULL)
@@ -170,6 +173,8 @@ wt_status cmd_write_result(cmd_session *s)
     cmd_sink sink;
     wt_status status = cmd_sink_open(output, &sink, &s->err);
     const wt_export_form form = export_form_of_suffix(output, WT_EXPORT_STREAM);
+    if (status == WT_OK)
+        cmd_show_first_lines(s, &sink);
     if (status == WT_OK && form == WT_EXPORT_JSON)
         status = write_json_tables(sink.stream, s->result, &s->err);
     else if (status == WT_OK && form == WT_EXPORT_CSV)
