@@ -78,6 +78,9 @@ piece 'weartrack report draws it' '-o - to print them; --verbose has the reasons
 cause '(weartrack report draws it)' master --poisson-ratio 0.5 three.csv -o a.h5
 helps report a.h5 -o page-a.html
 not_advice 'more rows: --verbose' 'only in a terminal: tests/unit'
+no_input 'details: --verbose, or weartrack formats show NAME' 'only in a terminal: terminal.sh'
+no_input 'more files: --verbose' 'only in a terminal: terminal.sh'
+no_input 'stages; reasons: --verbose' 'only in a terminal: terminal.sh'
 advice='no such text'
 helps master --verbose --poisson-ratio 0.5 three.csv -o a.h5
 
