@@ -114,7 +114,6 @@ helps compare bulk.h5 track.h5
 piece '--sample goes with --master'
 cause '--sample goes with --master' indent --sample a --tip "$tip" --spring-constant 0.3N/m "$curve"
 helps indent --sample a --master samples.h5 --poisson-ratio 0.5 --tip "$tip" --spring-constant 0.3N/m "$curve" -o a.h5
-not_advice 'no curve has a modulus; the column verdict' 'begins with the name of the program'
 
 piece '--layer-thickness and --modulus-ratio (or a file of it) go together' 'give one of --modulus-ratio and --layer-comparison'
 cause 'go together' friction $slide --layer-thickness 1um
