@@ -243,13 +243,21 @@ typedef struct cmd_sink {
     wt_atomic_file *file;
     FILE *stream;
     const char *name; /* for errors */
+    FILE *screen;     /* the same stream if it shows the first lines only, or NULL */
 } cmd_sink;
 wt_status cmd_sink_open(const char *output, cmd_sink *sink, wt_error *err);
 /* Closes the sink; after a failure no file appears. Returns the first failure. */
 wt_status cmd_sink_close(cmd_sink *sink, wt_status written, wt_error *err);
 
+/* True if standard output is a terminal, without -o and --verbose: long text shows its first lines
+ * there. */
+bool cmd_shows_first_lines(const cmd_session *s);
+/* Makes an open sink show the first lines of its text if cmd_shows_first_lines. */
+void cmd_show_first_lines(cmd_session *s, cmd_sink *sink);
+
 /* Writes the result to -o: HDF5 for a name that ends in .h5 or .hdf5, its first table for .csv, all
- * tables for .json, else a text stream; without -o or with "-" on standard output. */
+ * tables for .json, else a text stream, which a program that skips comments can read for .tsv;
+ * without -o or with "-" on standard output. */
 wt_status cmd_write_result(cmd_session *s);
 /* True if the short table takes the place of the tables on standard output: it is a terminal, -o
  * was not given, and the result has rows for it. */

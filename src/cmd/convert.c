@@ -28,6 +28,8 @@ static wt_status write_converted_table(void *user, wt_table *table, wt_error *er
     const wt_provenance *provenance = wt_result_provenance_const(d->session->result);
     const bool is_first = d->sink.stream == NULL;
     wt_status status = is_first ? cmd_sink_open(common->output, &d->sink, err) : WT_OK;
+    if (is_first && status == WT_OK)
+        cmd_show_first_lines(d->session, &d->sink);
     if (status == WT_OK)
         status = wt_stream_write(d->sink.stream, table,
                                  is_first && common->provenance ? provenance : NULL, err);

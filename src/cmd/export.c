@@ -39,6 +39,8 @@ wt_status export_table(cmd_session *s, const cmd_option_group *part, const wt_ta
     }
     wt_status status = cmd_sink_open(s->common.output, &sink, &s->err);
     if (status == WT_OK)
+        cmd_show_first_lines(s, &sink);
+    if (status == WT_OK)
         status = wt_table_export(sink.stream, table, form,
                                  ((const export_options *)part->structure)->formulas, &s->err);
     return cmd_sink_close(&sink, status, &s->err);

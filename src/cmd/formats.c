@@ -3,16 +3,38 @@
 
 #include "cmd/cmd.h"
 
+static const struct {
+    unsigned bit;
+    const char *word;
+} kinds[] = {{WT_KIND_FORCE, "force curves"},  {WT_KIND_SWEEP, "DMA sweeps"},
+             {WT_KIND_IMAGE, "images"},        {WT_KIND_SPECTRUM, "spectra"},
+             {WT_KIND_NOISE, "thermal noise"}, {WT_KIND_RECORD, "records of friction"}};
+
+/* Lists the names of the formats by what they hold. */
+static void list_format_names(const wt_formats *formats, FILE *out)
+{
+    enum { NAMES_COLUMN = 21, GAP = 2 };
+    for (size_t k = 0; k < COUNT_OF(kinds); k++) {
+        int column = fprintf(out, "%-*s", NAMES_COLUMN, kinds[k].word);
+        for (size_t i = 0; i < wt_formats_count(formats); i++) {
+            const wt_format_info *f = wt_formats_get(formats, i);
+            if (!(f->kinds & kinds[k].bit))
+                continue;
+            const bool first = column == NAMES_COLUMN;
+            if (!first && column + GAP + (int)strlen(f->id) > CMD_SCREEN_WIDTH)
+                column = fprintf(out, "\n%*s%s", NAMES_COLUMN, "", f->id) - 1;
+            else
+                column += fprintf(out, "%*s%s", first ? 0 : GAP, "", f->id);
+        }
+        fputc('\n', out);
+    }
+    fputs("\ndetails: --verbose, or weartrack formats show NAME\n", out);
+}
+
 static void list_formats(const wt_formats *formats, FILE *out)
 {
     for (size_t i = 0; i < wt_formats_count(formats); i++) {
         const wt_format_info *f = wt_formats_get(formats, i);
-        static const struct {
-            unsigned bit;
-            const char *word;
-        } kinds[] = {{WT_KIND_FORCE, "force curves"},  {WT_KIND_SWEEP, "DMA sweeps"},
-                     {WT_KIND_IMAGE, "images"},        {WT_KIND_SPECTRUM, "spectra"},
-                     {WT_KIND_NOISE, "thermal noise"}, {WT_KIND_RECORD, "records of friction"}};
         char holds[80] = "";
         size_t used = 0;
         for (size_t k = 0; k < COUNT_OF(kinds); k++)
@@ -51,8 +73,12 @@ static void write_formats(cmd_session *s, const char *id)
     }
     cmd_sink sink;
     wt_status status = cmd_sink_open(s->common.output, &sink, &s->err);
+    if (status == WT_OK)
+        cmd_show_first_lines(s, &sink);
     if (status == WT_OK && id != NULL)
         show_format(s->formats, id, sink.stream);
+    else if (status == WT_OK && cmd_shows_first_lines(s))
+        list_format_names(s->formats, sink.stream);
     else if (status == WT_OK)
         list_formats(s->formats, sink.stream);
     if (cmd_sink_close(&sink, status, &s->err) != WT_OK)

@@ -71,8 +71,11 @@ int cmd_indent(int argc, char **argv)
     if (status == WT_OK)
         status = wt_modulus_budget_table(indentation, 1, &budget, &s.err);
     if (status == WT_OK && tables.n_accepted == 0) {
-        cmd_message("weartrack indent: no curve has a modulus; the column verdict says why\n");
-        /* An answer, with a table of the reasons, unless no curve could be read. */
+        /* An answer, with a table of the reasons, unless no curve could be read. As a loss it is in
+         * the file, so that summary has the same status. */
+        wt_log_add(s.log, WT_LOSS, NULL, NULL,
+                   "no curve has a modulus; the columns verdict and reason of the table "
+                   "indentation state the cause");
         cmd_set_partial(&s);
         if (wt_table_n_rows(s.work.failures) >= wt_table_n_rows(tables.indentation))
             s.status = CMD_FAILED;

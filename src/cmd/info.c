@@ -6,9 +6,25 @@
 #include "core/base/array.h"
 #include "core/table/registry.h"
 
-static void print_metadata(const char *name, const wt_table *metadata)
+/* What a terminal shows: rows of the only file, or files, one line each. */
+enum { ROWS_SHOWN = 12, FILES_SHOWN = 14 };
+
+/* Prints the name of one of several files with its format. */
+static void print_format(const char *name, const wt_table *metadata)
 {
-    enum { MAX_LABEL = 42 };
+    const char *format = "";
+    for (size_t row = 0; row < wt_table_n_rows(metadata) && *format == '\0'; row++)
+        if (strcmp(wt_table_text(metadata, row, FACTS_ITEM), "format") == 0)
+            format = wt_table_text(metadata, row, FACTS_VALUE);
+    printf("%s  %s\n", name, format);
+}
+
+/* Prints the first `limit` rows. If there are more, each takes one line. */
+static void print_metadata(const char *name, const wt_table *metadata, size_t limit)
+{
+    enum { MAX_LABEL = 42, DOTS = 3 };
+    size_t n_shown = 0;
+    const bool brief = limit < wt_table_n_rows(metadata);
     size_t width = 0;
     for (size_t row = 0; row < wt_table_n_rows(metadata); row++) {
         const char *label = wt_table_text(metadata, row, FACTS_ITEM);
@@ -22,24 +38,45 @@ static void print_metadata(const char *name, const wt_table *metadata)
         const char *v = wt_table_text(metadata, row, FACTS_VALUE);
         if (strcmp(label, "file") == 0 && strcmp(v, name) == 0)
             continue; /* the heading has it */
+        if (n_shown++ >= limit)
+            continue;
         char shown[1024], line[2048];
         format_metadata_value(v, wt_table_text(metadata, row, FACTS_UNIT), shown, sizeof shown);
         snprintf(line, sizeof line, *s != '\0' ? "%s  (%s)" : "%s%s", shown, s);
         const size_t w = cmd_text_width(label, strlen(label));
         printf("  %s%*s  ", label, w < width ? (int)(width - w) : 0, "");
-        cmd_wrap(stdout, 4 + (w > width ? w : width), width + 4, line);
+        const size_t column = 4 + (w > width ? w : width);
+        size_t length = strlen(line);
+        const bool cut = brief && column + cmd_text_width(line, length) > CMD_SCREEN_WIDTH;
+        while (cut && length > 0 && column + cmd_text_width(line, length) > CMD_SCREEN_WIDTH - DOTS)
+            length--;
+        snprintf(line + length, sizeof line - length, "%s", cut ? "..." : "");
+        cmd_wrap(stdout, column, width + 4, line);
     }
+    if (n_shown > limit)
+        printf("  and %zu more rows: --verbose\n", n_shown - limit);
+}
+
+static void print_file(const cmd_session *s, size_t i, const wt_table *metadata)
+{
+    const char *const path = s->files[i];
+    if (!cmd_shows_first_lines(s))
+        print_metadata(path, metadata, SIZE_MAX);
+    else if (s->n_files == 1)
+        print_metadata(path, metadata, ROWS_SHOWN);
+    else if (i < FILES_SHOWN)
+        print_format(path, metadata);
 }
 
 /* Prints one file; true if its format is known. */
-static bool print_file_info(cmd_session *s, const char *path, const wt_read_options *options,
+static bool print_file_info(cmd_session *s, size_t i, const wt_read_options *options,
                             file_kind *found)
 {
     wt_table *metadata = NULL;
     wt_log *log = wt_log_new();
-    const wt_status status = file_kind_detect(s, path, options, log, &metadata, found);
+    const wt_status status = file_kind_detect(s, s->files[i], options, log, &metadata, found);
     if (status == WT_OK)
-        print_metadata(path, metadata);
+        print_file(s, i, metadata);
     /* Notes are shown, too, as the user wants all remarks on the file. */
     cmd_print_log(s, log, true);
     if (status != WT_OK)
@@ -178,11 +215,13 @@ int cmd_info(int argc, char **argv)
     if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_begin_reading(&s, read.format))
         return cmd_session_free(&s);
     for (size_t i = 0; i < s.n_files; i++) {
-        if (i > 0)
+        if (i > 0 && !cmd_shows_first_lines(&s))
             putchar('\n');
-        n_known += print_file_info(&s, s.files[i], &read, &found);
+        n_known += print_file_info(&s, i, &read, &found);
         n_found += found.description[0] != '\0';
     }
+    if (s.n_files > FILES_SHOWN && cmd_shows_first_lines(&s))
+        printf("and %zu more files: --verbose\n", s.n_files - FILES_SHOWN);
     if (n_known == 0)
         s.status = CMD_FAILED;
     if (n_found == s.n_files)

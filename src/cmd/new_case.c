@@ -295,6 +295,7 @@ static wt_status write_new_case(new_case *c)
     cmd_sink sink;
     wt_status status = cmd_sink_open(c->s->common.output, &sink, err);
     if (status == WT_OK) {
+        cmd_show_first_lines(c->s, &sink);
         new_case_write(sink.stream, c);
         if (ferror(sink.stream))
             status = wt_fail(err, WT_E_IO, "cannot write: %s", strerror(errno));

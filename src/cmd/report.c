@@ -21,7 +21,7 @@ typedef struct report_outputs {
 static const wt_param report_output_rows[] = {
     {PARAM_FLAG_OF("methods", report_outputs, methods),
      .help = "write no page, but the text of a section on methods with the numbers of this result "
-             "and its references"},
+             "and its references; -o NAME.bib writes the references as BibTeX"},
     {PARAM_TEXT_OF("browse", report_outputs, browse), .value = "FILE.html", .unset = "",
      .flags = PARAM_WRITTEN,
      .help = "write one page to go through the force curves of the result, of weartrack indent "
@@ -83,6 +83,32 @@ static void print_methods(FILE *out, const wt_table *methods)
     }
 }
 
+/* Writes the references as BibTeX. The keys have the numbers of the text. */
+static void print_bibliography(FILE *out, const wt_table *methods)
+{
+    size_t last = 0;
+    for (size_t row = 0; row < wt_table_n_rows(methods); row++) {
+        const size_t number = reference_number(methods, row);
+        const char *const doi = cell(methods, row, "doi");
+        if (number <= last)
+            continue;
+        last = number;
+        fprintf(out, "@misc{reference%zu,\n  note = {", number);
+        for (const char *p = cell(methods, row, "reference"); *p != '\0'; p++)
+            fprintf(out, "%s%c", strchr("&%#_$", *p) != NULL ? "\\" : "", *p);
+        fputs("}", out);
+        if (doi[0] != '\0')
+            fprintf(out, ",\n  doi = {%s}", doi);
+        fputs("\n}\n", out);
+    }
+}
+
+static bool is_bibliography(const char *output)
+{
+    const char *const dot = output != NULL ? strrchr(output, '.') : NULL;
+    return dot != NULL && strcmp(dot, ".bib") == 0;
+}
+
 static wt_status write_methods(cmd_session *s)
 {
     wt_table *methods = NULL;
@@ -93,7 +119,10 @@ static wt_status write_methods(cmd_session *s)
         wt_error_file(&s->err, s->files[0]);
     }
     if (status == WT_OK && (status = cmd_sink_open(s->common.output, &sink, &s->err)) == WT_OK) {
-        print_methods(sink.stream, methods);
+        if (is_bibliography(s->common.output))
+            print_bibliography(sink.stream, methods);
+        else
+            print_methods(sink.stream, methods);
         status = cmd_sink_close(&sink, WT_OK, &s->err);
     }
     wt_table_free(methods);

@@ -15,6 +15,20 @@ static bool plan_runs_stage(const wt_table *plan)
     return false;
 }
 
+/* Prints the names of the stages that run, and the number of the others. */
+static void print_plan_briefly(const wt_table *plan)
+{
+    enum { LINES_SHOWN = CMD_SCREEN_LINES - 4 };
+    const size_t n = wt_table_n_rows(plan);
+    size_t n_run = 0;
+    for (size_t i = 0; i < n; i++)
+        if (wt_table_number(plan, i, PLAN_RUNS) > 0 && n_run++ < LINES_SHOWN)
+            printf("run     %s\n", wt_table_text(plan, i, PLAN_TITLE));
+    if (n_run > LINES_SHOWN)
+        printf("        and %zu more\n", n_run - LINES_SHOWN);
+    printf("leave   %zu stages; reasons: --verbose\n", n - n_run);
+}
+
 static void print_plan(const wt_table *plan)
 {
     enum { INDENT = 8 };
@@ -201,7 +215,10 @@ static wt_status run_whole_case(run_call *r, const cmd_option_group *report_give
     if (status == WT_OK)
         status = wt_plan(r->case_file, &r->plan, &r->s.err);
     if (status == WT_OK && r->call_flags.plan) {
-        print_plan(r->plan);
+        if (cmd_shows_first_lines(&r->s))
+            print_plan_briefly(r->plan);
+        else
+            print_plan(r->plan);
         return WT_OK;
     }
     if (status == WT_OK) {

@@ -181,7 +181,7 @@ static void report_spectrum_misfit(const wt_job *work, const flow_file *file, ca
         wt_log_add(work->log, WT_WARNING, file->name, NULL,
                    "the spectrum departs from an oscillator on a white floor more than its "
                    "scatter explains; another range of the fit (--fit-from, --fit-to) may "
-                   "help; no interval is told");
+                   "help; no interval is reported");
     }
     if (stated_averages > max_averages_ratio * l->fit.averages)
         append_cantilever_note(l, "scatters more than so many averages do");

@@ -167,8 +167,8 @@ static void note_decay(const wt_job *work, const record_row *r, char *note, size
             "step %zu ends before friction is steady: it still changes by about %.2g, and %s",
             r->step, -r->left,
             r->decay == DECAY_GOES_ON
-                ? "the friction told is the plateau of this decay"
-                : "to which value is not known; the mean of the last part is told");
+                ? "the reported friction is the plateau of this decay"
+                : "to which value is not known; the mean of the last part is reported");
 }
 
 /* Notes the limitations of a step. */

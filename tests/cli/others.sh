@@ -9,10 +9,20 @@ expect() { [ "$2" = "$3" ] || fail "$1: '$2' instead of '$3'"; }
 
 "$weartrack" master -q "$fixtures/case/dma.txt" -o m.h5
 "$weartrack" friction -q -m m.h5 --roughness self-affine:q0=500rad/m,q1=1e6rad/m,hurst=0.8,c0=6e-16m^4 \
-  -p 0.4MPa -v 1e-3:1m/s:log:4 --shear-stress 5MPa -o stream.tsv
+  -p 0.4MPa -v 1e-3:1m/s:log:4 --shear-stress 5MPa -o stream.txt
 "$weartrack" friction -q -m m.h5 --roughness self-affine:q0=500rad/m,q1=1e6rad/m,hurst=0.8,c0=6e-16m^4 \
   -p 0.4MPa -v 1e-3:1m/s:log:4 --shear-stress 5MPa -o result.h5
-"$weartrack" table stream.tsv friction -o t.tsv
+"$weartrack" table stream.txt friction -o t.tsv
+# A program that skips comments, such as pandas, finds the first table with its header line.
+"$weartrack" friction -q -m m.h5 --roughness self-affine:q0=500rad/m,q1=1e6rad/m,hurst=0.8,c0=6e-16m^4 \
+  -p 0.4MPa -v 1e-3:1m/s:log:4 --shear-stress 5MPa -o stream.tsv
+grep -v '^#' stream.tsv | grep . > first.tsv
+[ "$(wc -l < first.tsv)" = 5 ] || fail "not four rows: $(cat first.tsv)"
+awk -F '\t' 'NR == 1 { n = NF } NF != n || /#/ { exit 1 }' first.tsv || fail "cells: $(cat first.tsv)"
+head -n 1 first.tsv | grep -q '^velocity\[m/s\]	friction\[1\]' || fail "header: $(head -n 1 first.tsv)"
+"$weartrack" table stream.txt contact_area > blocks.tsv
+"$weartrack" table stream.tsv contact_area | cmp - blocks.tsv || fail "another table"
+"$weartrack" table stream.tsv --list | grep -q '^contact_area	.*	207	' || fail "other tables"
 
 # The order of the files changes no bit.
 c=$fixtures/case
@@ -31,22 +41,22 @@ done
 "$weartrack" master -q --no-provenance i0.csv i20.csv i40.csv > a.tsv
 "$weartrack" master -q --no-provenance i40.csv i0.csv i20.csv > b.tsv
 cmp a.tsv b.tsv || fail "master: another order, other numbers"
-"$weartrack" summary stream.tsv result.h5 | grep -v '^##' | sort > a.tsv
-"$weartrack" summary result.h5 stream.tsv | grep -v '^##' | sort > b.tsv
+"$weartrack" summary stream.txt result.h5 | grep -v '^##' | sort > a.tsv
+"$weartrack" summary result.h5 stream.txt | grep -v '^##' | sort > b.tsv
 cmp a.tsv b.tsv || fail "summary: another order, other rows"
-"$weartrack" table stream.tsv friction -o t.csv
-"$weartrack" table stream.tsv friction -o t.json
-"$weartrack" table stream.tsv contact_area -o blocks.tsv
+"$weartrack" table stream.txt friction -o t.csv
+"$weartrack" table stream.txt friction -o t.json
+"$weartrack" table stream.txt contact_area -o blocks.tsv
 
 # the stream as it is, as weartrack-stream(5) shows
-largest=$(awk -F'\t' '/^##$/ {exit} !/^#/ && NF && $2 > m {m = $2} END {printf "%.6g", m}' stream.tsv)
+largest=$(awk -F'\t' '/^##$/ {exit} !/^#/ && NF && $2 > m {m = $2} END {printf "%.6g", m}' stream.txt)
 expect "awk, table" "$(awk -F'\t' 'NR > 1 && $2 > m {m = $2} END {printf "%.6g", m}' t.tsv)" "$largest"
 expect "awk, one number of fields" "$(awk -F'\t' '{print NF}' t.tsv | sort -u | wc -l)" 1
 expect "awk, no comments" "$(grep -c '#' t.tsv || true)" 0
-for t in $("$weartrack" table --list stream.tsv | awk 'NR > 1 {print $1}'); do
-  "$weartrack" table stream.tsv "$t" --format stream
+for t in $("$weartrack" table --list stream.txt | awk 'NR > 1 {print $1}'); do
+  "$weartrack" table stream.txt "$t" --format stream
 done > again.tsv
-grep -v '^## \(weartrack\|command\|input\): ' stream.tsv | cmp - again.tsv || fail "split and joined it differs"
+grep -v '^## \(weartrack\|command\|input\): ' stream.txt | cmp - again.tsv || fail "split and joined it differs"
 
 # a folder that nobody may read is said, and those behind it in the alphabet are there
 if [ "$(id -u)" -eq 0 ] && ! command -v setpriv >/dev/null; then
@@ -75,7 +85,7 @@ fi
 if command -v gnuplot >/dev/null; then
   gnuplot -e 'set datafile separator "\t"; stats "t.tsv" using (column("friction")) nooutput; print sprintf("%.6g", STATS_max)' 2> g.txt
   expect "gnuplot, table" "$(cat g.txt)" "$largest"
-  gnuplot -e 'set datafile separator "\t"; stats "< awk \"/^##\$/ {exit} 1\" stream.tsv" using 2 nooutput; print sprintf("%.6g", STATS_max)' 2> g.txt
+  gnuplot -e 'set datafile separator "\t"; stats "< awk \"/^##\$/ {exit} 1\" stream.txt" using 2 nooutput; print sprintf("%.6g", STATS_max)' 2> g.txt
   expect "gnuplot, stream" "$(cat g.txt)" "$largest"
 else
   echo "no gnuplot: not tried"

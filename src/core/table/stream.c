@@ -346,18 +346,20 @@ static const char *find_long_name(const stream_reader *r, const char *name)
     return "";
 }
 
-/* Parses "# name[unit]<TAB>name[unit]". */
+/* Parses "# name[unit]<TAB>name[unit]", or the same without "# " in a table that has its name. */
 static wt_status read_stream_header(stream_reader *r, wt_error *err)
 {
-    static const char form[] = "a header line \"# name[unit]<TAB>name[unit]...\"";
-    if (r->length < 3 || r->line[0] != '#' || r->line[1] != ' ')
+    static const char form[] = "a header line \"# name[unit]<TAB>name[unit]...\", as "
+                               "`weartrack table --format stream` writes";
+    const bool marked = r->length >= 3 && r->line[0] == '#' && r->line[1] == ' ';
+    if (!marked && (!r->named || r->line[0] == '#'))
         return fail_corrupt_stream(r, 0, "the header line is missing", form, r->line, err);
     wt_status status = WT_OK;
     if (r->table == NULL)
         r->table = wt_table_new("table", "");
     size_t column = 0;
     char *next = NULL;
-    for (char *cell = r->line + 2; status == WT_OK && cell != NULL; cell = next) {
+    for (char *cell = r->line + (marked ? 2 : 0); status == WT_OK && cell != NULL; cell = next) {
         column++;
         next = split_cell(cell);
         const size_t length = strlen(cell);
@@ -432,6 +434,10 @@ wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error 
         else if (!header) {
             status = read_stream_header(&r, err);
             header = true;
+        } else if (r.line[0] == '#' && r.line[1] == '|') {
+            r.length -= 2;
+            memmove(r.line, r.line + 2, r.length + 1);
+            status = read_stream_row(&r, err);
         } else if (r.line[0] == '#')
             status =
                 fail_corrupt_stream(&r, 0, "a comment among the rows",

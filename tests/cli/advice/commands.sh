@@ -78,6 +78,9 @@ piece 'weartrack report draws it' '-o - to print them; --verbose has the reasons
 cause '(weartrack report draws it)' master --poisson-ratio 0.5 three.csv -o a.h5
 helps report a.h5 -o page-a.html
 not_advice 'more rows: --verbose' 'only in a terminal: tests/unit'
+no_input 'details: --verbose, or weartrack formats show NAME' 'only in a terminal: terminal.sh'
+no_input 'more files: --verbose' 'only in a terminal: terminal.sh'
+no_input 'stages; reasons: --verbose' 'only in a terminal: terminal.sh'
 advice='no such text'
 helps master --verbose --poisson-ratio 0.5 three.csv -o a.h5
 
@@ -111,7 +114,6 @@ helps compare bulk.h5 track.h5
 piece '--sample goes with --master'
 cause '--sample goes with --master' indent --sample a --tip "$tip" --spring-constant 0.3N/m "$curve"
 helps indent --sample a --master samples.h5 --poisson-ratio 0.5 --tip "$tip" --spring-constant 0.3N/m "$curve" -o a.h5
-not_advice 'no curve has a modulus; the column verdict' 'begins with the name of the program'
 
 piece '--layer-thickness and --modulus-ratio (or a file of it) go together' 'give one of --modulus-ratio and --layer-comparison'
 cause 'go together' friction $slide --layer-thickness 1um

@@ -4,6 +4,7 @@ sed 's/20,10,/20,9.9,/' samples.csv > more.csv
 piece 'choose one with --sample NAME; --sample all if they are of one material'
 cause '--sample NAME' compare samples.csv more.csv
 helps compare --sample a samples.csv more.csv --poisson-ratio 0.5
+not_advice 'the file names no sample and is one material' 'says that the option is not for this file'
 # a file or a result of one material without a name
 cause '--sample NAME' compare samples.csv unnamed.csv --poisson-ratio 0.5
 helps compare --sample a samples.csv unnamed.csv --poisson-ratio 0.5

@@ -151,3 +151,10 @@ helps indent --tip sphere:radius=5um --spring-constant 0.3N/m --sheet a curves.x
 piece 'a table of data begins with the names of its columns'
 cause '`weartrack formats list` shows what is known' master neither.xlsx -o a.h5
 helps formats list
+
+piece '`weartrack table --format stream` writes'
+"$weartrack" table bulk.h5 modulus_groups -o plain.tsv
+cause '--format stream' table plain.tsv
+helps table bulk.h5 modulus_groups --format stream -o marked.tsv
+helps table marked.tsv
+number modulus_groups n 12 0 marked.tsv

@@ -1,0 +1,79 @@
+#!/bin/sh
+# What a terminal shows: each subcommand prints at most 20 lines there. A pipe gets all of it, and so
+# does a terminal with --verbose (text) or -o - (tables). Usage: terminal.sh PROGRAM FIXTURES WORK
+# SPDX-License-Identifier: GPL-3.0-or-later
+set -eu
+program=$1 fixtures=$2 case=$2/case work=$3
+command -v script > /dev/null || { echo "no program script"; exit 0; }
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+failed=0
+fail() {
+  echo "FAIL $1" >&2
+  cat screen >&2
+  failed=1
+}
+lines() { wc -l < "$1"; }
+# terminal ARGUMENT...: makes the call on a terminal; the file screen gets its text without progress
+terminal() {
+  line="'$program'"
+  for word in "$@"; do line="$line '$word'"; done
+  script -qec "$line" /dev/null < /dev/null > typescript 2>&1 || :
+  tr -d '\r' < typescript | sed 's/.*'"$(printf '\033')"'\[K//' > screen
+}
+# short ARGUMENT...: at most 20 lines
+short() {
+  terminal "$@"
+  [ -s screen ] || fail "nothing printed: $*"
+  [ "$(lines screen)" -le 20 ] || fail "$(lines screen) lines: $*"
+}
+# long OPTION ARGUMENT...: a pipe gets more than 20 lines, and so does a terminal with the option
+long() {
+  option=$1
+  shift
+  short "$@"
+  "$program" "$@" > pipe 2> err < /dev/null || fail "exit status of $*"
+  [ "$(lines pipe)" -gt 20 ] || fail "$(lines pipe) lines in a pipe: $*"
+  # shellcheck disable=SC2086 # an option and its value
+  terminal "$@" $option
+  [ "$(lines screen)" -ge "$(lines pipe)" ] || fail "$(lines screen) lines with $option: $*"
+}
+tables() { long '-o -' "$@"; }
+text() { long --verbose "$@"; }
+
+fit="--tip pyramid:half-angle=20deg,radius=20nm --spring-constant 0.3N/m"
+slide="--material dma.h5 --roughness $case/road-1.gsf --pressure 0.4MPa --velocity 0.1m/s:1m/s:log:30"
+slide="$slide --sliding-temperature 30degC --shear-stress 5MPa"
+# Several words each.
+# shellcheck disable=SC2086
+{
+  short indent $fit "$case"/bulk-1.jpk-force-map "$case"/bulk-2.jpk-force-map -o bulk.h5
+  short indent $fit --group track "$case"/track-1.jpk-force-map "$case"/track-2.jpk-force-map -o track.h5
+  short master "$case/dma.txt" -o dma.h5
+  tables indent $fit "$case"/bulk-1.jpk-force-map
+  tables master "$case/dma.txt"
+  tables compare bulk.h5 track.h5
+  tables friction $slide
+  tables psd "$case/road-1.gsf"
+  tables ramp "$fixtures/dma/ramp_storage.csv"
+  tables record "$fixtures/record/steps.csv"
+  tables dwell $fit "$fixtures/dwell/modulation.tsv.gz"
+  tables sensitivity "$case"/bulk-1.jpk-force-map
+  tables layer $slide --specific-wear-rate '1e-3mm^3/(N m)' --critical-energy 2e10J/m^3
+}
+short run --no-report "$case/case.xml" -o case.h5
+text run --plan "$case/case.xml"
+tables table case.h5 friction
+tables table case.h5 --list
+text convert "$case"/bulk-1.jpk-force-map
+text info "$case"/bulk-1.jpk-force-map
+text info "$case"/bulk-1.jpk-force-map "$case"/bulk-2.jpk-force-map "$case"/dma.txt
+text formats list
+text formats show tidy
+text new-case "$case"
+short summary case.h5 dma.h5
+short report case.h5
+short info "$case"/missing.txt
+short indent $fit "$case/dma.txt"
+[ "$failed" = 0 ]
