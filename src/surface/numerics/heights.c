@@ -6,6 +6,7 @@
 #include "surface/numerics/surface_analysis.h"
 
 #include <float.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -359,10 +360,10 @@ typedef struct levels {
 
 static double robust_deviation(double *x, size_t n)
 {
-    const double middle = numbers_median(x, n);
+    const double middle = gsl_stats_median(x, 1, n);
     for (size_t i = 0; i < n; i++)
         x[i] = fabs(x[i] - middle);
-    return deviations_per_median * numbers_median(x, n);
+    return deviations_per_median * gsl_stats_median(x, 1, n);
 }
 
 /* `lines` lines of `points` heights; a step to the next line and to the next point of a line. */
@@ -379,14 +380,14 @@ static levels find_levels(const double *z, size_t lines, size_t points, size_t l
             if (!isnan(difference))
                 x[n++] = difference;
         }
-        to.shift[k] = n > 0 ? numbers_median(x, n) : 0;
+        to.shift[k] = n > 0 ? gsl_stats_median(x, 1, n) : 0;
         if (n > 0)
             spread[known++] = robust_deviation(x, n);
     }
     for (size_t k = 0; k < to.n; k++)
         x[k] = to.shift[k];
     to.deviation = robust_deviation(x, to.n);
-    to.difference = known > 0 ? numbers_median(spread, known) : 0;
+    to.difference = known > 0 ? gsl_stats_median(spread, 1, known) : 0;
     free(x);
     free(spread);
     return to;
