@@ -1,6 +1,5 @@
 /* Heights of a surface before the transform: statistics, missing heights and form.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/array.h"
 #include "core/base/memory.h"
 #include "core/math/cholesky.h"
 #include "surface/numerics/surface_analysis.h"
@@ -422,12 +421,15 @@ static bool stands_out(const double *z, size_t nx, size_t width, double sign, do
 static void mark_points(const double *z, size_t nx, size_t ny, double least, signed char *mark)
 {
     for (size_t j = 1; j + 1 < ny; j++)
-        for (size_t i = 0; i < nx; i++)
+        for (size_t i = 0; i < nx; i++) {
+            if (!(fabs(z[j * nx + i] - z[(j - 1) * nx + i]) > least))
+                continue; /* as most points: no width stands out */
             for (size_t width = 1; width <= WIDEST_SCAR && j + width < ny; width++)
                 for (int sign = -1; sign <= 1; sign += 2)
                     for (size_t k = 0;
                          k < width && stands_out(&z[j * nx + i], nx, width, sign, least); k++)
                         mark[(j + k) * nx + i] = (signed char)sign;
+        }
 }
 
 /* Keeps the marks of long runs and returns the number of runs. */
