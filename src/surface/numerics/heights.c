@@ -354,7 +354,8 @@ typedef struct levels {
     size_t n;          /* number of differences between lines */
     double *shift;     /* [n] median difference of line k + 1 and line k */
     double deviation;  /* robust standard deviation of `shift` */
-    double difference; /* robust standard deviation of single differences, less their shift */
+    double difference; /* robust standard deviation of single differences, less their shift; 0
+                          unless asked for */
 } levels;
 
 static double robust_deviation(double *x, size_t n)
@@ -366,7 +367,8 @@ static double robust_deviation(double *x, size_t n)
 }
 
 /* `lines` lines of `points` heights; a step to the next line and to the next point of a line. */
-static levels find_levels(const double *z, size_t lines, size_t points, size_t line, size_t point)
+static levels find_levels(const double *z, size_t lines, size_t points, size_t line, size_t point,
+                          bool with_difference)
 {
     double *const x = wt_alloc(lines + points, sizeof *x), *const spread =
                                                                wt_alloc(lines, sizeof *x);
@@ -380,7 +382,7 @@ static levels find_levels(const double *z, size_t lines, size_t points, size_t l
                 x[n++] = difference;
         }
         to.shift[k] = n > 0 ? gsl_stats_median(x, 1, n) : 0;
-        if (n > 0)
+        if (n > 0 && with_difference)
             spread[known++] = robust_deviation(x, n);
     }
     for (size_t k = 0; k < to.n; k++)
@@ -513,8 +515,8 @@ scan_line_faults surface_scan_lines(double *z, wt_height_map *map, bool mend)
     scan_line_faults found = {.scars = 0};
     if (map->nx < LEAST_LINES || map->ny < LEAST_LINES)
         return found;
-    const levels rows = find_levels(z, map->ny, map->nx, map->nx, 1),
-                 columns = find_levels(z, map->nx, map->ny, 1, map->nx);
+    const levels rows = find_levels(z, map->ny, map->nx, map->nx, 1, true),
+                 columns = find_levels(z, map->nx, map->ny, 1, map->nx, false);
     /* a longer step between rows has larger differences, at most in proportion */
     const double step = fmax(1, map->dy / map->dx);
     found.suspected = rows.deviation > least_ratio * step * columns.deviation;
