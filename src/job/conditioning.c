@@ -4,6 +4,7 @@
 #include "job/conditioning.h"
 #include "core/base/array.h"
 #include "core/base/memory.h"
+#include "core/math/splitmix64.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -265,6 +266,42 @@ static void subtract_zero(double *force, const double *load, size_t n, const cha
         "a zero of the friction force of %.4g N is seen in %zu samples before loading, and "
         "is subtracted",
         mean, count);
+}
+
+uint64_t flow_hash_samples(uint64_t before, const double *x, size_t n)
+{
+    uint64_t hash = before;
+    for (size_t i = 0; i < n; i++) {
+        uint64_t bits;
+        memcpy(&bits, &x[i], sizeof bits);
+        hash = splitmix64(hash ^ bits);
+    }
+    return hash;
+}
+
+wt_status flow_check_copy(flow_file *file, size_t i, uint64_t samples, const wt_job *work)
+{
+    file->samples = samples;
+    for (const flow_file *earlier = file - i;
+         earlier < file && file->set->read.conditioning == WT_CONDITIONING_MEND; earlier++) {
+        if (earlier->samples != samples || earlier->is_copy)
+            continue;
+        wt_log_action(work->log, WT_WARNING, WT_COPIED, 1, WT_KEEP_OPTION, file->name, NULL,
+                      "the same samples as %s: a copy, left out; both count as one measurement",
+                      earlier->name);
+        file->is_copy = true;
+        return WT_END;
+    }
+    return WT_OK;
+}
+
+uint64_t condition_hash_record(const wt_record *record)
+{
+    uint64_t hash = 0;
+    for (size_t c = 0; c < WT_RECORD_CHANNELS; c++)
+        if (record->channel[c] != NULL)
+            hash = flow_hash_samples(hash ^ c, record->channel[c], record->n);
+    return hash;
 }
 
 void condition_record(wt_record *record, const char *file, wt_log *log)

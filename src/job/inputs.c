@@ -487,6 +487,8 @@ wt_read_options flow_read_options(const flow_file *file)
 
 bool flow_skip_file(const wt_job *work, const flow_file *file, const wt_error *failure)
 {
+    if (file->is_copy)
+        return true;
     const bool unknown = failure->status == WT_E_FORMAT && file->format == NULL;
     if (!file->from_folder || !(unknown || failure->status == WT_E_EMPTY))
         return false;

@@ -24,6 +24,9 @@ typedef struct flow_file {
     bool from_folder;       /* found in a folder, not named itself */
     /* set by flow_open: */
     const wt_format_info *format;
+    /* set by flow_check_copy: */
+    uint64_t samples; /* hash; 0: not checked */
+    bool is_copy;
 } flow_file;
 
 typedef struct flow_files {

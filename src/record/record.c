@@ -461,7 +461,7 @@ static bool is_stored(const flow_file *file)
 }
 
 static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow_file *file,
-                              record_writers *w, wt_error *err)
+                              size_t i, record_writers *w, wt_error *err)
 {
     wt_input *input = NULL;
     wt_record record = {.n = 0};
@@ -472,10 +472,11 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
     if (status == WT_OK)
         status = wt_record_read(work->formats, input, &read, work->log, &record, err);
     wt_input_close(input);
-    const bool keep = read.conditioning == WT_CONDITIONING_KEEP;
+    if (status == WT_OK)
+        status = flow_check_copy(file, i, condition_hash_record(&record), work);
     const wt_estimate stated = job->track_radius, read_radius = {record.radius, 0, 0, "m"},
                       radius = isnan(stated.value) ? read_radius : stated;
-    if (status == WT_OK && !keep) {
+    if (status == WT_OK && read.conditioning == WT_CONDITIONING_MEND) {
         condition_record(&record, file->name, work->log);
         pauses = record_remove_pauses(&record);
     }
@@ -488,11 +489,10 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
         warn_difference(work, &cycles, file->name);
         check_friction_coefficient(cycles.cycle[cycles.n / 2].coefficient, file->name, work->log);
         warn_pauses(work, &pauses, file->name);
-        const size_t n = cycles.n_unloaded;
-        if (n > 0)
-            wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, n, keep ? NULL : WT_KEEP_OPTION,
-                          file->name, NULL, "%zu of %zu samples are at no load and left out", n,
-                          record.n);
+        if (cycles.n_unloaded > 0)
+            wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, cycles.n_unloaded, WT_KEEP_OPTION,
+                          file->name, NULL, "%zu of %zu samples are at no load and left out",
+                          cycles.n_unloaded, record.n);
         status = add_steps(job, work, &cycles, &pauses, file->name, w, err);
     }
     if (status == WT_OK && wear_is_requested(job))
@@ -516,9 +516,8 @@ typedef struct record_task {
 static wt_status process_file(void *user, flow_file *file, size_t i, wt_error *err)
 {
     const record_task *const task = user;
-    (void)i;
     return is_stored(file) ? read_stored_record(task->work, file, task->w, task->all, err)
-                           : measure_file(task->job, task->work, file, task->w, err);
+                           : measure_file(task->job, task->work, file, i, task->w, err);
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */

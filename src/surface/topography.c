@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/number.h"
 #include "core/base/param.h"
+#include "job/conditioning.h"
 #include "job/cost.h"
 #include "job/height_input.h"
 #include "surface/numerics/surface_analysis.h"
@@ -95,13 +96,19 @@ static void condition_scan(const wt_topography_job *job, const wt_job *work, con
             "again at 90 degrees to tell");
 }
 
-static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, size_t n_files,
-                              flow_file *file, surface_scan *to, wt_error *err)
+/* Measures file i of n. */
+static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, flow_file *file,
+                              size_t i, size_t n_files, surface_scan *to, wt_error *err)
 {
     wt_image image = {.values = NULL};
     wt_status status = flow_heights_read(file, job->image, true, "topography", work, &image, err);
-    if (status != WT_OK)
+    if (status == WT_OK)
+        status = flow_check_copy(
+            file, i, flow_hash_samples(0, image.values, image.n_columns * image.n_rows), work);
+    if (status != WT_OK) {
+        wt_image_clear(&image);
         return status;
+    }
     *to = (surface_scan){.name = file->name, .map = wt_image_height_map(&image)};
     snprintf(to->image, sizeof to->image, "%s", image.name);
     condition_scan(job, work, file->name, image.values, &to->map);
@@ -135,7 +142,7 @@ static wt_status measure_scans(const wt_topography_job *job, const wt_job *work,
     size_t n_failed = 0;
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
-        status = measure_scan(job, work, files->n, &files->file[i], &scans[*n], &failure);
+        status = measure_scan(job, work, &files->file[i], i, files->n, &scans[*n], &failure);
         if (status == WT_OK) {
             (*n)++;
         } else if (flow_skip_file(work, &files->file[i], &failure)) {

@@ -263,7 +263,7 @@ static void write_curve(const char *name, const char *head)
 enum { SIDE = 128 };
 
 /* A self-affine surface as a sum of waves with random phases; steps of 0.1 um. */
-static void write_map(const char *name, uint64_t seed, double offset, bool scars)
+static void write_map(const char *name, uint64_t seed, double offset, bool scars, const char *title)
 {
     enum { WAVES = 400 };
     static float z[SIDE][SIDE];
@@ -286,8 +286,8 @@ static void write_map(const char *name, uint64_t seed, double offset, bool scars
     }
     fprintf(out,
             "Gwyddion Simple Field 1.0\nXRes = %d\nYRes = %d\nXReal = 1.28e-5\nYReal = 1.28e-5\n"
-            "XYUnits = m\nZUnits = m\nTitle = Height\n",
-            SIDE, SIDE);
+            "XYUnits = m\nZUnits = m\nTitle = %s\n",
+            SIDE, SIDE, title);
     do
         fputc(0, out);
     while (ftell(out) % 4 != 0);
@@ -373,10 +373,11 @@ int main(int argc, char *argv[])
     write_curve("curve.txt", "# spring constant: 0.12 N/m\n");
     write_curve("curve-2.txt", "# spring constant: 0.12 N/m\n");
     write_curve("two-springs.txt", "# spring constant: 0.24 N/m\n# spring constant: 0.12 N/m\n");
-    write_map("map.gsf", 0, 0, false);
-    write_map("map-2.gsf", 0, 0, false);
-    write_map("offsets.gsf", 0, 4e-8, false);
-    write_map("scars.gsf", 0, 0, true);
+    write_map("map.gsf", 0, 0, false, "Height");
+    write_map("map-2.gsf", 0, 0, false, "Height");
+    write_map("titled.gsf", 0, 0, false, "Topography");
+    write_map("offsets.gsf", 0, 4e-8, false, "Height");
+    write_map("scars.gsf", 0, 0, true, "Height");
     write_matrix("whole.txt", 15, "\n");
     write_matrix("half.txt", 8, "\n");
     write_matrix("no-end.txt", 15, "");

@@ -120,8 +120,9 @@ static void test_wear_of_runs(void **state)
     FILE *in = fopen(RECORDS "disc.csv", "rb"), *out = fdopen(mkstemp(again), "wb");
     assert_true(in != NULL && out != NULL);
     const size_t n = fread(bytes, 1, sizeof bytes, in);
-    assert_true(n < sizeof bytes && fwrite(bytes, 1, n, out) == n);
-    assert_int_equal(fputc('\n', out), '\n'); /* the same bytes would count once */
+    assert_true(n > 2 && n < sizeof bytes && bytes[n - 2] == '6');
+    bytes[n - 2] = '7'; /* the last digit: the same samples would count once */
+    assert_true(fwrite(bytes, 1, n, out) == n);
     assert_int_equal(fclose(in), 0);
     assert_int_equal(fclose(out), 0);
     wt_record_job job = disc_job();

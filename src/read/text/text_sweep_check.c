@@ -107,6 +107,23 @@ static double ratio_of_frequency(const text_table *t, const sweep_columns *c, si
            (2 * M_PI * text_table_value(t, row, text_table_column(t, WT_Q_FREQUENCY, -1)));
 }
 
+static double ratio_of_phase(const text_table *t, const sweep_columns *c, size_t row)
+{
+    return tan(text_table_value(t, row, c->phase)) * text_table_value(t, row, c->storage) /
+           text_table_value(t, row, c->loss);
+}
+
+static double ratio_of_angles(const text_table *t, const sweep_columns *c, size_t row)
+{
+    return tan(text_table_value(t, row, c->phase)) / text_table_value(t, row, c->factor);
+}
+
+static double ratio_of_magnitude(const text_table *t, const sweep_columns *c, size_t row)
+{
+    return text_table_value(t, row, c->magnitude) /
+           hypot(text_table_value(t, row, c->storage), text_table_value(t, row, c->loss));
+}
+
 /* Median of the ratio over the rows. NaN without a row. */
 static double usual_ratio(const text_table *t, const sweep_columns *c, statement_ratio *ratio)
 {
@@ -131,26 +148,35 @@ static bool is_outside(double ratio, double factor)
  * each column by itself, which leaves a few percent of a loss factor. */
 static void warn_contradictions(const text_file *file, const text_table *t, wt_log *log)
 {
-    static const double same_factor = 1.2, same_frequency = 1.01;
     const sweep_columns c = sweep_find_columns(t, WT_DEFORMATION_FROM_FILE);
-    const line_position_text place = format_line_position(t->names_line);
-    if (c.storage != NULL && c.loss != NULL && c.factor != NULL) {
-        const double usual = usual_ratio(t, &c, ratio_of_loss_factor);
-        if (is_outside(usual, same_factor))
-            wt_log_action(
-                log, WT_WARNING, WT_CONTRADICTED, t->n_rows, "--columns", file->name, place.text,
-                "the loss factor is %.3g times E''/E' in most rows; the moduli are used", usual);
-    }
-    if (text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1) != NULL &&
-        text_table_column(t, WT_Q_FREQUENCY, -1) != NULL) {
-        const double usual = usual_ratio(t, &c, ratio_of_frequency);
-        if (is_outside(usual, same_frequency))
+    const bool moduli = c.storage != NULL && c.loss != NULL;
+    const struct {
+        bool is_stated; /* all columns of the ratio are there */
+        statement_ratio *ratio;
+        double same_factor;
+        const char *before, *behind; /* of the ratio in the message */
+    } statements[] = {
+        {moduli && c.factor != NULL, ratio_of_loss_factor, 1.2, "the loss factor is ",
+         " times E''/E' in most rows; the moduli are used"},
+        {moduli && c.phase != NULL, ratio_of_phase, 1.2, "the tangent of the phase angle is ",
+         " times E''/E' in most rows; the moduli are used"},
+        {!moduli && c.factor != NULL && c.phase != NULL, ratio_of_angles, 1.2,
+         "the tangent of the phase angle is ",
+         " times the loss factor in most rows; the loss factor is used"},
+        {moduli && c.magnitude != NULL, ratio_of_magnitude, 1.2, "the complex modulus is ",
+         " times the magnitude of E' and E'' in most rows; E' and E'' are used"},
+        {text_table_column(t, WT_Q_ANGULAR_FREQUENCY, -1) != NULL &&
+             text_table_column(t, WT_Q_FREQUENCY, -1) != NULL,
+         ratio_of_frequency, 1.01, "the angular frequency disagrees with the frequency: it is ",
+         " times 2 pi f in most rows; a unit of one of them is wrong, and the angular frequency is "
+         "used"},
+    };
+    for (size_t i = 0; i < COUNT_OF(statements); i++) {
+        const double usual = statements[i].is_stated ? usual_ratio(t, &c, statements[i].ratio) : 1;
+        if (is_outside(usual, statements[i].same_factor))
             wt_log_action(log, WT_WARNING, WT_CONTRADICTED, t->n_rows, "--columns", file->name,
-                          place.text,
-                          "the angular frequency disagrees with the frequency: it is %.3g times "
-                          "2 pi f in most rows; a unit of one of them is wrong, and the angular "
-                          "frequency is used",
-                          usual);
+                          format_line_position(t->names_line).text, "%s%.3g%s",
+                          statements[i].before, usual, statements[i].behind);
     }
 }
 

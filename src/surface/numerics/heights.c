@@ -1,11 +1,11 @@
 /* Heights of a surface before the transform: statistics, missing heights and form.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/array.h"
 #include "core/base/memory.h"
 #include "core/math/cholesky.h"
 #include "surface/numerics/surface_analysis.h"
 
 #include <float.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -354,19 +354,21 @@ typedef struct levels {
     size_t n;          /* number of differences between lines */
     double *shift;     /* [n] median difference of line k + 1 and line k */
     double deviation;  /* robust standard deviation of `shift` */
-    double difference; /* robust standard deviation of single differences, less their shift */
+    double difference; /* robust standard deviation of single differences, less their shift; 0
+                          unless asked for */
 } levels;
 
 static double robust_deviation(double *x, size_t n)
 {
-    const double middle = numbers_median(x, n);
+    const double middle = gsl_stats_median(x, 1, n);
     for (size_t i = 0; i < n; i++)
         x[i] = fabs(x[i] - middle);
-    return deviations_per_median * numbers_median(x, n);
+    return deviations_per_median * gsl_stats_median(x, 1, n);
 }
 
 /* `lines` lines of `points` heights; a step to the next line and to the next point of a line. */
-static levels find_levels(const double *z, size_t lines, size_t points, size_t line, size_t point)
+static levels find_levels(const double *z, size_t lines, size_t points, size_t line, size_t point,
+                          bool with_difference)
 {
     double *const x = wt_alloc(lines + points, sizeof *x), *const spread =
                                                                wt_alloc(lines, sizeof *x);
@@ -379,14 +381,14 @@ static levels find_levels(const double *z, size_t lines, size_t points, size_t l
             if (!isnan(difference))
                 x[n++] = difference;
         }
-        to.shift[k] = n > 0 ? numbers_median(x, n) : 0;
-        if (n > 0)
+        to.shift[k] = n > 0 ? gsl_stats_median(x, 1, n) : 0;
+        if (n > 0 && with_difference)
             spread[known++] = robust_deviation(x, n);
     }
     for (size_t k = 0; k < to.n; k++)
         x[k] = to.shift[k];
     to.deviation = robust_deviation(x, to.n);
-    to.difference = known > 0 ? numbers_median(spread, known) : 0;
+    to.difference = known > 0 ? gsl_stats_median(spread, 1, known) : 0;
     free(x);
     free(spread);
     return to;
@@ -421,12 +423,15 @@ static bool stands_out(const double *z, size_t nx, size_t width, double sign, do
 static void mark_points(const double *z, size_t nx, size_t ny, double least, signed char *mark)
 {
     for (size_t j = 1; j + 1 < ny; j++)
-        for (size_t i = 0; i < nx; i++)
+        for (size_t i = 0; i < nx; i++) {
+            if (!(fabs(z[j * nx + i] - z[(j - 1) * nx + i]) > least))
+                continue; /* as most points: no width stands out */
             for (size_t width = 1; width <= WIDEST_SCAR && j + width < ny; width++)
                 for (int sign = -1; sign <= 1; sign += 2)
                     for (size_t k = 0;
                          k < width && stands_out(&z[j * nx + i], nx, width, sign, least); k++)
                         mark[(j + k) * nx + i] = (signed char)sign;
+        }
 }
 
 /* Keeps the marks of long runs and returns the number of runs. */
@@ -510,8 +515,8 @@ scan_line_faults surface_scan_lines(double *z, wt_height_map *map, bool mend)
     scan_line_faults found = {.scars = 0};
     if (map->nx < LEAST_LINES || map->ny < LEAST_LINES)
         return found;
-    const levels rows = find_levels(z, map->ny, map->nx, map->nx, 1),
-                 columns = find_levels(z, map->nx, map->ny, 1, map->nx);
+    const levels rows = find_levels(z, map->ny, map->nx, map->nx, 1, true),
+                 columns = find_levels(z, map->nx, map->ny, 1, map->nx, false);
     /* a longer step between rows has larger differences, at most in proportion */
     const double step = fmax(1, map->dy / map->dx);
     found.suspected = rows.deviation > least_ratio * step * columns.deviation;
