@@ -3,7 +3,7 @@
 #include "core/base/number.h"
 #include "core/base/param.h"
 #include "job/cost.h"
-#include "job/height_input.h"
+#include "job/inputs.h"
 #include "surface/numerics/surface_analysis.h"
 #include "surface/surface.h"
 
