@@ -62,10 +62,6 @@ typedef struct wt_running_in {
     const char *reason;  /* "" or the reason why there is no end; static */
 } wt_running_in;
 WT_API wt_running_in wt_running_in_find(const double *y, size_t n);
-/* Other rules for the first point of the steady state: one step of the mean by least squares, at
- * least 2 % from either end; MSER-5 of White, Simulation 69 (1997) 323. */
-WT_API size_t wt_step_detect(const double *y, size_t n);
-WT_API size_t wt_mser_5(const double *y, size_t n);
 
 /* Mean and drift of a steady-state series with correlated scatter. The 95 % intervals are averaged
  * over the uncertainty of the correlation; the mean also over models with and without drift. */
@@ -127,8 +123,6 @@ WT_API double wt_ball_duty(double contact_radius, double track_radius, double as
 /* Rule for the end of the running-in. */
 typedef enum wt_running_in_rule {
     WT_RUNNING_IN_LIKELIHOOD, /* wt_running_in_find */
-    WT_RUNNING_IN_STEP,       /* wt_step_detect */
-    WT_RUNNING_IN_MSER,       /* wt_mser_5 */
     WT_RUNNING_IN_NONE        /* no running-in */
 } wt_running_in_rule;
 

@@ -10,7 +10,6 @@
 #include "core/table/table_rows.h"
 #include "indentation/numerics/height_image.h"
 #include "job/cost.h"
-#include "job/height_input.h"
 #include "job/inputs.h"
 #include "weartrack/indentation.h"
 

@@ -8,7 +8,6 @@
 #include "core/system/temporary.h"
 #include "core/table/table_rows.h"
 #include "job/cost.h"
-#include "job/height_input.h"
 
 #include <fcntl.h>
 #include <stdlib.h>

@@ -84,4 +84,10 @@ bool flow_may_continue(const wt_job *work, wt_status status);
 wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error *failure,
                            wt_error *err) WT_NODISCARD;
 
+/* Reads the first image with heights in metres over an area in metres, or a profile with
+ * `profiles`. Its name contains `name`, unless that is NULL. WT_E_NOT_FOUND without such an
+ * image. */
+wt_status flow_heights_read(flow_file *file, const char *name, bool profiles, const char *role,
+                            const wt_job *work, wt_image *image, wt_error *err) WT_NODISCARD;
+
 #endif

@@ -83,14 +83,7 @@ static running_in_end find_running_in_end(const wt_record_job *job, const double
         const wt_running_in found = wt_running_in_find(y, n);
         return (running_in_end){found.end, found.steady_start, found.reason};
     }
-    running_in_end end = {not_known, 0, "not looked for"};
-    if (job->running_in == WT_RUNNING_IN_STEP || job->running_in == WT_RUNNING_IN_MSER) {
-        end.steady_start =
-            job->running_in == WT_RUNNING_IN_STEP ? wt_step_detect(y, n) : wt_mser_5(y, n);
-        end.cycles.value = (double)end.steady_start;
-        end.why_not = "this rule tells no interval";
-    }
-    return end;
+    return (running_in_end){not_known, 0, "not looked for"};
 }
 
 static double cycle_middle(const wt_cycle *cycle, bool distance)

@@ -24,11 +24,9 @@ static const wt_param rows[] = {
     {PARAM_CHOICE_OF("average", wt_record_job, cycle, "auto|stroke|lap|time|sample"),
      .help = "what friction is averaged over before its scatter is judged: double strokes, laps or "
              "equal spans of time, or every sample by itself"},
-    {PARAM_CHOICE_OF("running-in", wt_record_job, running_in, "change|step|mser|none"),
-     .help =
-         "how the end of the running-in is found: by likelihood with an interval; as others do "
-         "without one, by one change of the mean (step) or by the least marginal standard error "
-         "(mser, MSER-5); none: all is steady"},
+    {PARAM_CHOICE_OF("running-in", wt_record_job, running_in, "change|none"),
+     .help = "how the end of the running-in is found: by likelihood with an interval; none: all is "
+             "steady"},
     {PARAM("load", wt_record_job, load, WT_Q_NORMAL_FORCE, ABOVE(0)), .value = "F",
      .unset = "that of the file",
      .help = "normal force where the record says none, such as \"5N +- 1%\""},

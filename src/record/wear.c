@@ -6,7 +6,7 @@
 #include "core/base/array.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
-#include "job/height_input.h"
+#include "job/inputs.h"
 #include "record/record.h"
 
 #include <math.h>

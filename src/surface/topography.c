@@ -4,7 +4,7 @@
 #include "core/base/param.h"
 #include "job/conditioning.h"
 #include "job/cost.h"
-#include "job/height_input.h"
+#include "job/inputs.h"
 #include "surface/numerics/surface_analysis.h"
 #include "surface/surface.h"
 

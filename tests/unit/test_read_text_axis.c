@@ -2,7 +2,7 @@
 #include "near.h"
 
 #include "core/base/array.h"
-#include "read/text/text_axis.h"
+#include "read/text/text.h"
 
 #include <math.h>
 

@@ -1,7 +1,6 @@
 /* Writes the table of the answers of a run: its findings, and why one is missing.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer.h"
-#include "case/answer/limits.h"
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"

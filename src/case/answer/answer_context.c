@@ -1,6 +1,6 @@
 /* Binds the tables of an answer. SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "case/answer/answer_context.h"
+#include "case/answer/answer.h"
 
 #include "core/base/array.h"
 

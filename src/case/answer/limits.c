@@ -1,6 +1,6 @@
 /* Finds the limits of a result in its tables. Each limit is one short sentence with its subject and
  * severity. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "case/answer/limits.h"
+#include "case/answer/answer.h"
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"

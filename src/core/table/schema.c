@@ -24,7 +24,7 @@ size_t length_without_reason(const char *cell)
 }
 
 /* True if a text of a list may end before this character. */
-static bool ends_text(char next)
+static bool is_end_of_text(char next)
 {
     return next == '\0' || strchr(" :;,(", next) != NULL;
 }
@@ -36,7 +36,7 @@ int closed_list_find(const closed_list *list, const char *cell)
     for (int i = 0; cell != NULL && i < list->n; i++) {
         const size_t length = strlen(list->texts[i]);
         if (length > longest && strncmp(cell, list->texts[i], length) == 0 &&
-            ends_text(cell[length])) {
+            is_end_of_text(cell[length])) {
             longest = length;
             found = i;
         }

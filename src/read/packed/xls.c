@@ -46,15 +46,15 @@ enum {
 };
 
 /* A text as a range of the pool. */
-typedef struct pool_text {
+typedef struct xls_text {
     size_t at, length;
-} pool_text;
+} xls_text;
 
 typedef struct xls_cell {
     size_t row, column, order; /* order: index of the record */
     bool is_text;
     double number;
-    pool_text text;
+    xls_text text;
 } xls_cell;
 
 typedef struct xls_book {
@@ -64,7 +64,7 @@ typedef struct xls_book {
     iconv_t narrow, wide;
     char *pool; /* UTF-8 */
     size_t pool_length, pool_reserved;
-    pool_text *shared; /* [n_shared] */
+    xls_text *shared; /* [n_shared] */
     size_t n_shared;
     size_t pool_shared; /* part of pool_length with the shared strings */
     xls_cell *cells;    /* cells of the current sheet */
@@ -180,9 +180,9 @@ static void pool_add(xls_book *book, iconv_t converter, const unsigned char *byt
 
 /* Reads n characters. Each continued record of BIFF8 states their width again. Returns false if
  * they are incomplete. */
-static bool read_characters(xls_book *book, biff_record *r, size_t n, bool wide, pool_text *text)
+static bool read_characters(xls_book *book, biff_record *r, size_t n, bool wide, xls_text *text)
 {
-    *text = (pool_text){.at = book->pool_length};
+    *text = (xls_text){.at = book->pool_length};
     while (n > 0) {
         const size_t width = wide ? 2 : 1, fit = bytes_left(r) / width, now = fit < n ? fit : n;
         if (now > 0)
@@ -204,7 +204,7 @@ static bool read_characters(xls_book *book, biff_record *r, size_t n, bool wide,
 
 /* Reads a text with its length (of `width` bytes) and, in BIFF8, its flags, as in cells and sheet
  * names. */
-static wt_status read_counted_text(xls_book *book, biff_record *r, size_t width, pool_text *text,
+static wt_status read_counted_text(xls_book *book, biff_record *r, size_t width, xls_text *text,
                                    wt_error *err)
 {
     uint32_t n = 0, flags = 0;
@@ -221,7 +221,7 @@ static wt_status read_shared_strings(xls_book *book, biff_record *r, wt_error *e
     bool good = read_uint(r, 4, &total) && read_uint(r, 4, &n);
     for (uint32_t i = 0; i < n && good; i++) {
         uint32_t length = 0, flags = 0, runs = 0, phonetic = 0;
-        pool_text text;
+        xls_text text;
         good = read_uint(r, 2, &length) && read_uint(r, 1, &flags) &&
                ((flags & 8) == 0 || read_uint(r, 2, &runs)) &&
                ((flags & 4) == 0 || read_uint(r, 4, &phonetic)) &&
@@ -427,7 +427,7 @@ static wt_status add_sheet(xls_book *book, biff_record *r, size_t max_length, wo
                            wt_error *err)
 {
     uint32_t place = 0, hidden = 0, kind = 0;
-    pool_text name;
+    xls_text name;
     if (!read_uint(r, 4, &place) || !read_uint(r, 1, &hidden) || !read_uint(r, 1, &kind))
         return fail_workbook("a sheet of the spreadsheet has no place in it", err);
     wt_status status = read_counted_text(book, r, 1, &name, err);

@@ -355,4 +355,18 @@ wt_status text_describe_converted(const file_reader *self, wt_input *input,
 wt_status text_build_sweep(const text_file *file, const wt_read_options *options, wt_log *log,
                            wt_sweep *sweep, wt_error *err);
 
+/* ---- text_image.c: axes of equal steps. */
+typedef struct text_axis {
+    double first, step; /* step > 0 */
+    size_t n;
+    double rounded; /* rounding of the positions; 0 if it has no effect */
+} text_axis;
+
+/* Finds the axis of increasing positions; `factor` is their unit. The last flag allows gaps.
+ * Returns false if the steps are not equal; *worst is the position that deviates most. */
+bool axis_find(const double *positions, size_t n, double factor, bool allows_gaps, text_axis *axis,
+               size_t *worst);
+/* Returns the index of a position, which must be one of those that define the axis. */
+size_t axis_index(const text_axis *axis, double position);
+
 #endif

@@ -1,5 +1,5 @@
-/* Orders the rows of a table whose isotherms do not stand together: rows in any order, or all
- * temperatures of one frequency after another.
+/* Separates the rows of temperature and strain sweeps, and orders the rows of isotherms that do not
+ * stand together: rows in any order, or all temperatures of one frequency after another.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,6 +10,288 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+/* ---- temperature sweeps ---------------------------------------------------------------------- */
+
+/* Minimum number of points and temperature range [K] of a temperature sweep. A reversal by more
+ * than `ramp_turn` [K] ends it. */
+enum { RAMP_POINTS_MIN = 5 };
+static const double least_span = 5, ramp_turn = 2;
+/* Minimum share of the temperature change that occurs within a cycle of frequencies. It is near 0
+ * for isotherms and above one half in a ramp. */
+static const double least_drift = 0.25;
+
+/* Adds a temperature sweep. With `turns` there was heating and cooling, and the source states the
+ * direction. */
+static void add_temperature_sweep(sweep_builder *b, const size_t *rows, size_t n, bool turns)
+{
+    static const char *const way[] = {" (heated)", " (cooled)"};
+    wt_ramp *ramp = wt_sweep_add_ramp(b->sweep, n, sweep_optional_arrays(&b->c));
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        ramp->temperature[i] = sweep_temperature(b, rows[i]);
+        ramp->storage_modulus[i] = sweep_storage_modulus(b, rows[i]);
+        ramp->loss_modulus[i] = sweep_loss_modulus(b, rows[i]);
+        if (ramp->strain != NULL)
+            ramp->strain[i] = text_table_value(b->table, rows[i], b->c.strain);
+        if (ramp->loss_factor != NULL)
+            ramp->loss_factor[i] = sweep_loss_factor(b, rows[i]);
+        sum += sweep_angular_frequency(b, rows[i]);
+    }
+    ramp->angular_frequency = sum / (double)n;
+    sweep_format_source(b, ramp->source, sizeof ramp->source - sizeof " (heated)");
+    if (turns)
+        strcat(ramp->source, way[ramp->temperature[0] > ramp->temperature[n - 1]]);
+}
+
+/* Returns the first row after which the temperature reverses, or n. */
+static size_t find_turning_point(const sweep_builder *b, const size_t *rows, size_t first, size_t n)
+{
+    size_t warmest = first, coldest = first;
+    for (size_t i = first + 1; i < n; i++) {
+        const double t = sweep_temperature(b, rows[i]);
+        const bool fell = sweep_temperature(b, rows[warmest]) - t > ramp_turn && warmest > coldest,
+                   rose = t - sweep_temperature(b, rows[coldest]) > ramp_turn && coldest > warmest;
+        if (fell || rose)
+            return (fell ? warmest : coldest) + 1;
+        if (t >= sweep_temperature(b, rows[warmest]))
+            warmest = i;
+        if (t <= sweep_temperature(b, rows[coldest]))
+            coldest = i;
+    }
+    return n;
+}
+
+static bool is_temperature_sweep(const sweep_builder *b, const size_t *rows, size_t n)
+{
+    return n >= RAMP_POINTS_MIN &&
+           fabs(sweep_temperature(b, rows[n - 1]) - sweep_temperature(b, rows[0])) >= least_span;
+}
+
+/* Adds the sweeps of rows of one frequency, split where the temperature reverses. True if there was
+ * a sweep. */
+static bool add_temperature_sweeps(sweep_builder *b, const size_t *all, size_t n_all)
+{
+    size_t *const rows = b->rows; /* `all` may be the same array */
+    size_t used = 0, n = 0;
+    for (size_t i = 0; i < n_all; i++)
+        if (sweep_temperature(b, all[i]) > 0)
+            rows[n++] = all[i];
+    for (size_t first = 0, end; first < n; first = end) {
+        end = find_turning_point(b, rows, first, n);
+        if (!is_temperature_sweep(b, rows + first, end - first))
+            continue;
+        add_temperature_sweep(b, rows + first, end - first, first > 0 || end < n);
+        used += end - first;
+    }
+    if (used > 0 && n < n_all)
+        wt_log_action(b->log, WT_WARNING, WT_LEFT_OUT, n_all - n, "--columns", b->file->name,
+                      format_line_position(b->table->names_line).text,
+                      "%zu points at %g rad/s without a temperature above absolute zero left out",
+                      n_all - n, sweep_angular_frequency(b, rows[0]));
+    if (used > 0 && used < n)
+        wt_log_add(b->log, WT_NOTE, b->file->name, format_line_position(b->table->names_line).text,
+                   "%zu points beside the temperature sweeps at %g rad/s left out", n - used,
+                   sweep_angular_frequency(b, rows[0]));
+    return used > 0;
+}
+
+/* Extracts the sweeps of consecutive rows with the same frequency. */
+static void extract_runs(sweep_builder *b, size_t *rows, size_t *n)
+{
+    size_t kept = 0;
+    for (size_t first = 0, end; first < *n; first = end) {
+        bool is_sweep = false;
+        for (end = first + 1; end < *n && sweep_direction(b, rows[first], rows[end]) == 0;)
+            end++;
+        if (end - first >= RAMP_POINTS_MIN)
+            is_sweep = add_temperature_sweeps(b, rows + first, end - first);
+        for (size_t i = first; i < end && !is_sweep; i++)
+            rows[kept++] = rows[i];
+    }
+    *n = kept;
+}
+
+/* Returns the temperature difference of two rows [K]; 0 if it is unknown. */
+static double temperature_step(const sweep_builder *b, size_t row, size_t other)
+{
+    const double kelvin = fabs(sweep_temperature(b, row) - sweep_temperature(b, other));
+    return isnan(kelvin) ? 0 : kelvin;
+}
+
+/* True if the temperature keeps changing during the cycles of frequencies. */
+static bool temperature_drifts(const sweep_builder *b, const size_t *rows, size_t n)
+{
+    double within = 0, between = 0;
+    size_t first = 0, turns = 1;
+    int direction = 0;
+    for (size_t i = 1; i < n; i++) {
+        const int way = sweep_direction(b, rows[i - 1], rows[i]);
+        if (way * direction >= 0) {
+            direction = way != 0 ? way : direction;
+            continue;
+        }
+        within += temperature_step(b, rows[i - 1], rows[first]);
+        between += temperature_step(b, rows[i], rows[first]);
+        first = i;
+        direction = 0;
+        turns++;
+    }
+    return turns >= RAMP_POINTS_MIN && between >= least_span && within > least_drift * between;
+}
+
+/* Extracts the sweeps of cycled frequencies, one for each frequency. `chosen` has space for n
+ * rows. */
+static void extract_interleaved(sweep_builder *b, size_t *rows, size_t *n, size_t *chosen)
+{
+    if (!temperature_drifts(b, rows, *n))
+        return;
+    while (*n > 0) {
+        const size_t like = rows[0];
+        size_t kept = 0, n_chosen = 0;
+        for (size_t i = 0; i < *n; i++) {
+            if (sweep_direction(b, like, rows[i]) == 0)
+                chosen[n_chosen++] = rows[i];
+            else
+                rows[kept++] = rows[i];
+        }
+        *n = kept;
+        if (!add_temperature_sweeps(b, chosen, n_chosen))
+            wt_log_add(b->log, WT_WARNING, b->file->name,
+                       format_line_position(b->table->names_line).text,
+                       "%zu points at %g rad/s make no temperature sweep and are left out",
+                       n_chosen, sweep_angular_frequency(b, like));
+    }
+}
+
+void extract_ramps(sweep_builder *b, size_t *rows, size_t *n)
+{
+    if (b->c.temperature == NULL)
+        return;
+    extract_runs(b, rows, n);
+    extract_interleaved(b, rows, n, b->rows);
+}
+
+/* ---- strain sweeps --------------------------------------------------------------------------- */
+
+/* Minimum number of points of a strain sweep, and minimum ratio of its amplitudes. A sweep ends
+ * where the amplitude reverses by more than the factor `strain_turn`. It must have moved before by
+ * more than `scatter`, the scatter of the first points. */
+enum { STRAIN_POINTS_MIN = 5 };
+static const double least_ratio = 3, strain_turn = 1.5, scatter = 1.1;
+/* Maximum temperature drift [K], less than the range of a temperature sweep. */
+static const double drift_max = 4;
+
+static double row_strain(const sweep_builder *b, size_t row)
+{
+    return text_table_value(b->table, row, b->c.strain);
+}
+
+/* True if the row continues the sweep. An unknown temperature counts as equal. */
+static bool is_same_sweep(const sweep_builder *b, size_t first, size_t last, size_t row)
+{
+    const double drift = fabs(sweep_temperature(b, row) - sweep_temperature(b, first)),
+                 jump = fabs(sweep_temperature(b, row) - sweep_temperature(b, last));
+    return b->table->blocks[row] == b->table->blocks[first] &&
+           sweep_direction(b, first, row) == 0 && row_strain(b, row) > 0 && !(drift > drift_max) &&
+           !(jump > b->file->description->temperature_jump);
+}
+
+/* Returns the end of the rows from `first` whose amplitude has one direction. */
+static size_t find_sweep_end(const sweep_builder *b, const size_t *rows, size_t first, size_t n)
+{
+    size_t largest = first, smallest = first, i = first + 1;
+    for (; i < n && is_same_sweep(b, rows[first], rows[i - 1], rows[i]); i++) {
+        const double strain = row_strain(b, rows[i]);
+        const double top = row_strain(b, rows[largest]), bottom = row_strain(b, rows[smallest]);
+        const bool has_direction = top > scatter * bottom,
+                   fell = has_direction && largest > smallest && top > strain_turn * strain,
+                   rose = has_direction && smallest > largest && strain > strain_turn * bottom;
+        if (fell || rose)
+            return (fell ? largest : smallest) + 1;
+        if (strain >= top)
+            largest = i;
+        if (strain <= bottom)
+            smallest = i;
+    }
+    return i;
+}
+
+static bool is_strain_sweep(const sweep_builder *b, const size_t *rows, size_t n)
+{
+    if (n < STRAIN_POINTS_MIN || !(row_strain(b, rows[0]) > 0))
+        return false;
+    const double ratio = row_strain(b, rows[n - 1]) / row_strain(b, rows[0]);
+    return fmax(ratio, 1 / ratio) >= least_ratio;
+}
+
+/* Sets the temperature of a strain sweep. It may be unknown, unless the table has a temperature
+ * column that cannot be read. */
+static wt_status set_sweep_temperature(const sweep_builder *b, double *temperature)
+{
+    double spread;
+    sweep_builder any = *b;
+    wt_read_options options = *b->options;
+    any.options = &options;
+    options.allow_missing_temperature =
+        options.allow_missing_temperature ||
+        text_table_problem(b->table, WT_Q_BIT(WT_Q_TEMPERATURE), NULL) == WT_OK;
+    return sweep_set_temperature(&any, temperature, &spread);
+}
+
+/* Adds a strain sweep. With `turns` adjacent rows have the same frequency and temperature, and the
+ * source states the direction. */
+static wt_status add_strain_sweep(sweep_builder *b, const size_t *rows, size_t n, bool turns)
+{
+    static const char *const direction_suffix[] = {" (rising strain)", " (falling strain)"};
+    wt_strain_sweep *s = wt_sweep_add_strain_sweep(b->sweep, n);
+    double sum = 0;
+    b->n = 0;
+    for (size_t i = 0; i < n; i++) {
+        s->strain[i] = row_strain(b, rows[i]);
+        s->storage_modulus[i] = sweep_storage_modulus(b, rows[i]);
+        s->loss_modulus[i] = sweep_loss_modulus(b, rows[i]);
+        sum += sweep_angular_frequency(b, rows[i]);
+        b->rows[b->n++] = rows[i];
+    }
+    s->angular_frequency = sum / (double)n;
+    sweep_format_source(b, s->source, sizeof s->source - sizeof " (falling strain)");
+    if (turns)
+        strcat(s->source, direction_suffix[s->strain[0] > s->strain[n - 1]]);
+    const wt_status status = set_sweep_temperature(b, &s->temperature);
+    b->n = 0;
+    return status;
+}
+
+static bool is_same_condition(const sweep_builder *b, const size_t *rows, size_t i, size_t k,
+                              size_t n)
+{
+    return i < n && k < n && is_same_sweep(b, rows[i], rows[i], rows[k]);
+}
+
+wt_status extract_strain_sweeps(sweep_builder *b, size_t *rows, size_t *n)
+{
+    size_t kept = 0;
+    wt_status status = WT_OK;
+    if (b->c.strain == NULL || !(b->c.has_storage || b->c.has_loss))
+        return WT_OK;
+    for (size_t first = 0, end; first < *n && status == WT_OK; first = end) {
+        end = find_sweep_end(b, rows, first, *n);
+        if (is_strain_sweep(b, rows + first, end - first)) {
+            const bool turns = (first > 0 && is_same_condition(b, rows, first - 1, first, *n)) ||
+                               is_same_condition(b, rows, end - 1, end, *n);
+            status = add_strain_sweep(b, rows + first, end - first, turns);
+            continue;
+        }
+        for (size_t i = first; i < end; i++)
+            rows[kept++] = rows[i];
+    }
+    *n = kept;
+    return status;
+}
+
+/* ---- isotherms that do not stand together ---------------------------------------------------- */
 
 /* Minimum number of rows, and minimum number of rows of an isotherm on average. */
 enum { ROWS_MIN = 9, POINTS_MIN = 3 };

@@ -69,16 +69,12 @@ wt_status sweep_check_temperatures(const text_file *file, const wt_read_options 
 void sweep_warn_shared_temperature(const text_file *file, const wt_read_options *options,
                                    const wt_sweep *sweep, wt_log *log);
 
-/* ---- text_order.c: collects the rows of isotherms that do not stand together. --------------- */
+/* ---- text_order.c: collects the rows of isotherms that do not stand together. Removes the rows of
+ * strain and temperature sweeps from `rows` and adds these sweeps. ----------------------------- */
 void collect_scattered_rows(sweep_builder *b, size_t *rows, size_t n);
 /* True if most rows have a frequency and temperature that another sample of the table has, too. */
 bool samples_repeat_grid(const sweep_builder *b);
-
-/* ---- text_strain.c: removes the rows of strain sweeps from `rows` and adds these sweeps. ----- */
 wt_status extract_strain_sweeps(sweep_builder *b, size_t *rows, size_t *n);
-
-/* ---- text_ramp.c: removes the rows of temperature sweeps from `rows` and adds these sweeps. ---
- */
 void extract_ramps(sweep_builder *b, size_t *rows, size_t *n);
 
 #endif
