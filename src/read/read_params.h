@@ -18,7 +18,7 @@
     {                                                                                              \
         PARAM("sensitivity", type, sensitivity, WT_Q_SENSITIVITY, ABOVE(0)),                       \
             .check = (test), .value = "S", .unset = "that of the files", .flags = (where),         \
-            .help = "deflection sensitivity (InvOLS), such as 60nm/V"                             \
+            .help = "deflection sensitivity (InvOLS), such as 60nm/V"                              \
     }
 
 #endif
