@@ -1,5 +1,4 @@
 /* Writes tables to files and standard output. SPDX-License-Identifier: GPL-3.0-or-later */
-#include <errno.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -53,62 +52,17 @@ char *cmd_default_name(const char *path, const char *ending)
     return name;
 }
 
-/* Copies the text of a table so that programs that skip comments find the first table only: its
- * header line is no comment, rows of the others are ("#|"). A '#' in a cell is escaped. */
-static void copy_as_tsv(FILE *out, const char *text, bool is_first)
-{
-    bool at_start = true, in_comment = false;
-    for (const char *p = text; *p != '\0'; p++) {
-        if (at_start) {
-            in_comment = *p == '#' && (!is_first || p[1] != ' ');
-            if (*p == '#' && !in_comment)
-                p += 2;
-            else if (*p != '#' && *p != '\n' && !is_first)
-                fputs("#|", out);
-            in_comment = in_comment || !is_first;
-        }
-        at_start = *p == '\n';
-        const bool is_mark = !in_comment && (*p == '#' || (*p == '\\' && p[1] == '#'));
-        if (is_mark && *p == '\\')
-            p++;
-        if (is_mark)
-            fputs("\\x23", out);
-        else
-            fputc(*p, out);
-    }
-}
-
-/* Writes a name that ends in .tsv. */
-static wt_status write_tsv(FILE *out, const wt_result *result, bool with_provenance, wt_error *err)
-{
-    const wt_provenance *provenance = with_provenance ? wt_result_provenance_const(result) : NULL;
-    wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < wt_result_n_tables(result); i++) {
-        char *text = NULL;
-        size_t size = 0;
-        FILE *const memory = open_memstream(&text, &size);
-        if (memory == NULL)
-            cmd_exit_without_memory(0);
-        status =
-            wt_stream_write(memory, wt_result_table(result, i), i == 0 ? provenance : NULL, err);
-        if (fclose(memory) != 0)
-            cmd_exit_without_memory(size);
-        if (status == WT_OK)
-            copy_as_tsv(out, text, i == 0);
-        free(text);
-    }
-    return status == WT_OK && ferror(out)
-               ? wt_fail(err, WT_E_IO, "cannot write: %s", strerror(errno))
-               : status;
-}
-
-static wt_status write_stream(FILE *out, const wt_result *result, bool with_provenance,
+static wt_status write_stream(FILE *out, const wt_result *result, bool as_tsv, bool with_provenance,
                               wt_error *err)
 {
     const wt_provenance *provenance = with_provenance ? wt_result_provenance_const(result) : NULL;
     wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < wt_result_n_tables(result); i++)
-        status = wt_stream_write(out, wt_result_table(result, i), i == 0 ? provenance : NULL, err);
+    for (size_t i = 0; status == WT_OK && i < wt_result_n_tables(result); i++) {
+        const wt_table *const table = wt_result_table(result, i);
+        const wt_provenance *const head = i == 0 ? provenance : NULL;
+        status = as_tsv ? wt_stream_write_tsv(out, table, head, i == 0, err)
+                        : wt_stream_write(out, table, head, err);
+    }
     return status;
 }
 
@@ -230,7 +184,7 @@ wt_status cmd_write_result(cmd_session *s)
     else if (status == WT_OK && form == WT_EXPORT_CSV)
         status = write_first_table(s, sink.stream);
     else if (status == WT_OK)
-        status = (output != NULL && ends_with(output, ".tsv") ? write_tsv : write_stream)(
-            sink.stream, s->result, s->common.provenance, &s->err);
+        status = write_stream(sink.stream, s->result, output != NULL && ends_with(output, ".tsv"),
+                              s->common.provenance, &s->err);
     return cmd_sink_close(&sink, status, &s->err);
 }

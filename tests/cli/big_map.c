@@ -90,7 +90,7 @@ typedef struct trial {
     void (*write)(size_t n, size_t samples); /* the map or the maps */
     size_t small, large, samples;
     const char *calls[MOST_CALLS][14];
-    const char *moduli[4];   /* that are those of moduli.tsv */
+    const char *moduli[4];   /* that are those of moduli.txt */
     const char *only_moduli; /* of one that has other files and numbers of curves, or NULL */
     const char *files[2][2]; /* byte for byte */
 } trial;
@@ -98,11 +98,11 @@ typedef struct trial {
 /* A file of one format in every direction. */
 #define ONE_FILE(map, n)                                                                           \
     .small = 1536, .large = 4096, .samples = (n),                                                  \
-    .calls = {{FIT, map, "-o", "moduli.tsv"},        {"info", map},                                \
+    .calls = {{FIT, map, "-o", "moduli.txt"},        {"info", map},                                \
               {CONVERT, map, "-o", "map.h5"},        {CONVERT, map, "-o", "map.tsv"},              \
-              {FIT, "map.h5", "-o", "h5.tsv"},       {FIT, "map.tsv", "-o", "text.tsv"},           \
-              {CONVERT, "map.tsv", "-o", "text.h5"}, {FIT, "text.h5", "-o", "text-h5.tsv"}},       \
-    .moduli = {"h5.tsv", "text.tsv", "text-h5.tsv"}
+              {FIT, "map.h5", "-o", "h5.txt"},       {FIT, "map.tsv", "-o", "text.txt"},           \
+              {CONVERT, "map.tsv", "-o", "text.h5"}, {FIT, "text.h5", "-o", "text-h5.txt"}},       \
+    .moduli = {"h5.txt", "text.txt", "text-h5.txt"}
 
 static const trial trials[] = {
     {.name = "files",
@@ -111,45 +111,45 @@ static const trial trials[] = {
      .large = 8192,
      .samples = 200,
      .calls = {{"info", MAP},
-               {INDENT, MAP, "-o", "moduli.tsv"},
+               {INDENT, MAP, "-o", "moduli.txt"},
                {CONVERT, MAP, "-o", "map.h5"},
                {"info", "map.h5"},
-               {INDENT, "map.h5", "-o", "h5.tsv"},
+               {INDENT, "map.h5", "-o", "h5.txt"},
                {CONVERT, "map.h5", "-o", "again.h5"},
                {INDENT, MAP, "-o", "rows.h5"}},
-     .moduli = {"h5.tsv"},
+     .moduli = {"h5.txt"},
      .files = {{"map.h5", "again.h5"}}},
     {.name = "text",
      .write = write_map,
      .small = 512,
      .large = 4096,
      .samples = 50,
-     .calls = {{INDENT, MAP, "-o", "moduli.tsv"},
+     .calls = {{INDENT, MAP, "-o", "moduli.txt"},
                {CONVERT, MAP, "-o", "map.tsv"},
                {"info", "map.tsv"},
-               {INDENT, "map.tsv", "-o", "text.tsv"},
+               {INDENT, "map.tsv", "-o", "text.txt"},
                {CONVERT, "map.tsv", "-o", "again.tsv"},
                {CONVERT, "-", "-o", "text.h5"},
-               {INDENT, "text.h5", "-o", "h5.tsv"},
+               {INDENT, "text.h5", "-o", "h5.txt"},
                {CONVERT, "text.h5", "-o", "back.tsv"},
                {CONVERT, MAP, "-o", "map.h5"},
                {CONVERT, "map.h5", "-o", "direct.tsv"}},
-     .moduli = {"text.tsv", "h5.tsv"},
+     .moduli = {"text.txt", "h5.txt"},
      .files = {{"again.tsv", "back.tsv"}, {"map.tsv", "direct.tsv"}}},
     {.name = "blocks",
      .write = write_blocks,
      .small = 1024,
      .large = 4096,
      .samples = 200,
-     .calls = {{INDENT, "map.spm", "-o", "moduli.tsv"},
+     .calls = {{INDENT, "map.spm", "-o", "moduli.txt"},
                {"info", "map.spm"},
                {CONVERT, "map.spm", "-o", "map.h5"},
-               {INDENT, "map.h5", "-o", "h5.tsv"},
-               {INDENT, "map.nid", "-o", "nid.tsv"},
+               {INDENT, "map.h5", "-o", "h5.txt"},
+               {INDENT, "map.nid", "-o", "nid.txt"},
                {"info", "map.nid"},
                {CONVERT, "map.nid", "-o", "nid.h5"},
-               {INDENT, "nid.h5", "-o", "nid-h5.tsv"}},
-     .moduli = {"h5.tsv"}},
+               {INDENT, "nid.h5", "-o", "nid-h5.txt"}},
+     .moduli = {"h5.txt"}},
     {.name = "lines", .write = write_lines, ONE_FILE("map.nid", 200)},
     {.name = "studio_1", .write = write_studio_1, ONE_FILE("map.nhf", 100)},
     {.name = "studio_2", .write = write_studio_2, ONE_FILE("map.nhf", 100)},
@@ -159,14 +159,14 @@ static const trial trials[] = {
      .small = 2048,
      .large = 8192,
      .samples = 200,
-     .calls = {{INDENT, "map.zip", "-o", "moduli.tsv"},
+     .calls = {{INDENT, "map.zip", "-o", "moduli.txt"},
                {"info", "map.zip"},
                {CONVERT, "map.zip", "-o", "map.h5"},
                {CONVERT, "map.zip", "-o", "map.tsv"},
-               {INDENT, "map.h5", "-o", "h5.tsv"},
-               {INDENT, "map.waves", "-o", "waves.tsv"}},
-     .moduli = {"h5.tsv"},
-     .only_moduli = "waves.tsv"},
+               {INDENT, "map.h5", "-o", "h5.txt"},
+               {INDENT, "map.waves", "-o", "waves.txt"}},
+     .moduli = {"h5.txt"},
+     .only_moduli = "waves.txt"},
 };
 enum { TRIALS = sizeof trials / sizeof *trials };
 
@@ -199,7 +199,7 @@ static size_t find_column(FILE *in, const char *name)
 static void compare(const char *name, bool only_moduli, size_t n)
 {
     static char a[4096], b[4096];
-    FILE *const x = fopen("moduli.tsv", "r"), *const y = fopen(name, "r");
+    FILE *const x = fopen("moduli.txt", "r"), *const y = fopen(name, "r");
     size_t same = 0;
     if (x == NULL || y == NULL)
         abort();

@@ -19,9 +19,18 @@ static const char raw[] = "\t\n\r\\#-", letters[] = "tnr\\#-";
 
 enum { ALWAYS_ESCAPED = 4 };
 
+/* Beginnings of the header line and of the rows of a table. */
+typedef struct stream_form {
+    const char *header, *row;
+    bool escapes_marks; /* "#" is escaped in each cell of a row */
+} stream_form;
+
+static const stream_form usual_form = {"# ", "", false}, first_of_tsv = {"", "", true},
+                         other_of_tsv = {"# ", "#|", false};
+
 /* Writes a text as one cell: "-" for an empty text, with escapes for control characters, bytes that
  * are not UTF-8, and a "#" or a single "-" at the start. */
-static void stream_write_text(FILE *out, const char *text)
+static void stream_write_text(FILE *out, const char *text, const stream_form *form)
 {
     const size_t length = strlen(text);
     if (length == 0) {
@@ -29,7 +38,7 @@ static void stream_write_text(FILE *out, const char *text)
         return;
     }
     /* A row must differ from a comment, and a hyphen from the empty text. */
-    if (text[0] == '#' || strcmp(text, "-") == 0)
+    if ((text[0] == '#' && !form->escapes_marks) || strcmp(text, "-") == 0)
         (void)putc('\\', out);
     size_t i = 0;
     while (i < length) {
@@ -40,7 +49,7 @@ static void stream_write_text(FILE *out, const char *text)
             (void)fwrite(text + i, 1, n, out);
         else if (escaped != NULL)
             (void)fprintf(out, "\\%c", letters[escaped - raw]);
-        else if (n == 0 || c < ' ' || c == 0x7F)
+        else if (n == 0 || c < ' ' || c == 0x7F || (c == '#' && form->escapes_marks))
             (void)fprintf(out, "\\x%02X", c);
         else
             (void)putc(c, out);
@@ -89,7 +98,7 @@ static bool stream_unescape(char *text, size_t length)
 static void write_key_line(FILE *out, const char *key, const char *text)
 {
     (void)fprintf(out, "## %s: ", key);
-    stream_write_text(out, text);
+    stream_write_text(out, text, &usual_form);
     (void)putc('\n', out);
 }
 
@@ -102,35 +111,35 @@ static void write_stream_provenance(FILE *out, const wt_provenance *provenance)
         const wt_provenance_input *const input = wt_provenance_get_input(provenance, i);
         /* The fields are separated by tabs, so that a path may contain blanks. */
         (void)fprintf(out, "## input: ");
-        stream_write_text(out, input->path);
+        stream_write_text(out, input->path, &usual_form);
         (void)putc('\t', out);
-        stream_write_text(out, input->role);
+        stream_write_text(out, input->role, &usual_form);
         (void)putc('\t', out);
-        stream_write_text(out, input->format);
+        stream_write_text(out, input->format, &usual_form);
         (void)fprintf(out, "\t%" PRIu64 "\t%s\n", input->bytes,
                       input->sha256[0] != '\0' ? input->sha256 : "-");
     }
 }
 
-static void write_stream_columns(FILE *out, const wt_table *table)
+static void write_stream_columns(FILE *out, const wt_table *table, const stream_form *form)
 {
     for (size_t i = 0; i < table->n_columns; i++) {
         const table_column *const column = &table->columns[i];
         if (column->long_name[0] != '\0') {
             (void)fprintf(out, "## column: %s\t", column->name);
-            stream_write_text(out, column->long_name);
+            stream_write_text(out, column->long_name, &usual_form);
             (void)putc('\n', out);
         }
     }
     for (size_t i = 0; i < table->n_columns; i++) {
         const table_column *const column = &table->columns[i];
-        (void)fprintf(out, "%s%s[%s]", i == 0 ? "# " : "\t", column->name,
+        (void)fprintf(out, "%s%s[%s]", i == 0 ? form->header : "\t", column->name,
                       column->kind == WT_COLUMN_TEXT ? STREAM_TEXT_UNIT : column->unit);
     }
     (void)putc('\n', out);
 }
 
-static void write_stream_rows(FILE *out, const wt_table *table)
+static void write_stream_rows(FILE *out, const wt_table *table, const stream_form *form)
 {
     size_t next_block = 1;
     for (size_t row = 0; row < table->n_rows; row++) {
@@ -139,10 +148,9 @@ static void write_stream_rows(FILE *out, const wt_table *table)
             next_block++;
         }
         for (size_t i = 0; i < table->n_columns; i++) {
-            if (i > 0)
-                (void)putc('\t', out);
+            (void)fputs(i == 0 ? form->row : "\t", out);
             if (table->columns[i].kind == WT_COLUMN_TEXT) {
-                stream_write_text(out, wt_table_text(table, row, i));
+                stream_write_text(out, wt_table_text(table, row, i), form);
             } else {
                 char number[32];
                 (void)wt_number_format(table->columns[i].numbers[row], number);
@@ -153,8 +161,8 @@ static void write_stream_rows(FILE *out, const wt_table *table)
     }
 }
 
-wt_status wt_stream_write(FILE *out, const wt_table *table, const wt_provenance *provenance,
-                          wt_error *err)
+static wt_status write_stream(FILE *out, const wt_table *table, const wt_provenance *provenance,
+                              const stream_form *form, wt_error *err)
 {
     if (!table_name_is_valid(table->name) || table->n_columns == 0) {
         return wt_fail(err, WT_E_ARG, "table \"%s\" has no columns or no valid name", table->name);
@@ -165,13 +173,25 @@ wt_status wt_stream_write(FILE *out, const wt_table *table, const wt_provenance 
     write_key_line(out, "title", table->title);
     for (size_t i = 0; i < table->n_keys; i++)
         write_key_line(out, table->keys[i].name, table->keys[i].text);
-    write_stream_columns(out, table);
-    write_stream_rows(out, table);
+    write_stream_columns(out, table, form);
+    write_stream_rows(out, table, form);
     /* The end of a table is marked, so that a truncated stream is detected. */
     (void)fputs("##\n", out);
     if (ferror(out))
         return wt_fail(err, WT_E_IO, "cannot write: %s", strerror(errno));
     return WT_OK;
+}
+
+wt_status wt_stream_write(FILE *out, const wt_table *table, const wt_provenance *provenance,
+                          wt_error *err)
+{
+    return write_stream(out, table, provenance, &usual_form, err);
+}
+
+wt_status wt_stream_write_tsv(FILE *out, const wt_table *table, const wt_provenance *provenance,
+                              bool is_first, wt_error *err)
+{
+    return write_stream(out, table, provenance, is_first ? &first_of_tsv : &other_of_tsv, err);
 }
 
 typedef struct stream_reader {

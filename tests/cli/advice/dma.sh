@@ -38,7 +38,7 @@ helps master "$relaxation" -o a.h5
     awk -v e=$e -v t=$t -v s=$s 'BEGIN { printf "%s,10,%s,%g,%g,%s\n", t, e, 5 + 5 / (1 + e), 1 + e / (1 + e * e), s }'
   done; done; done; } > payne.csv
 "$weartrack" payne -q payne.csv -o payne.h5 2> err
-piece '`weartrack payne FILE` tells how the rubber softens with strain' 'see `weartrack payne`'
+piece '`weartrack payne FILE` tells how the rubber softens with strain' 'see `weartrack payne`' 'weartrack payne'
 payne=payne.csv
 cause '`weartrack payne FILE`' master "$payne" -o a.h5
 helps payne "$payne" -o a.h5
