@@ -828,11 +828,6 @@ WT_API wt_status wt_provenance_table(const wt_provenance *provenance, const char
  * between blocks, and a final line `##`. provenance NULL = none (byte-stable output). */
 WT_API wt_status wt_stream_write(FILE *out, const wt_table *table, const wt_provenance *provenance,
                                  wt_error *err) WT_NODISCARD;
-/* Writes a table for programs that skip comments and read one table: the header line of the first
- * table is no comment, and the rows of the other tables are ("#|"). wt_stream_read reads both. */
-WT_API wt_status wt_stream_write_tsv(FILE *out, const wt_table *table,
-                                     const wt_provenance *provenance, bool is_first,
-                                     wt_error *err) WT_NODISCARD;
 /* Reads the next table of a stream; WT_END if there is none. Errors show `name` and count lines
  * from the start of the table. WT_E_CORRUPT if a table with a `## table:` line does not end in
  * `##`: the file is truncated. */

@@ -256,8 +256,7 @@ bool cmd_shows_first_lines(const cmd_session *s);
 void cmd_show_first_lines(cmd_session *s, cmd_sink *sink);
 
 /* Writes the result to -o: HDF5 for a name that ends in .h5 or .hdf5, its first table for .csv, all
- * tables for .json, else a text stream, which a program that skips comments can read for .tsv;
- * without -o or with "-" on standard output. */
+ * tables for .json, else a text stream; without -o or with "-" on standard output. */
 wt_status cmd_write_result(cmd_session *s);
 /* True if the short table takes the place of the tables on standard output: it is a terminal, -o
  * was not given, and the result has rows for it. */

@@ -52,17 +52,13 @@ char *cmd_default_name(const char *path, const char *ending)
     return name;
 }
 
-static wt_status write_stream(FILE *out, const wt_result *result, bool as_tsv, bool with_provenance,
+static wt_status write_stream(FILE *out, const wt_result *result, bool with_provenance,
                               wt_error *err)
 {
     const wt_provenance *provenance = with_provenance ? wt_result_provenance_const(result) : NULL;
     wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < wt_result_n_tables(result); i++) {
-        const wt_table *const table = wt_result_table(result, i);
-        const wt_provenance *const head = i == 0 ? provenance : NULL;
-        status = as_tsv ? wt_stream_write_tsv(out, table, head, i == 0, err)
-                        : wt_stream_write(out, table, head, err);
-    }
+    for (size_t i = 0; status == WT_OK && i < wt_result_n_tables(result); i++)
+        status = wt_stream_write(out, wt_result_table(result, i), i == 0 ? provenance : NULL, err);
     return status;
 }
 
@@ -184,7 +180,6 @@ wt_status cmd_write_result(cmd_session *s)
     else if (status == WT_OK && form == WT_EXPORT_CSV)
         status = write_first_table(s, sink.stream);
     else if (status == WT_OK)
-        status = write_stream(sink.stream, s->result, output != NULL && ends_with(output, ".tsv"),
-                              s->common.provenance, &s->err);
+        status = write_stream(sink.stream, s->result, s->common.provenance, &s->err);
     return cmd_sink_close(&sink, status, &s->err);
 }

@@ -13,16 +13,6 @@ expect() { [ "$2" = "$3" ] || fail "$1: '$2' instead of '$3'"; }
 "$weartrack" friction -q -m m.h5 --roughness self-affine:q0=500rad/m,q1=1e6rad/m,hurst=0.8,c0=6e-16m^4 \
   -p 0.4MPa -v 1e-3:1m/s:log:4 --shear-stress 5MPa -o result.h5
 "$weartrack" table stream.txt friction -o t.tsv
-# A program that skips comments, such as pandas, finds the first table with its header line.
-"$weartrack" friction -q -m m.h5 --roughness self-affine:q0=500rad/m,q1=1e6rad/m,hurst=0.8,c0=6e-16m^4 \
-  -p 0.4MPa -v 1e-3:1m/s:log:4 --shear-stress 5MPa -o stream.tsv
-grep -v '^#' stream.tsv | grep . > first.tsv
-[ "$(wc -l < first.tsv)" = 5 ] || fail "not four rows: $(cat first.tsv)"
-awk -F '\t' 'NR == 1 { n = NF } NF != n || /#/ { exit 1 }' first.tsv || fail "cells: $(cat first.tsv)"
-head -n 1 first.tsv | grep -q '^velocity\[m/s\]	friction\[1\]' || fail "header: $(head -n 1 first.tsv)"
-"$weartrack" table stream.txt contact_area > blocks.tsv
-"$weartrack" table stream.tsv contact_area | cmp - blocks.tsv || fail "another table"
-"$weartrack" table stream.tsv --list | grep -q '^contact_area	.*	207	' || fail "other tables"
 
 # The order of the files changes no bit.
 c=$fixtures/case

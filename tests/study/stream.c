@@ -56,10 +56,8 @@ stream *stream_read(const char *path)
         return NULL;
     }
     char *rest = s->text;
-    while (rest != NULL) {
-        char *line = strsep(&rest, "\n");
-        s->lines[s->n++] = line + (strncmp(line, "#|", 2) == 0 ? 2 : 0); /* a row of .tsv */
-    }
+    while (rest != NULL)
+        s->lines[s->n++] = strsep(&rest, "\n");
     return s;
 }
 
@@ -123,7 +121,7 @@ static int names_line(const stream *s, const char *table)
     int i = table_start(s, table);
     while (i >= 0 && i < s->n && after(s->lines[i], "## ") != NULL)
         i++;
-    return i >= 0 && i < s->n && after(s->lines[i], "##") == NULL ? i : -1;
+    return i >= 0 && i < s->n && after(s->lines[i], "# ") != NULL ? i : -1;
 }
 
 /* The line of a row; blank lines between rows are none. */
@@ -155,8 +153,7 @@ static const char *cell_at(const stream *s, const char *table, const char *colum
     if (line < 0)
         return NULL;
     const size_t length = strlen(column);
-    const char *marked = after(s->lines[names], "# "); /* the first table of .tsv has no mark */
-    const char *name = marked != NULL ? marked : s->lines[names], *cell = s->lines[line];
+    const char *name = s->lines[names] + 2, *cell = s->lines[line];
     while (strncmp(name, column, length) != 0 || name[length] != '[') {
         name = strchr(name, '\t');
         cell = strchr(cell, '\t');

@@ -112,39 +112,6 @@ static void round_trip(void **state)
     free(text);
 }
 
-/* A program that skips comments finds the first table with its header line, and no '#' in it. */
-static void tsv(void **state)
-{
-    (void)state;
-    enum { TABLES = 2 };
-    wt_table *const t = make_table();
-    char *text = NULL, *rest = NULL;
-    size_t size = 0, n = 0;
-    FILE *const out = open_memstream(&text, &size);
-    assert_non_null(out);
-    for (int i = 0; i < TABLES; i++)
-        assert_int_equal(wt_stream_write_tsv(out, t, NULL, i == 0, NULL), WT_OK);
-    assert_int_equal(fclose(out), 0);
-    FILE *const in = fmemopen(text, size, "r");
-    assert_non_null(in);
-    for (int i = 0; i < TABLES; i++) {
-        wt_table *again = NULL;
-        assert_int_equal(wt_stream_read(in, "test", &again, NULL), WT_OK);
-        assert_tables_equal(t, again);
-        wt_table_free(again);
-    }
-    assert_int_equal(fclose(in), 0);
-    for (char *line = strtok_r(text, "\n", &rest); line != NULL; line = strtok_r(NULL, "\n", &rest))
-        if (line[0] != '#') {
-            assert_null(strchr(line, '#'));
-            assert_true(n > 0 || strcmp(line, "file[text]\tmodulus[Pa]\tr_squared[1]") == 0);
-            n++;
-        }
-    assert_int_equal(n, 1 + wt_table_n_rows(t));
-    free(text);
-    wt_table_free(t);
-}
-
 static void exact_text(void **state)
 {
     (void)state;
@@ -373,15 +340,10 @@ static void foreign_locale(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(round_trip),
-        cmocka_unit_test(exact_text),
-        cmocka_unit_test(tsv),
-        cmocka_unit_test(several_tables),
-        cmocka_unit_test(by_hand),
-        cmocka_unit_test(refused),
-        cmocka_unit_test(any_cut_and_any_byte),
-        cmocka_unit_test(full_disk),
-        cmocka_unit_test(foreign_locale),
+        cmocka_unit_test(round_trip),     cmocka_unit_test(exact_text),
+        cmocka_unit_test(several_tables), cmocka_unit_test(by_hand),
+        cmocka_unit_test(refused),        cmocka_unit_test(any_cut_and_any_byte),
+        cmocka_unit_test(full_disk),      cmocka_unit_test(foreign_locale),
         cmocka_unit_test(no_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,18 +19,9 @@ static const char raw[] = "\t\n\r\\#-", letters[] = "tnr\\#-";
 
 enum { ALWAYS_ESCAPED = 4 };
 
-/* Beginnings of the header line and of the rows of a table. */
-typedef struct stream_form {
-    const char *header, *row;
-    bool escapes_marks; /* "#" is escaped in each cell of a row */
-} stream_form;
-
-static const stream_form usual_form = {"# ", "", false}, first_of_tsv = {"", "", true},
-                         other_of_tsv = {"# ", "#|", false};
-
 /* Writes a text as one cell: "-" for an empty text, with escapes for control characters, bytes that
  * are not UTF-8, and a "#" or a single "-" at the start. */
-static void stream_write_text(FILE *out, const char *text, const stream_form *form)
+static void stream_write_text(FILE *out, const char *text)
 {
     const size_t length = strlen(text);
     if (length == 0) {
@@ -38,7 +29,7 @@ static void stream_write_text(FILE *out, const char *text, const stream_form *fo
         return;
     }
     /* A row must differ from a comment, and a hyphen from the empty text. */
-    if ((text[0] == '#' && !form->escapes_marks) || strcmp(text, "-") == 0)
+    if (text[0] == '#' || strcmp(text, "-") == 0)
         (void)putc('\\', out);
     size_t i = 0;
     while (i < length) {
@@ -49,7 +40,7 @@ static void stream_write_text(FILE *out, const char *text, const stream_form *fo
             (void)fwrite(text + i, 1, n, out);
         else if (escaped != NULL)
             (void)fprintf(out, "\\%c", letters[escaped - raw]);
-        else if (n == 0 || c < ' ' || c == 0x7F || (c == '#' && form->escapes_marks))
+        else if (n == 0 || c < ' ' || c == 0x7F)
             (void)fprintf(out, "\\x%02X", c);
         else
             (void)putc(c, out);
@@ -98,7 +89,7 @@ static bool stream_unescape(char *text, size_t length)
 static void write_key_line(FILE *out, const char *key, const char *text)
 {
     (void)fprintf(out, "## %s: ", key);
-    stream_write_text(out, text, &usual_form);
+    stream_write_text(out, text);
     (void)putc('\n', out);
 }
 
@@ -111,35 +102,35 @@ static void write_stream_provenance(FILE *out, const wt_provenance *provenance)
         const wt_provenance_input *const input = wt_provenance_get_input(provenance, i);
         /* The fields are separated by tabs, so that a path may contain blanks. */
         (void)fprintf(out, "## input: ");
-        stream_write_text(out, input->path, &usual_form);
+        stream_write_text(out, input->path);
         (void)putc('\t', out);
-        stream_write_text(out, input->role, &usual_form);
+        stream_write_text(out, input->role);
         (void)putc('\t', out);
-        stream_write_text(out, input->format, &usual_form);
+        stream_write_text(out, input->format);
         (void)fprintf(out, "\t%" PRIu64 "\t%s\n", input->bytes,
                       input->sha256[0] != '\0' ? input->sha256 : "-");
     }
 }
 
-static void write_stream_columns(FILE *out, const wt_table *table, const stream_form *form)
+static void write_stream_columns(FILE *out, const wt_table *table)
 {
     for (size_t i = 0; i < table->n_columns; i++) {
         const table_column *const column = &table->columns[i];
         if (column->long_name[0] != '\0') {
             (void)fprintf(out, "## column: %s\t", column->name);
-            stream_write_text(out, column->long_name, &usual_form);
+            stream_write_text(out, column->long_name);
             (void)putc('\n', out);
         }
     }
     for (size_t i = 0; i < table->n_columns; i++) {
         const table_column *const column = &table->columns[i];
-        (void)fprintf(out, "%s%s[%s]", i == 0 ? form->header : "\t", column->name,
+        (void)fprintf(out, "%s%s[%s]", i == 0 ? "# " : "\t", column->name,
                       column->kind == WT_COLUMN_TEXT ? STREAM_TEXT_UNIT : column->unit);
     }
     (void)putc('\n', out);
 }
 
-static void write_stream_rows(FILE *out, const wt_table *table, const stream_form *form)
+static void write_stream_rows(FILE *out, const wt_table *table)
 {
     size_t next_block = 1;
     for (size_t row = 0; row < table->n_rows; row++) {
@@ -148,9 +139,10 @@ static void write_stream_rows(FILE *out, const wt_table *table, const stream_for
             next_block++;
         }
         for (size_t i = 0; i < table->n_columns; i++) {
-            (void)fputs(i == 0 ? form->row : "\t", out);
+            if (i > 0)
+                (void)putc('\t', out);
             if (table->columns[i].kind == WT_COLUMN_TEXT) {
-                stream_write_text(out, wt_table_text(table, row, i), form);
+                stream_write_text(out, wt_table_text(table, row, i));
             } else {
                 char number[32];
                 (void)wt_number_format(table->columns[i].numbers[row], number);
@@ -161,8 +153,8 @@ static void write_stream_rows(FILE *out, const wt_table *table, const stream_for
     }
 }
 
-static wt_status write_stream(FILE *out, const wt_table *table, const wt_provenance *provenance,
-                              const stream_form *form, wt_error *err)
+wt_status wt_stream_write(FILE *out, const wt_table *table, const wt_provenance *provenance,
+                          wt_error *err)
 {
     if (!table_name_is_valid(table->name) || table->n_columns == 0) {
         return wt_fail(err, WT_E_ARG, "table \"%s\" has no columns or no valid name", table->name);
@@ -173,25 +165,13 @@ static wt_status write_stream(FILE *out, const wt_table *table, const wt_provena
     write_key_line(out, "title", table->title);
     for (size_t i = 0; i < table->n_keys; i++)
         write_key_line(out, table->keys[i].name, table->keys[i].text);
-    write_stream_columns(out, table, form);
-    write_stream_rows(out, table, form);
+    write_stream_columns(out, table);
+    write_stream_rows(out, table);
     /* The end of a table is marked, so that a truncated stream is detected. */
     (void)fputs("##\n", out);
     if (ferror(out))
         return wt_fail(err, WT_E_IO, "cannot write: %s", strerror(errno));
     return WT_OK;
-}
-
-wt_status wt_stream_write(FILE *out, const wt_table *table, const wt_provenance *provenance,
-                          wt_error *err)
-{
-    return write_stream(out, table, provenance, &usual_form, err);
-}
-
-wt_status wt_stream_write_tsv(FILE *out, const wt_table *table, const wt_provenance *provenance,
-                              bool is_first, wt_error *err)
-{
-    return write_stream(out, table, provenance, is_first ? &first_of_tsv : &other_of_tsv, err);
 }
 
 typedef struct stream_reader {
@@ -366,20 +346,19 @@ static const char *find_long_name(const stream_reader *r, const char *name)
     return "";
 }
 
-/* Parses "# name[unit]<TAB>name[unit]", or the same without "# " in a table that has its name. */
+/* Parses "# name[unit]<TAB>name[unit]". */
 static wt_status read_stream_header(stream_reader *r, wt_error *err)
 {
     static const char form[] = "a header line \"# name[unit]<TAB>name[unit]...\", as "
                                "`weartrack table --format stream` writes";
-    const bool marked = r->length >= 3 && r->line[0] == '#' && r->line[1] == ' ';
-    if (!marked && (!r->named || r->line[0] == '#'))
+    if (r->length < 3 || r->line[0] != '#' || r->line[1] != ' ')
         return fail_corrupt_stream(r, 0, "the header line is missing", form, r->line, err);
     wt_status status = WT_OK;
     if (r->table == NULL)
         r->table = wt_table_new("table", "");
     size_t column = 0;
     char *next = NULL;
-    for (char *cell = r->line + (marked ? 2 : 0); status == WT_OK && cell != NULL; cell = next) {
+    for (char *cell = r->line + 2; status == WT_OK && cell != NULL; cell = next) {
         column++;
         next = split_cell(cell);
         const size_t length = strlen(cell);
@@ -454,10 +433,6 @@ wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error 
         else if (!header) {
             status = read_stream_header(&r, err);
             header = true;
-        } else if (r.line[0] == '#' && r.line[1] == '|') {
-            r.length -= 2;
-            memmove(r.line, r.line + 2, r.length + 1);
-            status = read_stream_row(&r, err);
         } else if (r.line[0] == '#')
             status =
                 fail_corrupt_stream(&r, 0, "a comment among the rows",
