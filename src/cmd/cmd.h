@@ -180,6 +180,8 @@ bool cmd_param_error(cmd_session *s);
 
 /* Returns the number of characters, not bytes, as labels have degree and micro signs. */
 size_t cmd_text_width(const char *text, size_t n);
+/* Returns the number of bytes of the whole characters that fit into `width`. */
+size_t cmd_text_fit(const char *text, size_t length, size_t width);
 /* Prints the text and a line feed; the line already has `column` characters. Long lines are wrapped
  * between words with an indent of `indent` blanks. */
 void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text);

@@ -13,6 +13,18 @@ static const wt_param rows[] = {
 };
 CMD_OPTIONS(indent_dma_params, indent_dma_options, rows)
 
+/* That no curve has a modulus is an answer, unless no curve could be read. As a loss it is in the
+ * file, so that summary has the same status. */
+static void report_no_modulus(cmd_session *s, const wt_table *indentation)
+{
+    wt_log_add(s->log, WT_LOSS, NULL, NULL,
+               "no curve has a modulus; the columns verdict and reason of the table indentation "
+               "state the cause");
+    cmd_set_partial(s);
+    if (wt_table_n_rows(s->work.failures) >= wt_table_n_rows(indentation))
+        s->status = CMD_FAILED;
+}
+
 int cmd_indent(int argc, char **argv)
 {
     static const cmd_usage usage = {
@@ -70,16 +82,8 @@ int cmd_indent(int argc, char **argv)
         status = wt_modulus_groups_table(indentation, 1, &groups, &s.err);
     if (status == WT_OK)
         status = wt_modulus_budget_table(indentation, 1, &budget, &s.err);
-    if (status == WT_OK && tables.n_accepted == 0) {
-        /* An answer, with a table of the reasons, unless no curve could be read. As a loss it is in
-         * the file, so that summary has the same status. */
-        wt_log_add(s.log, WT_LOSS, NULL, NULL,
-                   "no curve has a modulus; the columns verdict and reason of the table "
-                   "indentation state the cause");
-        cmd_set_partial(&s);
-        if (wt_table_n_rows(s.work.failures) >= wt_table_n_rows(tables.indentation))
-            s.status = CMD_FAILED;
-    }
+    if (status == WT_OK && tables.n_accepted == 0)
+        report_no_modulus(&s, tables.indentation);
     wt_table **const made_tables[] = {&tables.indentation,
                                       &groups,
                                       &budget,

@@ -46,11 +46,13 @@ static void print_metadata(const char *name, const wt_table *metadata, size_t li
         const size_t w = cmd_text_width(label, strlen(label));
         printf("  %s%*s  ", label, w < width ? (int)(width - w) : 0, "");
         const size_t column = 4 + (w > width ? w : width);
-        size_t length = strlen(line);
-        const bool cut = brief && column + cmd_text_width(line, length) > CMD_SCREEN_WIDTH;
-        while (cut && length > 0 && column + cmd_text_width(line, length) > CMD_SCREEN_WIDTH - DOTS)
-            length--;
-        snprintf(line + length, sizeof line - length, "%s", cut ? "..." : "");
+        const size_t length = strlen(line);
+        if (brief && column + cmd_text_width(line, length) > CMD_SCREEN_WIDTH) {
+            const size_t room =
+                column + DOTS < CMD_SCREEN_WIDTH ? CMD_SCREEN_WIDTH - DOTS - column : 0;
+            const size_t n = cmd_text_fit(line, length, room);
+            snprintf(line + n, sizeof line - n, "...");
+        }
         cmd_wrap(stdout, column, width + 4, line);
     }
     if (n_shown > limit)

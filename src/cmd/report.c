@@ -60,9 +60,32 @@ static size_t reference_number(const wt_table *methods, size_t row)
     return number;
 }
 
-static void print_methods(FILE *out, const wt_table *methods)
+/* Prints each reference once. The keys of BibTeX have the numbers of the text. */
+static void print_references(FILE *out, const wt_table *methods, bool as_bibtex)
 {
     size_t last = 0;
+    for (size_t row = 0; row < wt_table_n_rows(methods); row++) {
+        const size_t number = reference_number(methods, row);
+        const char *const reference = cell(methods, row, "reference"), *const doi = cell(
+                                                                           methods, row, "doi");
+        if (number <= last)
+            continue;
+        last = number;
+        if (!as_bibtex) {
+            fprintf(out, "[%zu] %s%s%s\n", number, reference,
+                    doi[0] != '\0' ? ". https://doi.org/" : "", doi);
+            continue;
+        }
+        fprintf(out, "@misc{reference%zu,\n  note = {", number);
+        for (const char *p = reference; *p != '\0'; p++)
+            fprintf(out, "%s%c", strchr("&%#_${}", *p) != NULL ? "\\" : "", *p);
+        fprintf(out, "}%s%s%s\n}\n", doi[0] != '\0' ? ",\n  doi = {" : "", doi,
+                doi[0] != '\0' ? "}" : "");
+    }
+}
+
+static void print_methods(FILE *out, const wt_table *methods)
+{
     for (size_t row = 0; row < wt_table_n_rows(methods); row++) {
         const char *const text = cell(methods, row, "text");
         const size_t number = reference_number(methods, row), length = strlen(text);
@@ -72,35 +95,7 @@ static void print_methods(FILE *out, const wt_table *methods)
             fprintf(out, "%s\n", text);
     }
     fprintf(out, "All was computed with weartrack %s.\n\nReferences\n", wt_version());
-    for (size_t row = 0; row < wt_table_n_rows(methods); row++) {
-        const size_t number = reference_number(methods, row);
-        const char *const doi = cell(methods, row, "doi");
-        if (number <= last)
-            continue;
-        last = number;
-        fprintf(out, "[%zu] %s%s%s\n", number, cell(methods, row, "reference"),
-                doi[0] != '\0' ? ". https://doi.org/" : "", doi);
-    }
-}
-
-/* Writes the references as BibTeX. The keys have the numbers of the text. */
-static void print_bibliography(FILE *out, const wt_table *methods)
-{
-    size_t last = 0;
-    for (size_t row = 0; row < wt_table_n_rows(methods); row++) {
-        const size_t number = reference_number(methods, row);
-        const char *const doi = cell(methods, row, "doi");
-        if (number <= last)
-            continue;
-        last = number;
-        fprintf(out, "@misc{reference%zu,\n  note = {", number);
-        for (const char *p = cell(methods, row, "reference"); *p != '\0'; p++)
-            fprintf(out, "%s%c", strchr("&%#_$", *p) != NULL ? "\\" : "", *p);
-        fputs("}", out);
-        if (doi[0] != '\0')
-            fprintf(out, ",\n  doi = {%s}", doi);
-        fputs("\n}\n", out);
-    }
+    print_references(out, methods, false);
 }
 
 static bool is_bibliography(const char *output)
@@ -120,7 +115,7 @@ static wt_status write_methods(cmd_session *s)
     }
     if (status == WT_OK && (status = cmd_sink_open(s->common.output, &sink, &s->err)) == WT_OK) {
         if (is_bibliography(s->common.output))
-            print_bibliography(sink.stream, methods);
+            print_references(sink.stream, methods, true);
         else
             print_methods(sink.stream, methods);
         status = cmd_sink_close(&sink, WT_OK, &s->err);

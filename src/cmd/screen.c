@@ -26,12 +26,10 @@ bool cmd_shows_first_lines(const cmd_session *s)
 static void end_line(screen_text *t)
 {
     enum { DOTS = 3 };
-    size_t length = t->used;
-    const bool cut = cmd_text_width(t->line, length) > CMD_SCREEN_WIDTH;
-    while (cut && cmd_text_width(t->line, length) > CMD_SCREEN_WIDTH - DOTS)
-        length--;
+    const bool cut = cmd_text_width(t->line, t->used) > CMD_SCREEN_WIDTH;
     if (t->n_lines < LINES_SHOWN) {
-        cmd_print_safely(stdout, t->line, length);
+        cmd_print_safely(stdout, t->line,
+                         cut ? cmd_text_fit(t->line, t->used, CMD_SCREEN_WIDTH - DOTS) : t->used);
         fputs(cut ? "...\n" : "\n", stdout);
         t->is_cut = t->is_cut || cut;
     }

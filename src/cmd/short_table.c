@@ -92,12 +92,10 @@ static void measure_columns(short_table *t, bool cut)
 /* Prints a cell, cut to its width; returns the number of characters. */
 static size_t print_cell(FILE *out, const char *text, size_t width)
 {
-    const size_t length = strlen(text), all = cmd_text_width(text, length);
-    size_t n = length, used = all;
-    if (all > width && width > 3) {
-        for (used = 0, n = 0; used + 3 < width || ((unsigned char)text[n] & 0xC0) == 0x80; n++)
-            used += ((unsigned char)text[n + 1] & 0xC0) != 0x80;
-    }
+    const size_t length = strlen(text);
+    const bool cut = width > 3 && cmd_text_width(text, length) > width;
+    const size_t n = cut ? cmd_text_fit(text, length, width - 3) : length;
+    size_t used = cmd_text_width(text, n);
     cmd_print_safely(out, text, n);
     if (n < length)
         used += (size_t)fprintf(out, "...");

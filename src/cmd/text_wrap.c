@@ -14,6 +14,17 @@ size_t cmd_text_width(const char *text, size_t n)
     return width;
 }
 
+size_t cmd_text_fit(const char *text, size_t length, size_t width)
+{
+    size_t n = 0;
+    for (size_t used = 0; n < length; n++) {
+        used += ((unsigned char)text[n] & 0xC0) != 0x80;
+        if (used > width)
+            break;
+    }
+    return n;
+}
+
 void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text)
 {
     bool begin = true; /* the line has no text yet */

@@ -9,7 +9,7 @@
 /* Hash of values that follow those of the hash `before`, 0 for none. */
 uint64_t flow_hash_samples(uint64_t before, const double *x, size_t n);
 /* Returns WT_END, with a warning, if file i of a list has the samples of one before it, under
- * another name or with other words around them: flow_skip_file is then true. */
+ * another name or with another header: flow_skip_file is then true. */
 wt_status flow_check_copy(flow_file *file, size_t i, uint64_t samples, const wt_job *work);
 /* Hash of all channels of a record. */
 uint64_t condition_hash_record(const wt_record *record);

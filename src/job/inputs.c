@@ -139,7 +139,7 @@ static void file_copies_remove(flow_files *files, const wt_job *work)
     const size_t n = files->n;
     file_identity *const file = wt_alloc(n, sizeof *file);
     size_t *const copy_of = wt_alloc(n, sizeof *copy_of);
-    for (size_t i = 0; i < n; i++) { /* a size of 0 is compared with none */
+    for (size_t i = 0; i < n; i++) { /* files of size 0 are not compared */
         copy_of[i] = i;
         const bool kept = files->file[i].set->read.conditioning == WT_CONDITIONING_KEEP;
         file[i] = (file_identity){i, kept ? 0 : size_of_file(files->file[i].path), 0};

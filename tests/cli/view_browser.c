@@ -379,10 +379,11 @@ static void test_saved_plot(void)
     (void)js("(() => { URL.createObjectURL = (blob) => { blob.text().then((text) => { "
              "const svg = new DOMParser().parseFromString(text, 'image/svg+xml').documentElement; "
              "document.documentElement.dataset.saved = [svg.localName, svg.getAttribute('width'), "
-             "svg.textContent.includes('velocity (m/s)'), text.includes('var(')].join(' '); }); "
+             "svg.textContent.includes('velocity (m/s)'), text.includes('#0b4f8a'), "
+             "text.includes('var(')].join(' '); }); "
              "return 'data:,'; }; "
              "document.querySelector('#sliding .saving button').click(); })()");
-    wait_for("document.documentElement.dataset.saved", "svg 85mm true false");
+    wait_for("document.documentElement.dataset.saved", "svg 85mm true true false");
 }
 
 /* A folder of data: the page writes a case, names what is missing, runs it and shows the answer. */

@@ -48,12 +48,12 @@ static const char *general_sentence(const finding *f)
         [FINDING_NOT_ENOUGH_DATA] = "The data do not allow a 95 % interval.",
         [FINDING_NOT_COMPUTED] = ""};
     static const char *const missing[FINDING_QUESTIONS] = {
-        [FINDING_TRACK_DIFFERS] = "This result does not compare moduli. Force curves of bulk and "
-                                  "track answer it: weartrack compare, or a case.",
-        [FINDING_LAYER_THICKNESS] = "This result has no layer. The wear rate and the critical "
-                                    "energy answer it: weartrack layer, or a case.",
-        [FINDING_FRICTION_CHANGE] = "This result has no friction with a layer. A shear stress and "
-                                    "a layer answer it: weartrack friction, or a case."};
+        [FINDING_TRACK_DIFFERS] = "This result does not compare moduli. Give force curves of bulk "
+                                  "and track to weartrack compare or to a case.",
+        [FINDING_LAYER_THICKNESS] = "This result has no layer. Give the wear rate and the critical "
+                                    "energy to weartrack layer or to a case.",
+        [FINDING_FRICTION_CHANGE] = "This result has no friction with a layer. Give a shear stress "
+                                    "and a layer to weartrack friction or to a case."};
     static const char *const decided[FINDING_QUESTIONS][2] = {
         [FINDING_TRACK_DIFFERS] = {"The wear track is softer than the bulk.",
                                    "The wear track is stiffer than the bulk."},

@@ -503,7 +503,7 @@ static int zener_residuals(const gsl_vector *p, void *user, gsl_vector *residual
     return GSL_SUCCESS;
 }
 
-/* Fits the constants from `start`. Returns the sum of squares; squares: that of each modulus. */
+/* Fits the constants from `start`. Returns the sum of `squares`, HUGE_VAL after a failure. */
 static double fit_zener(const wt_master *m, size_t n_residuals, gsl_vector *start,
                         double squares[2])
 {
@@ -515,13 +515,15 @@ static double fit_zener(const wt_master *m, size_t n_residuals, gsl_vector *star
         gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n_residuals, CONSTANTS);
     if (w == NULL)
         out_of_memory(n_residuals * sizeof(double));
-    int reason;
-    if (gsl_multifit_nlinear_init(start, &problem, w) == GSL_SUCCESS)
-        (void)gsl_multifit_nlinear_driver(ZENER_STEPS, zener_close, zener_close, 0, NULL, NULL,
-                                          &reason, w);
+    int reason, status = gsl_multifit_nlinear_init(start, &problem, w);
+    if (status == GSL_SUCCESS)
+        status = gsl_multifit_nlinear_driver(ZENER_STEPS, zener_close, zener_close, 0, NULL, NULL,
+                                             &reason, w);
+    /* Where the glass modulus is undetermined a fit may end without progress or by its steps. */
+    const bool usable = status == GSL_SUCCESS || status == GSL_ENOPROG || status == GSL_EMAXITER;
     gsl_vector_memcpy(start, w->x);
-    squares[0] = squares[1] = 0;
-    for (size_t i = 0; i < n_residuals; i++)
+    squares[0] = squares[1] = usable ? 0 : HUGE_VAL;
+    for (size_t i = 0; usable && i < n_residuals; i++)
         squares[i % 2] += pow(gsl_vector_get(w->f, i), 2);
     gsl_multifit_nlinear_free(w);
     return squares[0] + squares[1];

@@ -163,8 +163,7 @@ const Plot = (() => {
     host.append(p);
   };
   /* Saves the plot as a file of its own, with its legend, on white and in the colours of the light page. */
-  const light = {'--ink': '#1b1f24', '--soft': '#57606a', '--line': '#d4dae0', '--s0': '#0b4f8a',
-    '--s1': '#a5470a', '--s2': '#2b6e3f', '--s3': '#5a3794', '--s4': '#57606a', '--fit': '#b3123c'};
+  const light = (name) => document.styleSheets[0].cssRules[0].style.getPropertyValue(name).trim();
   const save = (host, o, millimetres) => {
     const copy = host.querySelector('svg').cloneNode(true), {width, height} = copy.viewBox.baseVal;
     const shown = o.series.filter((s) => s.name), rows = shown.length > 1 ? shown.length : 0;
@@ -181,7 +180,7 @@ const Plot = (() => {
     copy.prepend(node('style', {}, null, 'text{font:12px Helvetica,Arial,sans-serif;fill:var(--ink)}' +
       '.axis{stroke:var(--soft);fill:none}.grid{stroke:var(--line);fill:none}.marker line{stroke-width:2}'),
     node('rect', {width, height: all, fill: '#fff'}));
-    const text = new XMLSerializer().serializeToString(copy).replace(/var\((--\w+)\)/g, (_, name) => light[name]);
+    const text = new XMLSerializer().serializeToString(copy).replace(/var\((--\w+)\)/g, (_, name) => light(name));
     const link = document.createElement('a');
     link.href = URL.createObjectURL(new Blob([text], {type: 'image/svg+xml'}));
     link.download = (o.title || o.y.label).toLowerCase().replace(/[^a-z0-9]+/g, '-') + `-${millimetres}mm.svg`;
