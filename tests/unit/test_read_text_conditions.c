@@ -241,6 +241,28 @@ static void wide_by_rows(void **state)
                   "Hz,MPa,MPa,MPa,MPa,MPa,MPa\n");
 }
 
+/* A row of temperatures below the names states no units, not even for a column that has none. */
+static void temperatures_below_names(void **state)
+{
+    (void)state;
+    made_text t = {.n = 0};
+    add(&t, "f (Hz)");
+    for (size_t k = 0; k < N_T; k++)
+        add(&t, ",E' (MPa),tan delta");
+    add(&t, "\n");
+    for (size_t k = 0; k < N_T; k++)
+        add(&t, ",%g degC,%g degC", degrees[k], degrees[k]);
+    add(&t, "\n");
+    for (size_t i = 0; i < N_F; i++) {
+        add(&t, "%g", hertz[i]);
+        for (size_t k = 0; k < N_T; k++)
+            add(&t, ",%.10g,%.12g", storage(degrees[k], hertz[i]),
+                loss(degrees[k], hertz[i]) / storage(degrees[k], hertz[i]));
+        add(&t, "\n");
+    }
+    reads_isotherms(t.text);
+}
+
 static void frequencies_in_names(void **state)
 {
     (void)state;
@@ -479,6 +501,7 @@ int main(void)
                                        cmocka_unit_test(other_temperatures),
                                        cmocka_unit_test(wide_tables),
                                        cmocka_unit_test(wide_by_rows),
+                                       cmocka_unit_test(temperatures_below_names),
                                        cmocka_unit_test(frequencies_in_names),
                                        cmocka_unit_test(any_order),
                                        cmocka_unit_test(by_frequency),
