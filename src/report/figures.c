@@ -13,7 +13,6 @@ typedef struct figure_list {
 
 static const figure_list lists[] = {{figures_indentation, SECTION_INDENTATION},
                                     {figures_surface, SECTION_SURFACE},
-                                    {figures_materials, SECTION_MATERIAL},
                                     {figures_master, SECTION_MATERIAL},
                                     {figures_dma, SECTION_INDENTATION},
                                     {figures_payne, SECTION_MATERIAL},
