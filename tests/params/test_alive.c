@@ -30,7 +30,6 @@ static const struct {
     {"prony-long-term", "0Pa", NULL, NULL},
     {"expansion", "7e-4", "vertical-shift physical", NULL},
     {"fit-depth", "30nm", NULL, NULL},
-    {"contact-estimators", "yes", NULL, NULL},
     {"fit-retract", "yes", NULL, NULL},
     {"fit-depth-from", "20nm", NULL, NULL},
     {"fit-force", "10nN", NULL, NULL},

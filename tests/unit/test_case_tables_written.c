@@ -513,7 +513,6 @@ static void test_spring_constants(void **state)
     job.choices = NULL;
     job.tip.sample_thickness = 0;
     job.options.fit_force_fraction = 0.9;
-    job.options.contact_estimators = true;
     job.options.fit_retract = true;
     job.tip.radius_error = 3e-9;
     job.tip.half_angle_error = 0.02;

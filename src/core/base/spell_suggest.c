@@ -79,6 +79,8 @@ const char *removed_name_advice(const char *name, size_t length)
         {"at-temperature", "materials are not compared; weartrack master has the moduli of each"},
         {"bands", "the table layer gives the deepest edge, which is the thickness"},
         {"common-law", "each sample has a law of its own in its table shift_factors"},
+        {"contact-estimators",
+         "no number used them; the fitted contact_point has its standard error"},
         {"damage", "multiply the critical energy by it: only their product counts"},
         {"existence", "a layer exists where mu_hys exceeds k U_c, see the table friction"},
         {"extrapolation", "the end values hold outside the points of a table"},
