@@ -170,65 +170,6 @@ static inline wt_status fixture_rubber(const wt_result *result, wt_rubber *rubbe
     return wt_rubber_from_tables(&tables, 0.5, rubber, err);
 }
 
-/* The material of the case and one that is a fifth stiffer, side by side. */
-static inline void fixture_materials(void)
-{
-    wt_rubber rubber[2] = {0};
-    const wt_compared_material two[] = {{.name = "soft", .rubber = &rubber[0]},
-                                        {.name = FIXTURE_EVIL, .rubber = &rubber[1]}};
-    const wt_job work = wt_job_defaults();
-    wt_materials_job job = wt_materials_job_defaults();
-    wt_materials_tables tables = {0};
-    for (int k = 0; k < 2; k++)
-        fixture_check(fixture_rubber(fixture_case, &rubber[k], NULL));
-    for (size_t i = 0; i <= rubber[1].n_draws; i++) {
-        wt_prony *p = i < rubber[1].n_draws ? &rubber[1].draws[i].prony : &rubber[1].prony;
-        p->equilibrium_modulus *= 1.2;
-        for (size_t k = 0; k < p->n; k++)
-            p->modulus[k] *= 1.2;
-    }
-    job.materials = two;
-    job.n_materials = 2;
-    fixture_check(wt_compare_materials(&job, &work, &tables, NULL));
-    fixture_check(wt_result_add(fixture_case, tables.materials, NULL));
-    fixture_check(wt_result_add(fixture_case, tables.material_ratio, NULL));
-    for (int k = 0; k < 2; k++)
-        wt_rubber_clear(&rubber[k]);
-}
-
-/* Two samples, with one law. */
-static inline void fixture_common_law(void)
-{
-    wt_formats *formats = NULL;
-    static const char *const file[] = {WT_SOURCE_DIR "/fixtures/dma/two_materials.csv"};
-    static const char *const names[] = {"NR", "SBR 10%"};
-    wt_file_set set = {.patterns = file, .n_patterns = 1, .read = wt_read_defaults()};
-    wt_shared_shift_law_job common = wt_shared_shift_law_job_defaults();
-    wt_master_job job = wt_master_job_defaults();
-    wt_job work = wt_job_defaults();
-    wt_master_tables tables[2] = {{0}};
-    const wt_master *fits[2];
-    wt_table *table = NULL;
-    fixture_check(wt_formats_new(NULL, &formats, NULL, NULL));
-    job.sets = &set;
-    job.n_sets = 1;
-    work.formats = formats;
-    for (size_t i = 0; i < 2; i++) {
-        set.read.sample = names[i];
-        fixture_check(wt_master_compute(&job, &work, &tables[i], NULL, NULL));
-        fits[i] = tables[i].fit;
-    }
-    common.common = WT_SHARED_LAW_SAME;
-    common.names = names;
-    common.fits = fits;
-    common.n = 2;
-    fixture_check(wt_shared_shift_law_compute(&common, &table, NULL));
-    fixture_check(wt_result_add(fixture_case, table, NULL));
-    for (size_t i = 0; i < 2; i++)
-        wt_master_tables_clear(&tables[i]);
-    wt_formats_free(formats);
-}
-
 /* Friction at three velocities with and without flash temperature; at the last two of them a
  * contact that was hot stays hot. */
 static inline void fixture_flash(void)
@@ -574,12 +515,10 @@ static inline const wt_result *fixture_produced(void)
         fixture_accuracy(read);
         fixture_curves();
         fixture_ramp();
-        fixture_materials();
         fixture_collection();
         fixture_payne();
         fixture_record();
         fixture_validation(read);
-        fixture_common_law();
         fixture_softening();
         fixture_flash();
         fixture_spot();

@@ -463,70 +463,6 @@ WT_API wt_status wt_master_compute(const wt_master_job *job, const wt_job *work,
                                    wt_master_tables *tables, wt_rubber *rubber,
                                    wt_error *err) WT_NODISCARD;
 
-/* ---- one shift law for several samples ------------------------------------------------------ */
-
-/* Shared shift law of several samples. */
-typedef enum wt_shared_law_mode {
-    WT_SHARED_LAW_NONE,   /* one law for each sample */
-    WT_SHARED_LAW_SAME,   /* equal constants at one reference temperature */
-    WT_SHARED_LAW_SHIFTED /* equal constants, with a reference temperature for each sample */
-} wt_shared_law_mode;
-
-typedef struct wt_shared_law_member {
-    bool used;
-    char reason[64];
-    wt_interval
-        reference_offset; /* its reference temperature minus that of the first used sample [K] */
-} wt_shared_law_member;
-
-/* An isotherm of a used sample. Shifts in decades, without the offset of the sample. */
-typedef struct wt_shared_law_point {
-    size_t sample;
-    double temperature; /* [K] */
-    double log_a, log_a_error;
-    wt_interval law;        /* shared law */
-    wt_interval difference; /* law of the sample minus the shared law, relative to the middle of its
-                               isotherms, with conservative bounds; NaN if not computed */
-} wt_shared_law_point;
-
-typedef struct wt_shared_shift_law {
-    wt_law_kind kind; /* WLF or Arrhenius */
-    double reference; /* [K], of the first used sample */
-    wt_interval c1, c2, activation_energy;
-    double c_correlation; /* correlation of C1 and C2 */
-    double spread;        /* standard deviation of the temperature of an isotherm [K] */
-    double p;             /* p value that samples with one law differ so much; NaN: not computed */
-    size_t n_members, n;
-    wt_shared_law_member *members; /* [n_members] in the order of the samples */
-    wt_shared_law_point *points;   /* [n] */
-} wt_shared_shift_law;
-WT_API void wt_shared_shift_law_clear(wt_shared_shift_law *common);
-/* Fits a shared law by generalised least squares over the shifts of all samples with their
- * covariance. There is an offset for each sample, and one temperature error of all isotherms, which
- * is averaged over. The law is WLF if one sample alone has a WLF law, else Arrhenius. Samples with
- * joined laws, given shifts or without a fit (NULL) are excluded. `reference` NaN: that of the
- * first used sample. The caller clears `common`. WT_E_RANGE for fewer than two samples, or if no
- * law describes them. */
-WT_API wt_status wt_shared_shift_law_fit(const wt_master *const *masters, size_t n,
-                                         wt_shared_law_mode how, double reference,
-                                         wt_shared_shift_law *common, wt_error *err) WT_NODISCARD;
-
-/* Shared shift law of samples that are fitted separately. */
-typedef struct wt_shared_shift_law_job {
-    const char *const *names;     /* [n] names of the samples */
-    const wt_master *const *fits; /* [n]; NULL: no fit */
-    size_t n;
-    double reference; /* reference temperature of the law [K]; NaN: that of the first sample used */
-    wt_shared_law_mode common; /* default WT_SHARED_LAW_NONE: not requested */
-    double margin;             /* irrelevant difference of laws [decade]; default 0.1 */
-} wt_shared_shift_law_job;
-WT_API wt_shared_shift_law_job wt_shared_shift_law_job_defaults(void);
-WT_API const wt_params *wt_shared_shift_law_job_params(void);
-/* Creates the table "shared_shift_law": the law with its errors, the deviations of the shifts, and
- * the test that the samples have one law. */
-WT_API wt_status wt_shared_shift_law_compute(const wt_shared_shift_law_job *job, wt_table **table,
-                                             wt_error *err) WT_NODISCARD;
-
 /* ---- temperature sweeps: peaks and glass transition ------------------------------------- */
 
 /* Maximum of a curve of scattered points. The errors are due to the scatter of the points, not to
@@ -718,36 +654,6 @@ WT_API wt_status wt_fem_export_check(wt_fem_program program, const wt_fem_export
 WT_API wt_status wt_fem_export(FILE *out, wt_fem_program program, const wt_table *prony_reduced,
                                const wt_table *shift_factors, const wt_fem_export_options *options,
                                wt_error *err) WT_NODISCARD;
-
-/* ---- comparison of materials ----------------------------------------------------------------- */
-
-typedef struct wt_compared_material {
-    const char *name;
-    const wt_rubber *rubber;
-    const wt_table *shift_factors; /* has the verdict on superposition; NULL: unknown */
-} wt_compared_material;
-
-typedef struct wt_materials_job {
-    const wt_compared_material *materials; /* moduli are relative to those of the first */
-    size_t n_materials;                    /* two or more */
-    double temperature;  /* temperature of the comparison over frequency [K]; NaN: the reference of
-                            the first, if all cover it */
-    double frequency;    /* frequency of the comparison over temperature [rad/s]; NaN: 10 Hz, if all
-                            cover it */
-    double sample_error; /* relative error of the modulus by the dimensions of a sample */
-    double margin;       /* irrelevant relative difference; default 0.2 */
-} wt_materials_job;
-WT_API wt_materials_job wt_materials_job_defaults(void);
-WT_API const wt_params *wt_materials_job_params(void);
-
-typedef struct wt_materials_tables {
-    wt_table *materials, *material_ratio;
-} wt_materials_tables;
-WT_API void wt_materials_tables_clear(wt_materials_tables *tables);
-/* Computes moduli and their ratios in the common measured range, each at the other's temperatures
- * by its own shift law. WT_E_RANGE without a common temperature and frequency. */
-WT_API wt_status wt_compare_materials(const wt_materials_job *job, const wt_job *work,
-                                      wt_materials_tables *tables, wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

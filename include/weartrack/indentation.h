@@ -131,30 +131,13 @@ enum { WT_MISFIT_TERMS = 6 };
 /* Ranges of the force that are compared with the whole: 0 to 50 %, 30 to 100 % and 15 to 70 %. */
 enum { WT_FIT_RANGES = 3 };
 
-/* Estimators of the contact point of other programs, for comparison. */
-typedef enum wt_contact_estimator {
-    WT_CONTACT_THRESHOLD, /* the force deviates from the mean of the first tenth of the samples by
-                             twice their largest deviation (nanite: deviation from baseline) */
-    WT_CONTACT_VARIANCES, /* largest ratio of the variances of a twentieth of the samples after and
-                             before (Gavara, Sci. Rep. 6 (2016) 21267); none if all before are equal
-                           */
-    WT_CONTACT_LINES,     /* intersection of a constant and a line (nanite: fit constant line) */
-    WT_CONTACT_DIRECT_PATH,     /* farthest from the straight line between first sample and largest
-                                   force (nanite: Frechet direct path) */
-    WT_CONTACT_GOODNESS_OF_FIT, /* least squares of force against measured indentation, over
-                                   baseline and contact (AtomicJ: goodness of fit) */
-    WT_CONTACT_ESTIMATORS
-} wt_contact_estimator;
-WT_API const char *wt_contact_estimator_text(wt_contact_estimator estimator); /* static */
-
 typedef struct wt_indent_options {
     double poisson_ratio; /* default 0.5 */
     /* Range of the fit: all limits apply together; forces are above the baseline; the baseline
      * before contact is always included. */
     double fit_depth;          /* largest indentation [m]; 0 = all (default) */
     double fit_force_fraction; /* largest force over that of the curve; default 1 */
-    bool fit_tilt;           /* fits the tilt of the baseline, else only the offset; default true */
-    bool contact_estimators; /* also computes other contact points, for comparison */
+    bool fit_tilt; /* fits the tilt of the baseline, else only the offset; default true */
     double misfit_p_threshold; /* p value below which a residual is lack of fit, for noise as that
                             of the baseline; default 0.01; 0: no test */
     double largest_error; /* largest standard error over modulus of a usable modulus; default 1 */
@@ -250,10 +233,7 @@ typedef struct wt_indent_fit {
      * common to all curves of one rubber. */
     double loss_shift, loss_error;
     double baseline_curvature; /* coefficient of the squared position in the baseline [N/m^2] */
-    double
-        contact_by[WT_CONTACT_ESTIMATORS]; /* contact points of other estimators minus contact_point
-                                              [m]; NaN: not requested or not found */
-    double fitted_from; /* indentation at the start of the fitted range [m]; 0: contact */
+    double fitted_from;        /* indentation at the start of the fitted range [m]; 0: contact */
     /* Optical interference: a sine in the baseline (one false alarm in 1000 baselines), fitted
      * together with all other parameters. Amplitude [N], 0: none; period [m], NaN: none. Its phase
      * follows the tip or the height, whichever the contact shows; if that is inconclusive, the

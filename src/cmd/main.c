@@ -19,7 +19,7 @@ const cmd_command cmd_commands[] = {
     {"spot", cmd_spot, "roughness of a spot against the depth, and what stayed of an indentation"},
     {"sensitivity", cmd_sensitivity, "deflection sensitivity from curves on a hard surface"},
     {"thermal", cmd_thermal, "spring constant from the thermal noise of the cantilever"},
-    {"compare", cmd_compare, "wear track against bulk, or materials against one another"},
+    {"compare", cmd_compare, "wear track against bulk"},
     {"Material and sliding", NULL, NULL},
     {"master", cmd_master, "shift factors, master curve, WLF and Prony series of DMA sweeps"},
     {"ramp", cmd_ramp, "glass transition and moduli of DMA temperature sweeps"},

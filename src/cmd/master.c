@@ -158,8 +158,7 @@ enum { TABLES = 7, NAME_SIZE = 48 };
 typedef struct sample_fit {
     wt_master_tables tables;
     wt_table *named[TABLES]; /* owned after renaming */
-    wt_rubber rubber;
-    char name[NAME_SIZE]; /* suffix of its tables */
+    char name[NAME_SIZE];    /* suffix of its tables */
     bool fitted;
 } sample_fit;
 
@@ -224,13 +223,6 @@ static wt_status fit_sample(cmd_session *s, wt_master_job *job, wt_file_set *set
     set->read.sample = sample;
     work.log = log;
     wt_status status = wt_master_compute(job, &work, &f->tables, NULL, &failure);
-    if (status == WT_OK && f->tables.prony != NULL) {
-        const wt_rubber_tables of = {.prony = f->tables.prony,
-                                     .shift_factors = f->tables.shift_factors,
-                                     .material_draws = f->tables.material_draws,
-                                     .series_draws = f->tables.series_draws};
-        status = wt_rubber_from_tables(&of, job->poisson_ratio, &f->rubber, &failure);
-    }
     f->fitted = status == WT_OK;
     wt_log_append(s->work.log, log, display_name(sample));
     wt_log_free(log);
@@ -255,107 +247,37 @@ static wt_status fit_all_samples(cmd_session *s, wt_master_job *job, wt_file_set
     return n_fitted > 0 ? WT_OK : wt_fail(&s->err, WT_E_EMPTY, "no sample has a master curve");
 }
 
-/* Compares the samples that have a series; a warning states if they have no common range. */
-static void compare_samples(cmd_session *s, const wt_sample_names *samples, const sample_fit *fits,
-                            wt_compared_material *of, wt_materials_tables *tables)
+/* Fits each sample and finishes the call. `set` is the file set of the job. */
+static void fit_sample_masters(cmd_session *s, wt_master_job *job, wt_file_set *set,
+                               const wt_sample_names *samples)
 {
-    wt_error failure = WT_ERROR_INIT;
-    wt_materials_job job = wt_materials_job_defaults();
-    char message[1024];
-    for (size_t i = 0; i < samples->n; i++)
-        if (fits[i].tables.prony != NULL)
-            of[job.n_materials++] =
-                (wt_compared_material){.name = display_name(samples->name[i]),
-                                       .rubber = &fits[i].rubber,
-                                       .shift_factors = fits[i].tables.shift_factors};
-    job.materials = of;
-    if (job.n_materials < 2 || wt_compare_materials(&job, &s->work, tables, &failure) == WT_OK)
-        return;
-    (void)wt_error_format(&failure, message, sizeof message);
-    wt_log_add(s->work.log, WT_WARNING, NULL, NULL, "not compared: %s", message);
-}
-
-/* Fits a shared law if requested; a failure is listed like that of a sample. */
-static wt_status fit_common_law(cmd_session *s, wt_shared_shift_law_job *job,
-                                const wt_sample_names *samples, const sample_fit *fits,
-                                wt_table **table)
-{
-    wt_error failure = WT_ERROR_INIT;
-    if (job->common == WT_SHARED_LAW_NONE)
-        return WT_OK;
-    const char **names = wt_alloc(samples->n, sizeof *names);
-    const wt_master **of = wt_alloc(samples->n, sizeof *of);
-    for (size_t i = 0; i < samples->n; i++) {
-        names[i] = display_name(samples->name[i]);
-        of[i] = fits[i].tables.fit;
-    }
-    job->names = names;
-    job->fits = of;
-    job->n = samples->n;
-    const wt_status status = wt_shared_shift_law_compute(job, table, &failure);
-    free(names);
-    free(of);
-    return status == WT_OK
-               ? WT_OK
-               : wt_job_add_failure(&s->work, "shared shift law", status, &failure, &s->err);
-}
-
-/* Fits each sample, compares the samples, fits a shared law if requested and finishes the call.
- * `set` is the file set of the job. */
-static void fit_sample_masters(cmd_session *s, wt_master_job *job, wt_shared_shift_law_job *common,
-                               wt_file_set *set, const wt_sample_names *samples)
-{
-    wt_materials_tables materials = {0};
-    wt_table *common_law = NULL;
     sample_fit *fits = wt_alloc(samples->n, sizeof *fits);
-    wt_compared_material *of = wt_alloc(samples->n, sizeof *of);
-    wt_table ***made_tables = wt_alloc(samples->n * TABLES + 3, sizeof *made_tables);
+    wt_table ***made_tables = wt_alloc(samples->n * TABLES, sizeof *made_tables);
     const char *const chosen = set->read.sample;
     size_t n = 0;
     wt_status status = fit_all_samples(s, job, set, samples, fits);
     set->read.sample = chosen;
-    if (status == WT_OK)
-        compare_samples(s, samples, fits, of, &materials);
-    common->reference = job->fit.reference_temperature;
-    if (status == WT_OK)
-        status = fit_common_law(s, common, samples, fits, &common_law);
     for (size_t i = 0; status == WT_OK && i < samples->n; i++) {
         status = rename_sample_tables(&fits[i], &s->err);
         for (size_t k = 0; k < TABLES; k++)
             made_tables[n++] = &fits[i].named[k];
     }
-    if (status == WT_OK) {
-        made_tables[n++] = &materials.material_ratio;
-        made_tables[n++] = &materials.materials;
-        made_tables[n++] = &common_law;
-    }
     cmd_finish(s, status, made_tables, n);
     for (size_t i = 0; i < samples->n; i++) {
         wt_master_tables_clear(&fits[i].tables);
-        wt_rubber_clear(&fits[i].rubber);
         for (size_t k = 0; k < TABLES; k++)
             wt_table_free(fits[i].named[k]);
     }
-    wt_materials_tables_clear(&materials);
-    wt_table_free(common_law);
     free(made_tables);
-    free(of);
     free(fits);
 }
 
 /* ---- one sample ------------------------------------------------------------------------------ */
 
 static void fit_single_master(cmd_session *s, wt_status status, const wt_master_job *job,
-                              const wt_shared_shift_law_job *common, const saved_shifts *saved,
-                              const fem_exports *exports_given)
+                              const saved_shifts *saved, const fem_exports *exports_given)
 {
     wt_master_tables tables = {0};
-    if (status == WT_OK && common->common != WT_SHARED_LAW_NONE) {
-        status = wt_fail(&s->err, WT_E_MISSING, "one sample has no law in common with another");
-        wt_error_advice(&s->err,
-                        "--shared-shift-law takes sweeps of several samples, without --sample, "
-                        "--save-shifts and --export; see --sample-by");
-    }
     if (status == WT_OK)
         status = wt_master_compute(job, &s->work, &tables, NULL, &s->err);
     if (status != WT_OK && job->shifts != NULL && strcmp(s->err.place, "shifts") == 0)
@@ -391,15 +313,13 @@ int cmd_master(int argc, char **argv)
             "prony_reduced, too (few terms in place of prony). "
             "weartrack friction, layer and compare read them as they are. Where the files name "
             "several samples, each has such tables with its name behind theirs, as in "
-            "prony/nr_50, and they are compared in the tables material_ratio and materials; with "
-            "--shared-shift-law the table common_law says whether they have one law.",
+            "prony/nr_50.",
         .n_files = CMD_ONE_OR_MORE};
     wt_master_job job = wt_master_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
     saved_shifts saved = {NULL, NULL};
     fem_exports exports_given = export_defaults();
-    wt_shared_shift_law_job common = wt_shared_shift_law_job_defaults();
-    enum { EXPORTED = 2, COMMON };
+    enum { EXPORTED = 2 };
     cmd_option_group parts[] = {
         {wt_master_job_params(), &job,
          "reference-temperature reference-at vertical-shift expansion terms-per-decade liquid "
@@ -407,7 +327,6 @@ int cmd_master(int argc, char **argv)
          0},
         {saved_params(), &saved, NULL, 0},
         [EXPORTED] = {exported_params(), &exports_given, NULL, 0},
-        [COMMON] = {wt_shared_shift_law_job_params(), &common, NULL, 0},
         {wt_read_params(), &set.read,
          "temperature temperature-in-name frequency units format sheet deformation strain sample "
          "sample-by conditioning",
@@ -418,10 +337,7 @@ int cmd_master(int argc, char **argv)
     wt_sweep sweep = {0};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) ||
         !check_exports(&s, &exports_given) || !check_outputs(&s, &saved, &exports_given) ||
-        !cmd_begin_files(&s, &set) ||
-        (common.common == WT_SHARED_LAW_NONE &&
-         cmd_option_is_set(&parts[COMMON], "shared-shift-law-margin") &&
-         !cmd_usage_error(&s, "--shared-shift-law-margin goes with --shared-shift-law")))
+        !cmd_begin_files(&s, &set))
         return cmd_session_free(&s);
     job.reduction = exports_given.reduction;
     if (!requests_reduced_series(&parts[EXPORTED], &exports_given))
@@ -438,9 +354,9 @@ int cmd_master(int argc, char **argv)
         exports_given.n_exports == 0)
         status = wt_sample_names_read(&set, 1, &s.work, &samples, &s.err);
     if (status == WT_OK && samples.n > 1)
-        fit_sample_masters(&s, &job, &common, &set, &samples);
+        fit_sample_masters(&s, &job, &set, &samples);
     else
-        fit_single_master(&s, status, &job, &common, &saved, &exports_given);
+        fit_single_master(&s, status, &job, &saved, &exports_given);
     wt_sample_names_clear(&samples);
     wt_sweep_clear(&sweep);
     wt_result_free(given);

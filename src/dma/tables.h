@@ -92,68 +92,6 @@
     X(SHIFT_FACTORS_KEY_KRAMERS_KRONIG_P, "kramers_kronig_p", PLAIN, LABEL("Kramers-Kronig, p"),   \
       OPTIONAL)
 
-/* A row for each isotherm of the samples that are used, and one for each that is not. */
-#define SHARED_SHIFT_LAW_COLUMNS(X)                                                                \
-    X(SHARED_SHIFT_LAW_SAMPLE, AS(sample), "name of the sample", TEXT, LABEL("Sample"))            \
-    X(SHARED_SHIFT_LAW_TEMPERATURE, IN(point, temperature), "temperature of the isotherm",         \
-      SI(TEMPERATURE), LABEL("Temperature"), DECIMALS(1), SPARSE)                                  \
-    X(SHARED_SHIFT_LAW_LOG_A, IN(point, log_a),                                                    \
-      "log10 of the horizontal shift factor from the reference of the shared shift law", NUMBER,   \
-      LABEL("log₁₀ a"), STANDARD_ERROR(SHARED_SHIFT_LAW_LOG_A), DECIMALS(3), SPARSE)               \
-    X(SHARED_SHIFT_LAW_LOG_A_STANDARD_ERROR, "log_a_standard_error",                               \
-      "its standard error, without that of the temperature [decade]", NUMBER,                      \
-      SHOWS(point.log_a_error), LABEL("Standard error"), DECIMALS(3), SPARSE)                      \
-    X(SHARED_SHIFT_LAW_LAW_LOG_A, "law_log_a", "log10 a of the shared shift law", NUMBER,          \
-      SHOWS(point.law), LABEL("log₁₀ a of the law"),                                               \
-      INTERVAL(SHARED_SHIFT_LAW_LAW_LOG_A_LOW, SHARED_SHIFT_LAW_LAW_LOG_A_HIGH), DECIMALS(3),      \
-      SPARSE)                                                                                      \
-    X(SHARED_SHIFT_LAW_LAW_LOG_A_LOW, "law_log_a_low", "lower end of its 95 % interval", NUMBER,   \
-      DECIMALS(3), SPARSE)                                                                         \
-    X(SHARED_SHIFT_LAW_LAW_LOG_A_HIGH, "law_log_a_high", "upper end of its 95 % interval", NUMBER, \
-      DECIMALS(3), SPARSE)                                                                         \
-    X(SHARED_SHIFT_LAW_DIFFERENCE, IN(point, difference),                                          \
-      "what the sample's own law has more, from the middle of its isotherms on [decade]", NUMBER,  \
-      LABEL("Own law against it (decades)"),                                                       \
-      INTERVAL(SHARED_SHIFT_LAW_DIFFERENCE_LOW, SHARED_SHIFT_LAW_DIFFERENCE_HIGH), DECIMALS(3),    \
-      SPARSE)                                                                                      \
-    X(SHARED_SHIFT_LAW_DIFFERENCE_LOW, "difference_low",                                           \
-      "lower limit of it, on the safe side: both limits held it in 97 to 99 % of draws", NUMBER,   \
-      DECIMALS(3), SPARSE)                                                                         \
-    X(SHARED_SHIFT_LAW_DIFFERENCE_HIGH, "difference_high", "upper limit", NUMBER, DECIMALS(3),     \
-      SPARSE)                                                                                      \
-    X(SHARED_SHIFT_LAW_MOVED, AS(moved),                                                           \
-      "reference temperature of the law of the sample above that of the first [K]", NUMBER,        \
-      LABEL("Moved by (K)"), STANDARD_ERROR(SHARED_SHIFT_LAW_MOVED), SPARSE)                       \
-    X(SHARED_SHIFT_LAW_MOVED_STANDARD_ERROR, "moved_standard_error", "its standard error", NUMBER, \
-      SPARSE)                                                                                      \
-    X(SHARED_SHIFT_LAW_NOTE, AS(note), "why a sample is left out", TEXT, LABEL("Note"), SPARSE)
-
-#define SHARED_SHIFT_LAW_KEYS(X)                                                                   \
-    X(SHARED_SHIFT_LAW_KEY_AGREE, "agree", TEXT, LABEL("Have the samples one law"),                \
-      HEADLINE("Have the samples one law"))                                                        \
-    X(SHARED_SHIFT_LAW_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("How to decide it"), OPTIONAL)    \
-    X(SHARED_SHIFT_LAW_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Samples left out of it, and why"),   \
-      OPTIONAL)                                                                                    \
-    X(SHARED_SHIFT_LAW_KEY_P, "p", PLAIN, LABEL("One law, p"), OPTIONAL)                           \
-    X(SHARED_SHIFT_LAW_KEY_FURTHEST, "largest_deviation", NUMBER,                                  \
-      LABEL("Own laws against it, furthest limit (decades)"), OPTIONAL)                            \
-    X(SHARED_SHIFT_LAW_KEY_MARGIN, "margin", PLAIN, LABEL("Margin within which they are alike"))   \
-    X(SHARED_SHIFT_LAW_KEY_LAW, "law", TEXT, LABEL("Law of the shift factors"))                    \
-    X(SHARED_SHIFT_LAW_KEY_MOVED, "sample_shifts", TEXT,                                           \
-      LABEL("Reference temperature of each sample"))                                               \
-    X(SHARED_SHIFT_LAW_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE),        \
-      LABEL("Reference temperature"))                                                              \
-    X(SHARED_SHIFT_LAW_KEY_WLF_C1, "wlf_c1", NUMBER, LABEL("WLF constant C₁"), OPTIONAL)           \
-    X(SHARED_SHIFT_LAW_KEY_WLF_C2, "wlf_c2", SI(TEMPERATURE_DIFFERENCE), LABEL("WLF constant C₂"), \
-      OPTIONAL)                                                                                    \
-    X(SHARED_SHIFT_LAW_KEY_WLF_CORRELATION, "wlf_correlation", PLAIN,                              \
-      LABEL("Correlation of C₁ and C₂"), OPTIONAL)                                                 \
-    X(SHARED_SHIFT_LAW_KEY_ACTIVATION_ENERGY, "activation_energy", UNIT("J/mol"),                  \
-      LABEL("Activation energy"), OPTIONAL)                                                        \
-    X(SHARED_SHIFT_LAW_KEY_TEMPERATURE_SPREAD, "temperature_spread", SI(TEMPERATURE_DIFFERENCE),   \
-      LABEL("Error of the temperature of an isotherm"))                                            \
-    X(SHARED_SHIFT_LAW_KEY_SHIFT_LAW, "shift_law", TEXT, LABEL("To be given to --shift-law"))
-
 #define MASTER_CURVE_COLUMNS(X)                                                                    \
     X(MASTER_CURVE_ANGULAR_FREQUENCY, AS(angular_frequency), "reduced angular frequency",          \
       SI(ANGULAR_FREQUENCY))                                                                       \
@@ -324,51 +262,6 @@
     X(ID, name, words, unit, INTERVAL(ID##_LOW, ID##_HIGH), __VA_ARGS__)                           \
     X(ID##_LOW, name "_low", "lower end of its 95 % interval", unit, SPARSE)                       \
     X(ID##_HIGH, name "_high", "upper end of its 95 % interval", unit, SPARSE)
-
-/* One block for each material. */
-#define MATERIALS_COLUMNS(X)                                                                       \
-    X(MATERIALS_MATERIAL, AS(material), "name of the material", TEXT)                              \
-    X(MATERIALS_ANGULAR_FREQUENCY, AS(angular_frequency), "angular frequency",                     \
-      SI(ANGULAR_FREQUENCY))                                                                       \
-    VALUE_AND_INTERVAL(X, MATERIALS_STORAGE, "storage_modulus", "storage modulus",                 \
-                       SI(STORAGE_MODULUS), SHOWS(storage))                                        \
-    VALUE_AND_INTERVAL(X, MATERIALS_LOSS, "loss_modulus", "loss modulus", SI(LOSS_MODULUS),        \
-                       SHOWS(loss))                                                                \
-    VALUE_AND_INTERVAL(X, MATERIALS_FACTOR, "loss_factor", "tan delta", NUMBER, SHOWS(factor))
-#define MATERIALS_KEYS(X) X(MATERIALS_KEY_TEMPERATURE, "temperature", SI(TEMPERATURE))
-
-/* One block over frequency and one over temperature for each material except the first. */
-#define MATERIAL_RATIO_COLUMNS(X)                                                                  \
-    X(MATERIAL_RATIO_MATERIAL, AS(material), "material whose moduli are divided by the first's",   \
-      TEXT)                                                                                        \
-    X(MATERIAL_RATIO_OVER, AS(over), "frequency or temperature: what changes in the block", TEXT)  \
-    X(MATERIAL_RATIO_TEMPERATURE, AS(temperature), "temperature", SI(TEMPERATURE))                 \
-    X(MATERIAL_RATIO_ANGULAR_FREQUENCY, AS(angular_frequency), "angular frequency",                \
-      SI(ANGULAR_FREQUENCY))                                                                       \
-    VALUE_AND_INTERVAL(X, MATERIAL_RATIO_STORAGE, "storage_ratio", "ratio of the storage moduli",  \
-                       NUMBER, SHOWS(storage))                                                     \
-    VALUE_AND_INTERVAL(X, MATERIAL_RATIO_LOSS, "loss_ratio", "ratio of the loss moduli", NUMBER,   \
-                       SHOWS(loss))                                                                \
-    VALUE_AND_INTERVAL(X, MATERIAL_RATIO_FACTOR, "loss_factor_ratio", "ratio of tan delta",        \
-                       NUMBER, SHOWS(factor))
-
-#define MATERIAL_RATIO_KEYS(X)                                                                     \
-    X(MATERIAL_RATIO_KEY_DIFFERS, AS(differs), TEXT, LABEL("Do the materials differ"),             \
-      HEADLINE("Do the materials differ"))                                                         \
-    X(MATERIAL_RATIO_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("How to decide it"), OPTIONAL)    \
-    X(MATERIAL_RATIO_KEY_FIRST, AS(first_material), TEXT, LABEL("Divided by"))                     \
-    X(MATERIAL_RATIO_KEY_TEMPERATURE, AS(temperature), SI(TEMPERATURE),                            \
-      LABEL("Temperature, over frequency"))                                                        \
-    X(MATERIAL_RATIO_KEY_FREQUENCY, AS(angular_frequency), SI(ANGULAR_FREQUENCY),                  \
-      LABEL("Angular frequency, over temperature"), OPTIONAL)                                      \
-    X(MATERIAL_RATIO_KEY_INCLUDES, "interval_includes", TEXT, SHOWS(includes),                     \
-      LABEL("The interval includes"), OPTIONAL)                                                    \
-    X(MATERIAL_RATIO_KEY_LACKS, "interval_excludes", TEXT, SHOWS(lacks),                           \
-      LABEL("It does not include"), OPTIONAL)                                                      \
-    X(MATERIAL_RATIO_KEY_OUTSIDE, AS(outside), TEXT, LABEL("Not compared: measured of one alone"), \
-      OPTIONAL)                                                                                    \
-    X(MATERIAL_RATIO_KEY_MARGIN, "equivalence_margin", PLAIN, SHOWS(margin),                       \
-      LABEL("Margin within which they are alike"))
 
 #define RAMP_COLUMNS(X)                                                                            \
     X(RAMP_TEMPERATURE, AS(temperature), "temperature", SI(TEMPERATURE))                           \

@@ -27,8 +27,6 @@ typedef struct indent_summary {
     double max_depth;                   /* largest indentation [m] */
     double (*misfits)[WT_MISFIT_TERMS]; /* [n_misfits] cosines of curves that have them */
     size_t n_misfits;
-    double (*contacts)[WT_CONTACT_ESTIMATORS]; /* [n] contact points of other estimators; NULL if
-                                                  not requested */
 } indent_summary;
 
 void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,

@@ -307,10 +307,6 @@ void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
     if (!options->plain_least_squares && options->misfit_p_threshold > 0)
         add_range_shifts(to, fit);
     to->n_unknown_loss += indent_has_unknown_loss(fit);
-    if (options->contact_estimators) {
-        to->contacts = array_grow(to->contacts, to->n, sizeof *to->contacts);
-        memcpy(to->contacts[to->n], fit->contact_by, sizeof *to->contacts);
-    }
     to->n++;
     if (isnan(fit->misfit[0]))
         return;
@@ -321,7 +317,6 @@ void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
 void indent_summary_clear(indent_summary *summary)
 {
     free(summary->misfits);
-    free(summary->contacts);
 }
 
 /* Mean of the shifts if most moduli of the group have one; else 0. */
@@ -399,43 +394,6 @@ static void test_mean_residual(const indent_summary *summary, table_writer *rows
     indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT_CHANCE, "%.3g", pool.p_value);
 }
 
-/* Median of the contact points of one estimator where it found one; NaN if nowhere. scratch: [n].
- */
-static double median_contact_distance(const indent_summary *summary, int estimator, double *scratch)
-{
-    size_t found = 0;
-    for (size_t i = 0; i < summary->n; i++)
-        if (!isnan(summary->contacts[i][estimator]))
-            scratch[found++] = summary->contacts[i][estimator];
-    if (found == 0)
-        return (double)NAN;
-    return numbers_median(scratch, found);
-}
-
-static void report_contact_estimates(const indent_summary *summary, const wt_indent_job *job,
-                                     const wt_job *work)
-{
-    char text[512] = "";
-    size_t length = 0;
-    if (summary->contacts == NULL)
-        return;
-    double *scratch = wt_alloc(summary->n, sizeof *scratch);
-    for (int i = 0; i < WT_CONTACT_ESTIMATORS; i++) {
-        const double distance_median = median_contact_distance(summary, i, scratch);
-        char distance[32] = "not found";
-        if (!isnan(distance_median))
-            wt_format_si(distance_median, "m", 3, distance, sizeof distance);
-        length +=
-            (size_t)snprintf(text + length, sizeof text - length, "%s%s (%s)", i > 0 ? ", " : "",
-                             distance, wt_contact_estimator_text((wt_contact_estimator)i));
-    }
-    free(scratch);
-    wt_log_add(work->log, WT_NOTE, NULL, NULL,
-               "%s: contact by other estimators less that of the fit, medians of %zu "
-               "accepted curves: %s",
-               job->group, summary->n, text);
-}
-
 /* Smallest plausible indentation over the radius of a sphere. Below it only asperities touch and an
  * AFM cannot apply the force, so the unit of the radius is probably wrong. */
 static const double least_depth_of_radius = 1.0 / 5000;
@@ -467,5 +425,4 @@ void indent_summary_report(const indent_summary *summary, const wt_indent_job *j
     indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, indent_summary_range_spread(summary),
                           0, 0);
     test_mean_residual(summary, rows);
-    report_contact_estimates(summary, job, work);
 }

@@ -43,21 +43,6 @@
     X(INDENTATION_CONTACT_POINT_MISFIT_ERROR, "contact_point_misfit_error",                        \
       "what the contact law misses, in that of the contact point", SI(LENGTH),                     \
       SHOWS(fit.contact_misfit_error), OPTIONAL)                                                   \
-    X(INDENTATION_CONTACT_THRESHOLD, "contact_threshold",                                          \
-      "contact by the threshold of the baseline, less contact_point", SI(LENGTH),                  \
-      SHOWS(fit.contact_by[WT_CONTACT_THRESHOLD]), OPTIONAL)                                       \
-    X(INDENTATION_CONTACT_VARIANCES, "contact_variances",                                          \
-      "contact by the ratio of variances, less contact_point", SI(LENGTH),                         \
-      SHOWS(fit.contact_by[WT_CONTACT_VARIANCES]), OPTIONAL)                                       \
-    X(INDENTATION_CONTACT_LINES, "contact_lines",                                                  \
-      "contact by the meeting of two lines, less contact_point", SI(LENGTH),                       \
-      SHOWS(fit.contact_by[WT_CONTACT_LINES]), OPTIONAL)                                           \
-    X(INDENTATION_CONTACT_DIRECT_PATH, "contact_direct_path",                                      \
-      "contact by the distance from the direct path, less contact_point", SI(LENGTH),              \
-      SHOWS(fit.contact_by[WT_CONTACT_DIRECT_PATH]), OPTIONAL)                                     \
-    X(INDENTATION_CONTACT_GOODNESS_OF_FIT, "contact_goodness_of_fit",                              \
-      "contact by the goodness of fit, less contact_point", SI(LENGTH),                            \
-      SHOWS(fit.contact_by[WT_CONTACT_GOODNESS_OF_FIT]), OPTIONAL)                                 \
     X(INDENTATION_BASELINE_OFFSET, IN(fit, baseline_offset), "force of the baseline at contact",   \
       SI(FORCE), OPTIONAL)                                                                         \
     X(INDENTATION_BASELINE_TILT, IN(fit, baseline_tilt), "slope of the baseline", UNIT("N/m"),     \

@@ -69,7 +69,6 @@ static const struct {
     {"convert", "absent", {wt_convert_job_params}},
     {"indent", "absent", {wt_indent_job_params}},
     {"compare", "--master absent absent absent", {wt_compare_job_params}},
-    {"compare", "absent other", {wt_materials_job_params}},
     {"master", "absent", {wt_master_options_params}},
     {"friction",
      "--material absent --roughness absent --strain-softening absent",
@@ -274,19 +273,6 @@ static wt_status call_compare(const void *structure, wt_error *err)
     return status;
 }
 
-static wt_status call_materials(const void *structure, wt_error *err)
-{
-    static const wt_rubber nothing;
-    static const wt_compared_material two[] = {{.name = "a", .rubber = &nothing},
-                                               {.name = "b", .rubber = &nothing}};
-    const wt_job work = wt_job_defaults();
-    wt_materials_tables tables = {0};
-    wt_materials_job job = *(const wt_materials_job *)structure;
-    job.materials = two;
-    job.n_materials = 2;
-    return wt_compare_materials(&job, &work, &tables, err);
-}
-
 /* A rubber and a surface with nothing in them: no call gets far. */
 static wt_rubber no_rubber;
 static wt_surface no_surface;
@@ -356,7 +342,6 @@ static const struct {
     {wt_job_params, call_job},
     {wt_master_job_params, call_master},
     {wt_compare_job_params, call_compare},
-    {wt_materials_job_params, call_materials},
     {wt_sliding_params, call_sliding},
     {wt_layer_observation_params, call_layer_known},
     {wt_layer_job_params, call_layer},

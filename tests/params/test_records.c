@@ -20,8 +20,6 @@ static const wt_params *(*const tables[])(void) = {
     wt_indent_job_params,
     wt_master_job_params,
     wt_compare_job_params,
-    wt_materials_job_params,
-    wt_shared_shift_law_job_params,
     wt_sliding_params,
     wt_layer_observation_params,
     wt_layer_job_params,

@@ -375,50 +375,6 @@ static void test_collection(void **state)
     fixture_free();
 }
 
-/* One law of two samples and of one that has none; of one sample twice where it is Arrhenius. */
-static void test_common_law(void **state)
-{
-    (void)state;
-    static const char *const patterns[] = {WT_SOURCE_DIR "/fixtures/dma/two_materials.csv"};
-    static const char *const names[] = {"NR", "SBR 10%", "none"};
-    static const char *const warm[] = {"temperature:..15degC"};
-    wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
-    wt_job common = wt_job_defaults();
-    wt_master_job job = wt_master_job_defaults();
-    wt_master_tables made[2] = {{0}}, few = {0};
-    common.formats = formats;
-    job.sets = &set;
-    job.n_sets = 1;
-    for (size_t i = 0; i < 2; i++) {
-        set.read.sample = names[i];
-        assert_int_equal(wt_master_compute(&job, &common, &made[i], NULL, NULL), WT_OK);
-    }
-    job.leave_out = warm;
-    job.n_leave_out = 1;
-    assert_int_equal(wt_master_compute(&job, &common, &few, NULL, NULL), WT_OK);
-    const wt_master *const fits[2][3] = {{made[0].fit, made[1].fit, NULL},
-                                         {few.fit, few.fit, NULL}};
-    for (size_t i = 0; i < 2; i++) {
-        wt_shared_shift_law_job law = wt_shared_shift_law_job_defaults();
-        wt_table *table = NULL;
-        law.names = names;
-        law.fits = fits[i];
-        law.n = 3;
-        law.common = i == 0 ? WT_SHARED_LAW_SHIFTED : WT_SHARED_LAW_SAME;
-        law.margin = i == 0 ? 0.1 : 1e-9;
-        assert_int_equal(wt_shared_shift_law_compute(&law, &table, NULL), WT_OK);
-        assert_string_equal(wt_table_key(table, "law"), i == 0 ? "WLF" : "Arrhenius");
-        assert_true(strncmp(wt_table_key(table, "agree"), i == 0 ? "no: " : "inconclusive: ", 4) ==
-                    0);
-        assert_string_equal(wt_table_key(table, "left_out"), "none: it could not be fitted");
-        see(table);
-        wt_table_free(table);
-    }
-    for (size_t i = 0; i < 2; i++)
-        wt_master_tables_clear(&made[i]);
-    wt_master_tables_clear(&few);
-}
-
 /* The bundled material, one measured less widely, and one of another deformation. */
 static void test_materials(void **state)
 {
@@ -438,21 +394,6 @@ static void test_materials(void **state)
     see(fitted.prony_reduced);
     wt_master_tables_clear(&fitted);
     assert_int_equal(wt_master_compute(&job, &common, &fitted, &made[1], NULL), WT_OK);
-    const wt_compared_material two[] = {
-        {.name = "as it is", .rubber = &made[0], .shift_factors = fitted.shift_factors},
-        {.name = "less widely", .rubber = &made[1], .shift_factors = fitted.shift_factors}};
-    wt_materials_job compared = wt_materials_job_defaults();
-    compared.materials = two;
-    compared.n_materials = 2;
-    made[1].prony.frequency_max /= 10;
-    for (int i = 0; i < 2; i++) {
-        wt_materials_tables tables = {0};
-        compared.sample_error = i == 0 ? 0.5 : 0;
-        assert_int_equal(wt_compare_materials(&compared, &common, &tables, NULL), WT_OK);
-        see(tables.materials);
-        see(tables.material_ratio);
-        wt_materials_tables_clear(&tables);
-    }
     wt_master_tables_clear(&fitted);
     for (int k = 0; k < 2; k++)
         wt_rubber_clear(&made[k]);
@@ -572,7 +513,6 @@ static void test_spring_constants(void **state)
     job.choices = NULL;
     job.tip.sample_thickness = 0;
     job.options.fit_force_fraction = 0.9;
-    job.options.contact_estimators = true;
     job.options.fit_retract = true;
     job.tip.radius_error = 3e-9;
     job.tip.half_angle_error = 0.02;
@@ -1402,7 +1342,6 @@ int main(void)
         cmocka_unit_test(test_joined_law),
         cmocka_unit_test(test_no_superposition),
         cmocka_unit_test(test_collection),
-        cmocka_unit_test(test_common_law),
         cmocka_unit_test(test_layer_models),
         cmocka_unit_test(test_no_hysteresis),
         cmocka_unit_test(test_flash),

@@ -811,21 +811,21 @@ static void test_a_given_law(void **state)
     }
 }
 
-static void many_materials(wt_table *materials, size_t row)
+static void many_groups(wt_table *depths, size_t row)
 {
     char name[16];
-    (void)snprintf(name, sizeof name, "rubber %zu", row % 8);
-    fixture_text(materials, "material", name);
+    (void)snprintf(name, sizeof name, "spot %zu", row % 8);
+    fixture_text(depths, "group", name);
 }
 
 /* More of them than a figure has colours for are not left out without a word. */
-static void test_too_many_materials(void **state)
+static void test_too_many_groups(void **state)
 {
     (void)state;
     NEED_GNUPLOT();
-    const char *const materials = "materials";
-    const fixture_change change = {materials, .edit = many_materials};
-    wt_result *result = fixture_only(&materials, 1, &change);
+    const char *const depths = "modulus_depth";
+    const fixture_change change = {depths, .edit = many_groups};
+    wt_result *result = fixture_only(&depths, 1, &change);
     size_t length = 0;
     write_report(result, "out", NULL);
     char *page = read_all("out/index.html", &length);
@@ -952,7 +952,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_page, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_strain_sweeps, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_a_given_law, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_too_many_materials, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_too_many_groups, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_tables_on_the_page, make_workplace, remove_workplace),
         cmocka_unit_test_setup_teardown(test_the_median_decides_the_unit, make_workplace,
                                         remove_workplace),

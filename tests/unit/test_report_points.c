@@ -151,8 +151,6 @@ static void test_groups(void **state)
         {"modulus_depth", "group", {"bulk", "track"}},
         {"modulus_rate", "group", {"bulk", "track"}},
         {"track_layer", "curve", {"bulk", "track", "thinnest layer", "layer of the theory"}},
-        {"materials", "material", {"soft", FIXTURE_EVIL}},
-        {"shared_shift_law", "sample", {"NR", "SBR 10%"}},
         {"transverse_isotropy", "factors", {"none", "loss", "storage", "both"}}};
     for (size_t i = 0; i < sizeof by_group / sizeof *by_group; i++) {
         sections s = begin_sections(by_group[i].figure);
@@ -195,7 +193,7 @@ static void test_groups(void **state)
     end_sections(&forces);
     end_sections(&constants);
     sections groups = begin_sections("modulus_groups"), map = begin_sections("modulus_map"),
-             dma = begin_sections("dma_comparison"), ratio = begin_sections("material_ratio");
+             dma = begin_sections("dma_comparison");
     next_is(&dma, (chosen){.table = "dma_comparison"});
     for (size_t k = 0; k < 2; k++) {
         static const char *const names[] = {"bulk", "track"}, *const tables[] = {
@@ -207,21 +205,9 @@ static void test_groups(void **state)
         next_is(&map, (chosen){tables[k], {"verdict"}, {"!accepted"}});
         next_is(&dma, (chosen){"dma_comparison", {"group"}, {names[k]}});
     }
-    for (size_t k = 0; k < 2; k++)
-        next_is(&ratio, (chosen){"material_ratio",
-                                 {"material", "over"},
-                                 {FIXTURE_EVIL, k == 0 ? "frequency" : "temperature"}});
     end_sections(&groups);
     end_sections(&map);
     end_sections(&dma);
-    end_sections(&ratio);
-    /* of three rows and two columns the first panel has the names */
-    char *script = read_plot("out", "material_ratio", "gp"), *key = strstr(script, "unset key");
-    assert_non_null(key);
-    *key = '\0';
-    assert_non_null(strstr(script, " title "));
-    assert_null(strstr(key + 1, " title "));
-    free(script);
 }
 
 static void test_segments_with_their_contact(void **state)

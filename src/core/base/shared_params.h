@@ -101,7 +101,7 @@
             .help = "local friction of the incompressible profile"                                 \
     }
 
-/* Parameter record for the comparison of groups of curves and of materials. */
+/* Parameter record for the comparison of groups of curves. */
 #define EQUIVALENCE_MARGIN(type)                                                                   \
     {                                                                                              \
         PARAM("equivalence-margin", type, margin, WT_Q_NONE, ABOVE(0)),                            \

@@ -165,7 +165,7 @@ static wt_result_status result_completeness(const table_view *failures, const ta
 }
 
 /* Further tables with headlines. Those from WITH_KEYS on have headlines in their keys. */
-enum { ANSWER, NOTES, FAILURES, WITH_KEYS, N_TABLES = WITH_KEYS + 17 };
+enum { ANSWER, NOTES, FAILURES, WITH_KEYS, N_TABLES = WITH_KEYS + 15 };
 static const table_schema *const sources[N_TABLES] = {[ANSWER] = &answer_schema,
                                                       [NOTES] = &notes_schema,
                                                       [FAILURES] = &failures_schema,
@@ -176,8 +176,6 @@ static const table_schema *const sources[N_TABLES] = {[ANSWER] = &answer_schema,
                                                       &dwell_schema,
                                                       &sensitivity_schema,
                                                       &thermal_schema,
-                                                      &material_ratio_schema,
-                                                      &shared_shift_law_schema,
                                                       &ratio_pairs_schema,
                                                       &identification_schema,
                                                       &shared_pairs_schema,

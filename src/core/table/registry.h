@@ -98,9 +98,6 @@
     X(track_layer, TRACK_LAYER, "track_layer", "Thickness of the layer by the curves", "compare")  \
     X(dma_comparison, DMA_COMPARISON, "dma_comparison", "Indentation against DMA", "compare")      \
     X(dwell_dma, DWELL_DMA, "dwell_dma", "Dwells against DMA", "compare")                          \
-    X(materials, MATERIALS, "materials", "Materials side by side", "compare")                      \
-    X(material_ratio, MATERIAL_RATIO, "material_ratio", "Ratio of the moduli of materials",        \
-      "compare")                                                                                   \
     X(collection, COLLECTION, "collection", "Cases side by side", "collect")                       \
     X(collected_modulus, COLLECTED_MODULUS, "collected_modulus",                                   \
       "Modulus against indentation rate, of all cases", "collect")                                 \
@@ -118,8 +115,6 @@
     X(ratio_pairs, RATIO_PAIRS, "ratio_pairs", "Modulus ratios of cases against one another",      \
       "collect")                                                                                   \
     X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors", "master")                    \
-    X(shared_shift_law, SHARED_SHIFT_LAW, "shared_shift_law", "One law for several samples",       \
-      "master")                                                                                    \
     X(master_curve, MASTER_CURVE, "master_curve", "Master curve", "master")                        \
     X(prony, PRONY, "prony", "Prony series", "master")                                             \
     X(relaxation_spectrum, RELAXATION_SPECTRUM, "relaxation_spectrum", "Relaxation spectrum",      \

@@ -136,7 +136,6 @@ static const struct {
     const char *former, *name;
 } tables[] = {
     {"choices", "overrides"},
-    {"common_law", "shared_shift_law"},
     {"directions", "transverse_isotropy"},
 };
 
@@ -153,7 +152,6 @@ static const struct {
     {"plan", "because", "reason"},
     {"plan", "gives", "produces"},
     {"prony_reduced", "better", "preferred_model"},
-    {"shared_shift_law", "furthest", "largest_deviation"},
     {"validation_choices", "tried", "alternative"},
     {"what_if", "tried", "alternative"},
     {NULL, "anisotropy_chance", "anisotropy_p"},

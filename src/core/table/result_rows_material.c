@@ -112,34 +112,6 @@ static void add_samples(rows_source *s)
     }
 }
 
-static void add_shared_law(rows_source *s, const table_view *v)
-{
-    const char *agree = shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_AGREE);
-    const wt_estimate c1 = shared_shift_law_value(v, SHARED_SHIFT_LAW_KEY_WLF_C1);
-    result_row *row = rows_add_verdict(s, 0, agree != NULL ? agree : "not tested", "one law");
-    rows_reason(row, "how to decide it",
-                shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_SETTLED_BY));
-    rows_reason(row, "left out", shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_LEFT_OUT));
-    rows_reason(row, "reference temperature",
-                shared_shift_law_key_text(v, SHARED_SHIFT_LAW_KEY_MOVED));
-    if (isnan(c1.value))
-        return;
-    rows_add_number(s, 1, rows_estimate(c1), "WLF C1");
-    rows_add_number(s, 1, rows_estimate(shared_shift_law_value(v, SHARED_SHIFT_LAW_KEY_WLF_C2)),
-                    "WLF C2");
-}
-
-static void add_material_ratio(rows_source *s, const table_view *v)
-{
-    const char *differs = material_ratio_key_text(v, MATERIAL_RATIO_KEY_DIFFERS);
-    result_row *row =
-        rows_add_verdict(s, 0, differs != NULL ? differs : "not tested", "materials differ");
-    rows_reason(row, "how to decide it", material_ratio_key_text(v, MATERIAL_RATIO_KEY_SETTLED_BY));
-    rows_reason(row, "the interval includes",
-                material_ratio_key_text(v, MATERIAL_RATIO_KEY_INCLUDES));
-    rows_reason(row, "no error known of", material_ratio_key_text(v, MATERIAL_RATIO_KEY_LACKS));
-}
-
 static void add_transition(rows_source *s, const table_view *v)
 {
     const wt_estimate factor = glass_transition_value(v, GLASS_TRANSITION_KEY_FACTOR_PEAK),
@@ -195,9 +167,7 @@ void rows_of_material(rows_source *s)
     static const struct {
         const table_schema *schema;
         void (*add)(rows_source *s, const table_view *view);
-    } parts[] = {{&material_ratio_schema, add_material_ratio},
-                 {&shared_shift_law_schema, add_shared_law},
-                 {&shift_factors_schema, add_shifts},
+    } parts[] = {{&shift_factors_schema, add_shifts},
                  {&glass_transition_schema, add_transition},
                  {&payne_schema, add_payne}};
     table_view view;

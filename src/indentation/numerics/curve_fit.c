@@ -65,8 +65,6 @@ static const wt_param rows[] = {
     {PARAM("fixed-contact-point", wt_indent_options, fixed_contact_point, WT_Q_LENGTH, ANY_NUMBER),
      .value = "Z", .unset = "", .flags = PARAM_NO_CASE,
      .help = "do not fit the contact point: take this tip position"},
-    {PARAM_FLAG_OF("contact-estimators", wt_indent_options, contact_estimators),
-     .help = "also how far contact points by other estimators lie from those fitted"},
     {PARAM_FLAG_OF("fit-retract", wt_indent_options, fit_retract),
      .help = "also fit an elastic contact to the retract alone, with its own modulus and adhesion: "
              "a check, which changes no other number"},
@@ -193,8 +191,6 @@ void curve_fit_empty(wt_indent_fit *fit)
         fit->misfit[j] = nan_;
     for (int j = 0; j < WT_FIT_RANGES; j++)
         fit->range_shift[j] = fit->range_error[j] = nan_;
-    for (int j = 0; j < WT_CONTACT_ESTIMATORS; j++)
-        fit->contact_by[j] = nan_;
 }
 
 static void report_adhesion(const curve_fitting *f, wt_indent_fit *fit)
@@ -414,8 +410,6 @@ static void fit_once(const curve_fitting *of, const curve_branch *retract, doubl
     compute_rates(f, approach, fit);
     report_spectrum(f, fit);
     fit->verdict = curve_assess(f, fit);
-    if (f->options->contact_estimators)
-        curve_estimate_contact(f, fit->contact_by);
     if (f->options->fit_retract)
         curve_report_unloading(f, fit);
 }

@@ -101,9 +101,6 @@ void curve_subtract_wave(curve_fitting *f, const curve_wave *wave);
 bool curve_fit_range(curve_fitting *f);
 /* Number of samples in contact that are compared with the law. */
 size_t curve_count_in_range(const curve_fitting *f);
-/* Computes contact points by other estimators relative to that of the fit of all samples:
- * contact_point.c. */
-void curve_estimate_contact(curve_fitting *f, double contact[WT_CONTACT_ESTIMATORS]);
 
 /* ---- retract: retract.c ---- */
 

@@ -102,14 +102,10 @@ piece 'its curves are called bulk and are treated as those of the track'
 "$weartrack" indent -q --tip "$tip" --spring-constant 0.3N/m "$track" -o unnamed.h5 2> err
 cause '`weartrack indent --group track`' compare bulk.h5 unnamed.h5
 leads compare bulk.h5 track.h5
-piece 'two files are needed, BULK and TRACK' '--at-temperature, --at-frequency and --sample-error are for materials' '--poisson-ratio is of materials, or of --master' '--temperature, --units, --format, --sheet'
+piece 'two files are needed, BULK and TRACK' '--poisson-ratio and --sample are of --master'
 cause 'two files are needed' compare bulk.h5
 helps compare bulk.h5 track.h5
-cause 'are for materials, not for BULK and TRACK' compare --at-temperature 20degC bulk.h5 track.h5
-helps compare bulk.h5 track.h5
-cause '--poisson-ratio is of materials' compare --poisson-ratio 0.5 bulk.h5 track.h5
-helps compare bulk.h5 track.h5
-cause 'are for measured isotherms' compare --sheet a bulk.h5 track.h5
+cause '--poisson-ratio and --sample are of --master' compare --poisson-ratio 0.5 bulk.h5 track.h5
 helps compare bulk.h5 track.h5
 piece '--sample goes with --master'
 cause '--sample goes with --master' indent --sample a --tip "$tip" --spring-constant 0.3N/m "$curve"

@@ -2,13 +2,8 @@
 
 sed 's/20,10,/20,9.9,/' samples.csv > more.csv
 piece 'choose one with --sample NAME; --sample all if they are of one material'
-cause '--sample NAME' compare samples.csv more.csv
-helps compare --sample a samples.csv more.csv --poisson-ratio 0.5
-not_advice 'the file names no sample and is one material' 'says that the option is not for this file'
-# a file or a result of one material without a name
-cause '--sample NAME' compare samples.csv unnamed.csv --poisson-ratio 0.5
-helps compare --sample a samples.csv unnamed.csv --poisson-ratio 0.5
-helps compare --sample a samples.csv three.h5 --poisson-ratio 0.5
+cause '--sample NAME' ramp samples.csv
+helps master --sample a samples.csv more.csv --poisson-ratio 0.5 -o a.h5
 
 piece 'choose one with --sample NAME, here or of weartrack master'
 cause 'choose one with --sample NAME, here or of weartrack master' friction --material samples.h5 \
@@ -100,21 +95,9 @@ piece '--sample is of moduli and strain sweeps alike'
 cause '--sample is of moduli and strain sweeps alike' friction --sample c --material c.h5 --roughness $surface --pressure 0.4MPa --velocity 0.1m/s --strain-softening payne.h5 --softening-temperature 20degC
 helps friction --material c.h5 --roughness $surface --pressure 0.4MPa --velocity 0.1m/s --strain-softening softening.tsv
 
-piece '--temperature says it'
-sed '/^## table: shift/,$d' prony.tsv | grep -v '^## reference_temperature' > placeless.tsv
-cause '--temperature says it' compare placeless.tsv three.h5
-leads compare three.csv three.h5 --poisson-ratio 0.5
-
-piece 'the isotherms of %s%s%s, or what `weartrack master` makes of them'
-sed '/^## table: material_draws/,$d' prony.tsv > undrawn.tsv
-cause 'what `weartrack master` makes of them' compare undrawn.tsv three.h5
-leads compare three.csv three.h5 --poisson-ratio 0.5
-
 piece 'the reduced Prony series of %zu term%s is off the spectrum'
 cause 'of --prony-error' master --poisson-ratio 0.5 --prony-terms 1 three.csv -o a.h5
 helps master --poisson-ratio 0.5 --prony-error 50% three.csv -o a.h5
-
-no_input 'To be given to --shift-law' 'label of a key, taken by tests/cli/samples.txt'
 
 message='a table without its keys'
 no_input 'give the prony table of `weartrack master`' 'the schema of the table is checked before'
@@ -126,9 +109,4 @@ no_input 'make the file anew with `weartrack master`' 'tables of draws that cont
 piece '--export %s: expected abaqus'
 cause '--export rubber.inp: expected abaqus' master --poisson-ratio 0.5 three.csv --export rubber.inp -o a.h5
 helps master --poisson-ratio 0.5 three.csv --export abaqus:rubber.inp -o a.h5
-piece '--shared-shift-law takes sweeps of several samples' '--shared-shift-law-margin goes with --shared-shift-law'
-cause 'without --sample, --save-shifts' master --poisson-ratio 0.5 --shared-shift-law same three.csv -o a.h5
-helps master --poisson-ratio 0.5 --shared-shift-law same samples.csv -o a.h5
-helps master --poisson-ratio 0.5 --shared-shift-law same --sample-by file three.csv other.csv -o a.h5
-cause 'goes with --shared-shift-law' master --shared-shift-law-margin 0.2 --poisson-ratio 0.5 samples.csv -o a.h5
-helps master --shared-shift-law same --shared-shift-law-margin 0.2 --poisson-ratio 0.5 samples.csv -o a.h5
+
