@@ -330,6 +330,7 @@ typedef struct wt_modulus_profile {
     size_t n,
         n_units; /* number of curves; of spots, or of curves if there are fewer than three spots */
     bool by_spot;
+    bool two_spots; /* the curves are of two spots, which allow no interval: its limits are NaN */
     wt_depth_verdict verdict;
     double depth[WT_DEPTHS];        /* equidistant depths up to the largest [m] */
     wt_interval modulus[WT_DEPTHS]; /* modulus of the homogeneous rubber with the same force at this

@@ -138,6 +138,11 @@ static void describe_depth_change(const wt_modulus_profile *d, char text[320])
                       "inconclusive: %zu curves without adhesion do not tell, 12 are "
                       "needed that differ by noise alone",
                       d->n);
+    else if (d->two_spots)
+        clocale_print(text, 320,
+                      "inconclusive: two spots do not allow an interval of the change of the "
+                      "modulus between %s and %s (factor %.3f); a third spot would",
+                      shallow.text, deep.text, d->change.value);
     else if (d->verdict == WT_DEPTH_OTHER_RESIDUAL)
         clocale_print(
             text, 320,
