@@ -310,6 +310,7 @@ typedef struct wt_modulus_profile {
     size_t n,
         n_units; /* number of curves; of spots, or of curves if there are fewer than three spots */
     bool by_spot;
+    bool two_spots; /* the curves are of two spots, which allow no interval: its limits are NaN */
     wt_depth_verdict verdict;
     double depth[WT_DEPTHS];        /* equidistant depths up to the largest [m] */
     wt_interval modulus[WT_DEPTHS]; /* modulus of the homogeneous rubber with the same force at this
@@ -590,6 +591,10 @@ typedef struct wt_group_data {
         bend_error; /* systematic errors of all moduli by loss and baseline curvature, the latter
                        with its sign; 0 if not detected, NaN if detected with unknown size */
     double range_error; /* the same by the misfit of the law, as the ranges of the fit show */
+    /* Mean relative changes of the moduli with other choices of the fit: each range, with its error
+     * by noise, a law without loss, and one with the pull that the fit left out. NaN if unknown. */
+    wt_estimate range_shift[WT_FIT_RANGES];
+    double loss_shift, pull_shift;
     wt_tip tip;
     bool has_tip;                 /* false: unknown, or several tips */
     bool has_several_cantilevers; /* the curves have several spring constants */

@@ -98,6 +98,7 @@ typedef struct cmd_usage {
     const char *first;  /* most important options, for --help without "all"; NULL: all */
     const char *master; /* options that weartrack master documents; NULL: none */
     const char *notes;  /* text after the options; NULL if none */
+    const char *next;   /* call that follows with the result, shown on a terminal; NULL: none */
     bool exports;       /* writes tables for other programs, including databases */
     bool one_by_one;    /* writes each table when it is read: no CSV and no JSON */
     int n_files;        /* required number of files; CMD_ONE_OR_MORE: one or more; 0: any */
@@ -117,6 +118,7 @@ typedef struct cmd_progress {
 /* One call of a subcommand: its options and common data. */
 typedef struct cmd_session {
     const char *name;
+    const char *next; /* of the usage */
     cmd_common_options common;
     cmd_option_group *parts; /* [n_parts] */
     size_t n_parts;

@@ -52,6 +52,7 @@ int cmd_friction(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "friction",
+        .next = "layer with these options, a wear rate and a critical energy",
         .arguments = "--material FILE --roughness R --pressure P --velocity V [OPTION]...",
         .description =
             "Persson's hysteresis friction, contact area and, with --shear-stress, total "

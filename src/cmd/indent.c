@@ -29,6 +29,7 @@ int cmd_indent(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "indent",
+        .next = "compare BULK TRACK, the results of indent for both",
         .arguments = "--tip TIP [OPTION]... FILE...",
         .description =
             "Fits baseline, contact point and modulus of every approach curve of the files "

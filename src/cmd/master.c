@@ -298,6 +298,7 @@ int cmd_master(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "master",
+        .next = "friction --material RESULT, or compare BULK TRACK --master RESULT",
         .arguments = "[OPTION]... FILE...",
         .description =
             "Fits one relaxation spectrum to all isotherms of DMA frequency sweeps, with their "

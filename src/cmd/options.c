@@ -467,6 +467,7 @@ bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_option_group *parts, 
     snprintf(names, sizeof names, "%s log quiet verbose strict help", usage->common);
     cmd_option_group last = {common_params(), &s->common, names, 0};
     s->name = usage->name;
+    s->next = usage->next;
     s->parts = parts;
     s->n_parts = n_parts;
     for (size_t i = 0; i < n_parts; i++)

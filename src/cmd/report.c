@@ -161,6 +161,26 @@ static bool check_output_names(cmd_session *s, const report_outputs *own)
     return true;
 }
 
+/* Checks that a figure has this name, and lists all names if none has. */
+static bool check_figure_name(cmd_session *s, const char *name)
+{
+    char *names = NULL;
+    size_t size = 0;
+    bool found = name == NULL;
+    FILE *const list = open_memstream(&names, &size);
+    if (list == NULL)
+        cmd_exit_without_memory(size);
+    for (size_t i = 0; !found && i < wt_figure_count(); i++) {
+        found = strcmp(wt_figure_get(i).name, name) == 0;
+        fprintf(list, "%s%s", i > 0 ? ", " : "", wt_figure_get(i).name);
+    }
+    fclose(list);
+    if (!found)
+        (void)cmd_usage_error(s, "there is no figure '%s'; the figures are %s", name, names);
+    free(names);
+    return found;
+}
+
 static bool is_inside_folder(const char *path, const char *folder)
 {
     size_t n = folder != NULL ? strlen(folder) : 0;
@@ -240,7 +260,7 @@ int cmd_report(int argc, char **argv)
         (void)cmd_usage_error(&s, "--methods is a call of its own");
         return cmd_session_free(&s);
     }
-    if (!check_output_names(&s, &own))
+    if (!check_output_names(&s, &own) || !check_figure_name(&s, report_options.figure))
         return cmd_session_free(&s);
     report_options.with_provenance = s.common.provenance;
     wt_status status = cmd_tables_read(s.files[0], &s.result, &s.err);

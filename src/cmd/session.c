@@ -3,6 +3,7 @@
 #include "core/base/spell_suggest.h"
 
 #include <string.h>
+#include <unistd.h>
 
 cmd_session cmd_session_defaults(void)
 {
@@ -147,6 +148,10 @@ void cmd_end(cmd_session *s, wt_status status)
         cmd_fail(s);
     else
         cmd_print_place_of_rest(s);
+    /* a pipe gets tables only */
+    if (status == WT_OK && s->next != NULL && isatty(STDOUT_FILENO) && !s->common.quiet &&
+        !cmd_log_is_json())
+        printf("next     weartrack %s\n", s->next);
 }
 
 static wt_status add_result_table(void *result, wt_table *table, wt_error *err)

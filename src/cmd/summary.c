@@ -73,6 +73,21 @@ static wt_status read_all_results(cmd_session *s, wt_table **headlines, size_t *
     return status == WT_OK ? WT_OK : wt_fail(&s->err, status, "%s", wt_status_text(status));
 }
 
+/* Prints the main numbers of one result below each other, where a row of 60 columns would be cut.
+ * Returns false if the result has none, or if the table is requested. */
+static bool print_one_result(cmd_session *s, const cmd_option_group *form)
+{
+    if (s->n_files != 1 || cmd_option_is_set(form, "format") || !cmd_shows_first_lines(s))
+        return false;
+    wt_error err = WT_ERROR_INIT; /* the table reports the failure */
+    if (cmd_tables_read(s->files[0], &s->result, &err) != WT_OK || !cmd_shows_short_table(s))
+        return false;
+    cmd_print_short_table(s, wt_result_find(s->result, "answer") != NULL);
+    cmd_apply_strict(s, s->files[0], cmd_count_remarks(s->result));
+    puts("one row of all main numbers: -o FILE, or -o - to print it");
+    return true;
+}
+
 int cmd_summary(int argc, char **argv)
 {
     static const cmd_usage usage = {
@@ -93,6 +108,8 @@ int cmd_summary(int argc, char **argv)
                                 {wt_job_params(), &s.work, "threads", 0}};
     wt_table *summary = NULL;
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_require_text_output(&s))
+        return cmd_session_free(&s);
+    if (print_one_result(&s, &parts[0]))
         return cmd_session_free(&s);
     size_t n_read = 0;
     wt_table **headlines = wt_alloc(s.n_files, sizeof *headlines);

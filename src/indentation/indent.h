@@ -36,6 +36,9 @@ void indent_summary_clear(indent_summary *summary);
  * change of the modulus over the ranges of the fit, without the part by noise, and the pulls that
  * the fits left out. */
 double indent_summary_range_spread(const indent_summary *summary);
+/* Mean relative change of the modulus with one range of the fit, and its error by noise; NaN if no
+ * curve has enough samples in the range. */
+wt_estimate indent_summary_range_shift(const indent_summary *summary, int range);
 /* Writes the systematic errors that curves of this depth cannot show, and how to detect them. */
 void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size);
 /* Reports the shifts that all moduli share, tests the mean residual and reports the contact points

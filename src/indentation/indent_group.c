@@ -5,6 +5,7 @@
 #include "core/base/clocale.h"
 #include "core/base/number.h"
 #include "core/math/root.h"
+#include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "indentation/curve_tables.h"
 #include "indentation/indent.h"
@@ -137,6 +138,11 @@ static void describe_depth_change(const wt_modulus_profile *d, char text[320])
                       "inconclusive: %zu curves without adhesion do not tell, 12 are "
                       "needed that differ by noise alone",
                       d->n);
+    else if (d->two_spots)
+        clocale_print(text, 320,
+                      "inconclusive: two spots do not allow an interval of the change of the "
+                      "modulus between %s and %s (factor %.3f); a third spot would",
+                      shallow.text, deep.text, d->change.value);
     else if (d->verdict == WT_DEPTH_OTHER_RESIDUAL)
         clocale_print(
             text, 320,
@@ -383,6 +389,29 @@ double indent_summary_range_spread(const indent_summary *summary)
                  mean_shift(summary, &summary->left_out));
 }
 
+wt_estimate indent_summary_range_shift(const indent_summary *summary, int range)
+{
+    const double n = (double)summary->range[range].n;
+    return (wt_estimate){summary->range[range].sum / n, sqrt(summary->range_variance[range]) / n, 0,
+                         "1"};
+}
+
+/* Writes the changes of the moduli with other choices of the fit, as far as they are known. A pull
+ * that the fit left out adds to the force, so that the modulus rises by its share. */
+static void report_choices(const indent_summary *summary, table_writer *rows)
+{
+    for (int i = 0; i < WT_FIT_RANGES; i++) {
+        const wt_estimate shift = indent_summary_range_shift(summary, i);
+        if (summary->range[i].n > 0)
+            indentation_set_value(rows, (indentation_key)(INDENTATION_KEY_RANGE_SHIFT + i),
+                                  shift.value, shift.standard_error, 0);
+    }
+    indentation_set_value(rows, INDENTATION_KEY_LOSS_SHIFT, mean_shift(summary, &summary->loss), 0,
+                          0);
+    indentation_set_value(rows, INDENTATION_KEY_PULL_SHIFT,
+                          NORMAL_95 * mean_shift(summary, &summary->left_out), 0, 0);
+}
+
 /* Tests the mean residual of the accepted curves. */
 static void test_mean_residual(const indent_summary *summary, table_writer *rows)
 {
@@ -424,5 +453,6 @@ void indent_summary_report(const indent_summary *summary, const wt_indent_job *j
     report_common_shifts(summary, job, work, rows);
     indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, indent_summary_range_spread(summary),
                           0, 0);
+    report_choices(summary, rows);
     test_mean_residual(summary, rows);
 }

@@ -134,6 +134,15 @@
       "does is not known",                                                                         \
       NUMBER, SHOWS(deep.loss_error), OPTIONAL)
 
+/* Mean relative changes of the moduli with other choices of the fit: the ranges in the order of
+ * wt_indent_fit.range_shift, a contact law without loss, and one with a constant pull. */
+#define INDENTATION_CHOICE_KEYS(X)                                                                 \
+    X(INDENTATION_KEY_RANGE_SHIFT, "range_shift_shallow", NUMBER, OPTIONAL)                        \
+    X(INDENTATION_KEY_RANGE_SHIFT_DEEP, "range_shift_deep", NUMBER, OPTIONAL)                      \
+    X(INDENTATION_KEY_RANGE_SHIFT_MIDDLE, "range_shift_middle", NUMBER, OPTIONAL)                  \
+    X(INDENTATION_KEY_LOSS_SHIFT, "loss_shift", NUMBER, OPTIONAL)                                  \
+    X(INDENTATION_KEY_PULL_SHIFT, "pull_shift", NUMBER, OPTIONAL)
+
 /* Keys of the systematic errors. They have the relative standard error of each source, stated or
  * else assumed, d ln E / d ln source and its standard error. The order is that of
  * wt_systematic_source. */
@@ -152,7 +161,8 @@
     X(INDENTATION_KEY_RADIUS_GAIN, "radius_gain", NUMBER, OPTIONAL)                                \
     X(INDENTATION_KEY_LOSS_ERROR, "loss_error", NUMBER, OPTIONAL)                                  \
     X(INDENTATION_KEY_BEND_ERROR, "bend_error", NUMBER, OPTIONAL)                                  \
-    X(INDENTATION_KEY_RANGE_ERROR, "range_error", NUMBER, OPTIONAL)
+    X(INDENTATION_KEY_RANGE_ERROR, "range_error", NUMBER, OPTIONAL)                                \
+    INDENTATION_CHOICE_KEYS(X)
 
 /* Form of the tip as wt_tip_describe writes it. Several tips are described one after another. */
 #define TIP_FORMS(X)                                                                               \

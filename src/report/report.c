@@ -24,6 +24,19 @@ wt_report_options wt_report_defaults(void)
                                .width = (double)NAN};
 }
 
+static bool is_requested(const char *requested, size_t i)
+{
+    return requested == NULL || strcmp(figure_find(i)->name, requested) == 0;
+}
+
+static bool is_figure_name(const char *name)
+{
+    for (size_t i = 0; i < wt_figure_count(); i++)
+        if (is_requested(name, i))
+            return true;
+    return false;
+}
+
 static const wt_param rows[] = {
     {PARAM_TEXT_OF("style", wt_report_options, style), .value = "STYLE",
      .help = "plot style: paper, screen or a file of yours, a script that gnuplot runs"},
@@ -31,6 +44,11 @@ static const wt_param rows[] = {
      .unset = "",
      .help = "pictures for a paper in the folder, too, some of svg,pdf,png, parted by commas; "
              "bitmaps have 600 dots in an inch"},
+    {PARAM_TEXT_OF("figure", wt_report_options, figure), .value = "NAME", .unset = "all of them",
+     .flags = PARAM_NO_CASE,
+     .help =
+         "only this figure, such as friction, on the page and in the folder; a wrong name lists "
+         "all"},
     /* The key needs the lower limit; the upper limit is a poster. */
     {PARAM("width", wt_report_options, width, WT_Q_LENGTH, FROM_TO(0.05, 1)), .value = "LENGTH",
      .unset = "as the style has it",
@@ -104,8 +122,16 @@ static bool may_continue_pictures(void *user)
 static wt_status write_figure(report *r, size_t i, wt_error *err)
 {
     figure_drawing *d = &r->figures[i].drawing;
-    if (figure_tables_find(&r->tables, figure_find(i)->table)->n_rows == 0)
+    if (!is_requested(r->options.figure, i))
         return WT_OK;
+    if (figure_tables_find(&r->tables, figure_find(i)->table)->n_rows == 0) {
+        if (r->options.figure == NULL)
+            return WT_OK;
+        return wt_fail(err, WT_E_EMPTY,
+                       "the result has no data for the figure %s, which needs the "
+                       "table %s",
+                       r->options.figure, figure_find(i)->table->name);
+    }
     const wt_status status = drawing_build(d, figure_find(i), &r->tables, err);
     if (status != WT_OK)
         return status;
@@ -202,6 +228,8 @@ static wt_status check_report_options(const char *place, const wt_report_options
                                       wt_error *err)
 {
     wt_status status = param_check(wt_report_params(), options, err);
+    if (status == WT_OK && !is_figure_name(options->figure))
+        status = wt_fail(err, WT_E_ARG, "there is no figure '%s'", options->figure);
     if (status != WT_OK || options->figures == 0 || !path_is_page(place))
         return status;
     status = wt_fail(err, WT_E_ARG, "pictures for a paper need a folder");

@@ -131,6 +131,14 @@ compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
                                const comparison_inputs *inputs, const unstated_errors *unstated,
                                const compare_row *row, const compare_row *rates, size_t n_rates);
 
+/* Range of the ratio over the choices of the fit, which are made alike for both groups, and the
+ * choice with the largest effect. NaN and NULL if no choice has an effect beyond the noise. */
+typedef struct ratio_choices {
+    double low, high;
+    const char *widest, *remedy;
+} ratio_choices;
+ratio_choices compare_ratio_choices(const compare_pair *p, double ratio);
+
 /* Reads both groups of a job with their rates. The caller clears `p`, also after a failure. */
 wt_status compare_read_groups(const wt_compare_job *job, compare_pair *p,
                               wt_error *err) WT_NODISCARD;

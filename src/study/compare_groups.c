@@ -359,6 +359,11 @@ static void read_shared_inputs(const table_view *t, wt_group_data *d)
     d->range_error = shown_key_error(t, INDENTATION_KEY_RANGE_ERROR);
     d->loss_error = shown_key_error(t, INDENTATION_KEY_LOSS_ERROR);
     d->bend_error = shown_key_error(t, INDENTATION_KEY_BEND_ERROR);
+    for (int i = 0; i < WT_FIT_RANGES; i++)
+        d->range_shift[i] =
+            indentation_value(t, (indentation_key)(INDENTATION_KEY_RANGE_SHIFT + i));
+    d->loss_shift = indentation_value(t, INDENTATION_KEY_LOSS_SHIFT).value;
+    d->pull_shift = indentation_value(t, INDENTATION_KEY_PULL_SHIFT).value;
     d->pooled_misfit = parse_number_or_nan(indentation_key_text(t, INDENTATION_KEY_POOLED_MISFIT));
     d->pooled_misfit_p =
         parse_number_or_nan(indentation_key_text(t, INDENTATION_KEY_POOLED_MISFIT_CHANCE));

@@ -281,7 +281,8 @@ static double rate_ratio_half_range(const compare_row *rates, size_t n)
 TABLE_KEYS(comparison, COMPARISON, const char *differs, *settled_by, *would_explain, *unit, *rates,
            *includes, *cancels;
            cantilever_count cantilevers; wt_estimate margin, rate_slope, ratio;
-           double interaction_p, ratio_df, rate_spread, calibration_share, spot_scatter;)
+           double interaction_p, ratio_df, rate_spread, calibration_share, spot_scatter;
+           ratio_choices choices;)
 
 /* Sets the ratio and its error for friction: a Student's t error of the logarithm, unknown without
  * an interval. */
@@ -343,6 +344,7 @@ static wt_status write_comparison_table(const comparison_task *task, wt_table **
         .ratio_df = none,
         .rate_spread = none,
         .calibration_share = none,
+        .choices = compare_ratio_choices(p, v.is_unreportable ? none : c->ratio),
         .spot_scatter = given ? task->job->spot_scatter : none};
     if (!v.is_unreportable)
         set_ratio_keys(task, v.depends_on_rate, interval, &keys);

@@ -140,6 +140,11 @@
       OPTIONAL)                                                                                    \
     X(COMPARISON_KEY_MODULUS_RATIO_DF, "modulus_ratio_df", NUMBER, SHOWS(ratio_df),                \
       LABEL("Degrees of freedom of its error"), OPTIONAL)                                          \
+    X(COMPARISON_KEY_CHOICES_LOW, "model_choices_low", NUMBER, SHOWS(choices.low), OPTIONAL)       \
+    X(COMPARISON_KEY_CHOICES_HIGH, "model_choices_high", NUMBER, SHOWS(choices.high), OPTIONAL)    \
+    X(COMPARISON_KEY_WIDEST_CHOICE, "widest_choice", TEXT, SHOWS(choices.widest), OPTIONAL)        \
+    X(COMPARISON_KEY_CHOICE_REMEDY, "widest_choice_settled_by", TEXT, SHOWS(choices.remedy),       \
+      OPTIONAL)                                                                                    \
     X(COMPARISON_KEY_RATE_SPREAD, AS(rate_spread), NUMBER,                                         \
       LABEL("Half the range of its logarithm over the rates, in its error"), OPTIONAL)             \
     X(COMPARISON_KEY_CALIBRATION_SHARE, AS(calibration_share), NUMBER,                             \

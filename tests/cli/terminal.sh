@@ -64,6 +64,38 @@ slide="$slide --sliding-temperature 30degC --shear-stress 5MPa"
 }
 short run --no-report "$case/case.xml" -o case.h5
 text run --plan "$case/case.xml"
+# The next command is named on a terminal only, and it takes the result.
+# next WORDS CALL...: the call says so
+next() {
+  words=$1
+  shift
+  terminal "$@"
+  grep -qxF "next     weartrack $words" screen || fail "no next command: $*"
+  "$program" "$@" 2>&1 | grep -q '^next' && fail "a next command in a pipe: $*"
+  return 0
+}
+follows() { "$program" "$@" -o next.h5 > screen 2>&1 || fail "no such next command: $*"; }
+# shellcheck disable=SC2086
+{
+  next 'compare BULK TRACK, the results of indent for both' indent $fit "$case"/bulk-1.jpk-force-map -o b.h5
+  follows compare bulk.h5 track.h5
+  next 'friction --material RESULT, or compare BULK TRACK --master RESULT' master "$case/dma.txt" -o dma.h5
+  follows friction $slide
+  follows compare bulk.h5 track.h5 --master dma.h5
+  next 'layer with these options, a wear rate and a critical energy' friction $slide -o friction.h5
+  follows layer $slide --specific-wear-rate '1e-3mm^3/(N m)' --critical-energy 2e10J/m^3
+  next 'friction --roughness RESULT --material DMA' psd "$case/road-1.gsf" -o road.h5
+  follows friction ${slide%%--roughness*} --roughness road.h5 --pressure ${slide#*--pressure}
+  next 'validate CASE.xml RESULT' record "$fixtures/record/steps.csv" -o record.h5
+  follows validate "$case/case.xml" record.h5
+}
+# One result is a list, in which no line is cut.
+short summary case.h5
+grep -q 'Is the track different?  *yes, softer' screen || fail "no answer in the list of summary"
+grep -q '\.\.\.' screen && fail "a line of summary is cut"
+"$program" summary case.h5 > pipe
+terminal summary case.h5 -o -
+[ "$(lines screen)" -ge "$(lines pipe)" ] && grep -q modulus_ratio_low screen || fail "no row of summary with -o -"
 tables table case.h5 friction
 tables table case.h5 --list
 text convert "$case"/bulk-1.jpk-force-map

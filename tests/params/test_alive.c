@@ -162,6 +162,7 @@ static const struct {
     {"run", "keep", "the result that is there, of the same command: cli_keep"},
     {NULL, "style", "of the pictures: test_report"},
     {NULL, "figures", "of the pictures: unit_report_paper, tests/cli/bad_input.txt"},
+    {NULL, "figure", "of the pictures: tests/cli/options.txt"},
     {NULL, "width", "of the pictures: unit_report_paper"},
     {NULL, "font", "the same"},
     {"compare", "between-spot-sd",

@@ -179,6 +179,8 @@ static const expectation measured[] = {
     {&comparison_schema, "interaction_p", "00"},
     {&comparison_schema, "modulus_ratio", "kk"},
     {&comparison_schema, "modulus_ratio_df", "00"},
+    {&comparison_schema, "model_choices_low", "00"}, /* a range has no error */
+    {&comparison_schema, "model_choices_high", "00"},
     {&comparison_schema, "rate_spread", ".."},       /* the ratio does not depend on the rate */
     {&comparison_schema, "calibration_share", "00"}, /* what the gains of one tip differ by */
     {&comparison_schema, "spot_scatter", ".."},      /* the spots tell it */
@@ -207,6 +209,11 @@ static const expectation measured[] = {
     {&indentation_schema, "range_error", "00"},
     {&indentation_schema, "loss_error", "00"},
     {&indentation_schema, "bend_error", "00"},
+    {&indentation_schema, "range_shift_shallow", "kk"},
+    {&indentation_schema, "range_shift_deep", "kk"},
+    {&indentation_schema, "range_shift_middle", "kk"},
+    {&indentation_schema, "loss_shift", "00"},
+    {&indentation_schema, "pull_shift", "00"},
     {&indentation_schema, "modulus", "kk"},
     {&indentation_schema, "spectrum_temperature", "0."}, /* the other without a DMA */
     {&indentation_schema, "spectrum_factor", "kn"},      /* without a DMA there is no spectrum */

@@ -186,6 +186,11 @@ static double spread_of(const double shift[2][WT_FIT_RANGES], double noise)
         indent_summary_add(&all, &fit, &options);
     }
     const double spread = indent_summary_range_spread(&all);
+    const wt_estimate middle = indent_summary_range_shift(&all, 1);
+    assert_near(middle.value, isnan(shift[1][1]) ? shift[0][1] : (shift[0][1] + shift[1][1]) / 2,
+                1e-12);
+    assert_near(middle.standard_error, isnan(shift[1][1]) ? noise : noise / sqrt(2), 1e-12);
+    assert_true(isnan(indent_summary_range_shift(&all, 2).value));
     indent_summary_clear(&all);
     return spread;
 }

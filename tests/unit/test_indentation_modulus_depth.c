@@ -141,6 +141,12 @@ static void no_change(void **state)
     assert_true(isnan(d.thickness.value));
     assert_int_equal(d.n_units, CURVES);
     assert_int_equal(of_spots.n_units, 5);
+    const wt_modulus_profile of_two = depth_of(&s, CURVES, 2);
+    assert_true(of_two.two_spots && !of_spots.two_spots && !d.two_spots);
+    assert_near(of_two.change.value, d.change.value, 1e-9);
+    assert_true(isnan(of_two.change.low) && isnan(of_two.change.high));
+    assert_true(isnan(of_two.modulus[0].low) && isnan(of_two.change_p));
+    assert_int_equal(of_two.verdict, WT_DEPTH_INCONCLUSIVE);
     assert_near(of_spots.change.value, d.change.value, 1e-9);
 }
 
@@ -311,20 +317,24 @@ static void words_of_no_answer(void **state)
         double bend_share, loss_share;
         size_t n_excluded_by_loss;
         const char *words;
+        bool two_spots;
     } cases[] = {
-        {WT_DEPTH_INCONCLUSIVE, 0, 0, 0, "more curves would tell"},
-        {WT_DEPTH_INCONCLUSIVE, 0.6, 0, 0, "a straight piezo, or one that has settled, would tell"},
-        {WT_DEPTH_INCONCLUSIVE, 0, 0.6, 0, "the DMA of the rubber would tell"},
-        {WT_DEPTH_INCONCLUSIVE, 0, 0, 40, "inconclusive: 40 of 70 curves lose work"},
-        {WT_DEPTH_OTHER_RESIDUAL, 0, 0, 0, "another tip or rate would tell"},
+        {WT_DEPTH_INCONCLUSIVE, 0, 0, 0, "two spots do not allow an interval", true},
+        {WT_DEPTH_INCONCLUSIVE, 0, 0, 0, "more curves would tell", false},
+        {WT_DEPTH_INCONCLUSIVE, 0.6, 0, 0, "a straight piezo, or one that has settled, would tell",
+         false},
+        {WT_DEPTH_INCONCLUSIVE, 0, 0.6, 0, "the DMA of the rubber would tell", false},
+        {WT_DEPTH_INCONCLUSIVE, 0, 0, 40, "inconclusive: 40 of 70 curves lose work", false},
+        {WT_DEPTH_OTHER_RESIDUAL, 0, 0, 0, "another tip or rate would tell", false},
         {WT_DEPTH_OTHER_RESIDUAL, 0.1, 0, 0,
-         "a straight piezo, or one that has settled, would tell"},
-        {WT_DEPTH_OTHER_RESIDUAL, 0, 0.1, 0, "the DMA of the rubber would tell"},
+         "a straight piezo, or one that has settled, would tell", false},
+        {WT_DEPTH_OTHER_RESIDUAL, 0, 0.1, 0, "the DMA of the rubber would tell", false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const wt_modulus_profile d = {.n = 30,
                                       .n_excluded_by_loss = cases[i].n_excluded_by_loss,
                                       .verdict = cases[i].verdict,
+                                      .two_spots = cases[i].two_spots,
                                       .change = {1, 0.1, 0.8, 1.2},
                                       .curvature_share = cases[i].bend_share,
                                       .loss_share = cases[i].loss_share};

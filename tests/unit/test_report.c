@@ -145,7 +145,7 @@ static void test_page(void **state)
         "<h1>EPDM, severe &lt;case&gt;</h1>",
         // value, interval, no numerical error
         ">0.646</td><td class=\"n\" data-label=\"95 % interval\">0.602 to 0.693</td>"
-        "<td class=\"n\" data-label=\"Model choices\">–</td>"
+        "<td class=\"n\" data-label=\"Model choices\">0.642 to 0.649</td>"
         "<td class=\"n\" data-label=\"Numerical error\">–</td>",
         "Modulus, bulk</th><td class=\"n\" data-label=\"Value\">7.99 MPa</td>",
         (">3.16 µm</td><td class=\"n\" data-label=\"Statistical error\">± 0.80 µm</td>"

@@ -730,6 +730,44 @@ static void test_shown(void **state)
     assert_non_null(strstr(wt_table_key(tables.comparison, "settled_by"), "a DMA of the rubber"));
 }
 
+static void set_shift(const char *key, double bulk, double track, double noise)
+{
+    const wt_estimate values[] = {{bulk, noise, 0, "1"}, {track, noise, 0, "1"}};
+    assert_int_equal(wt_table_set_estimate(bulk_table, key, values[0], NULL), WT_OK);
+    assert_int_equal(wt_table_set_estimate(track_table, key, values[1], NULL), WT_OK);
+}
+
+/* A choice of the fit moves both groups; the range of the ratio has what they differ by beyond the
+ * noise. A tip with a stated error is no choice. */
+static void test_model_choices(void **state)
+{
+    (void)state;
+    wt_compare_job job = at_one_temperature();
+    compare(RATIO, (double)NAN);
+    assert_non_null(includes_of(job));
+    assert_null(wt_table_key(tables.comparison, "model_choices_low"));
+    assert_null(wt_table_key(tables.comparison, "widest_choice"));
+    set_shift("range_shift_deep", 0.02, -0.1, 0);
+    set_shift("range_shift_middle", 0, 0.03, 0.05); /* noise */
+    set_shift("pull_shift", 0.1, 0.2, 0);
+    set_radius(bulk_table, 0.02, -0.3);
+    set_radius(track_table, 0.02, -0.9);
+    assert_non_null(includes_of(job));
+    assert_near(key_estimate(tables.comparison, "model_choices_low").value, RATIO * 0.9 / 1.02,
+                1e-9);
+    assert_near(key_estimate(tables.comparison, "model_choices_high").value, RATIO * 1.2 / 1.1,
+                1e-9);
+    assert_string_equal(wt_table_key(tables.comparison, "widest_choice"), "range of the fit");
+    set_radius(bulk_table, (double)NAN, -0.3);
+    set_radius(track_table, (double)NAN, -0.9);
+    assert_non_null(includes_of(job));
+    assert_near(key_estimate(tables.comparison, "model_choices_low").value, RATIO * pow(1.5, -0.6),
+                1e-9);
+    assert_near(key_estimate(tables.comparison, "model_choices_high").value, RATIO * pow(1.5, 0.6),
+                1e-9);
+    assert_string_equal(wt_table_key(tables.comparison, "widest_choice"), "shape of the tip");
+}
+
 /* What the loss of the curves does to the moduli may be unknown: that is not zero, and bars "no".
  */
 static void test_loss_not_known(void **state)
@@ -903,6 +941,7 @@ int main(void)
         cmocka_unit_test(test_stated_levers),
         cmocka_unit_test(test_not_given),
         cmocka_unit_test(test_shown),
+        cmocka_unit_test(test_model_choices),
         cmocka_unit_test(test_loss_not_known),
         cmocka_unit_test(test_temperature_error),
     };

@@ -39,11 +39,47 @@ static bool is_general_tip(const table_view *table)
     return !is_blunted(table);
 }
 
+/* Appends the range of a column over the curves with a modulus; nothing if none states it. */
+static void append_range(text_builder *t, const table_view *table, indentation_column column,
+                         const char *unit, const char *before)
+{
+    double low = (double)NAN, high = (double)NAN;
+    for (size_t i = 0; i < table->n_rows; i++)
+        if (isfinite(indentation_get(table, i, INDENTATION_MODULUS))) {
+            const double value = indentation_get(table, i, column);
+            low = fmin(low, value); /* fmin and fmax ignore NaN */
+            high = fmax(high, value);
+        }
+    if (isnan(low))
+        return;
+    text_append(t, "%s%s", before, format_with_unit(low, unit).text);
+    if (high > low)
+        text_append(t, " to %s", format_with_unit(high, unit).text);
+}
+
+/* Appends cantilever, indentation rate and depth, as far as the table states them. */
+static void describe_experiment(text_builder *t, const table_view *table)
+{
+    const wt_estimate constant = indentation_value(table, INDENTATION_KEY_SPRING_CONSTANT);
+    const size_t begin = t->used;
+    text_append(t, "The sample was indented");
+    const size_t stated = t->used;
+    if (isfinite(constant.value))
+        text_append(t, " with a cantilever of %s", format_estimate(constant).text);
+    append_range(t, table, INDENTATION_RATE, "m/s", " at ");
+    append_range(t, table, INDENTATION_MAX_INDENTATION, "m", " to a depth of ");
+    if (t->used > stated)
+        text_append(t, ". ");
+    else
+        t->text[t->used = begin] = '\0';
+}
+
 static void describe_indentation(text_builder *t, const table_view *table)
 {
     const char *tip = indentation_key_text(table, INDENTATION_KEY_TIP),
                *ratio = indentation_key_text(table, INDENTATION_KEY_POISSON_RATIO),
                *accepted = indentation_key_text(table, INDENTATION_KEY_N_ACCEPTED);
+    describe_experiment(t, table);
     text_append(
         t,
         "Young's modulus of each of %zu force curve%s%s%s%s was fitted together with the line of "

@@ -123,6 +123,12 @@ result_value result_value_ratio(const result_value_tables *t)
     f.verdict = comparison_key_text(c, COMPARISON_KEY_DIFFERS);
     f.remedy = comparison_key_text(c, COMPARISON_KEY_SETTLED_BY);
     f.includes = comparison_key_text(c, COMPARISON_KEY_INCLUDES);
+    f.range.low = comparison_value(c, COMPARISON_KEY_CHOICES_LOW).value;
+    f.range.high = comparison_value(c, COMPARISON_KEY_CHOICES_HIGH).value;
+    f.range.widest = comparison_key_text(c, COMPARISON_KEY_WIDEST_CHOICE);
+    /* choices within the interval are not what to decide next */
+    if (!(f.range.low > f.low && f.range.high < f.high))
+        f.range.remedy = comparison_key_text(c, COMPARISON_KEY_CHOICE_REMEDY);
     for (size_t i = 1; i < c->n_rows; i++)
         if (!isnan(comparison_get(c, i, COMPARISON_RATIO))) {
             slowest = fmin(slowest, comparison_get(c, i, COMPARISON_RATE_LOW));
@@ -326,4 +332,10 @@ sign_verdict result_value_sign(const result_value *f)
         return measured;
     return sign_from_bounds(f->range.low, f->range.high, f->neutral) == measured ? measured
                                                                                  : SIGN_UNDECIDED;
+}
+
+bool result_value_depends_on_choices(const result_value *f)
+{
+    return result_value_sign_measured(f) != SIGN_UNDECIDED &&
+           result_value_sign(f) == SIGN_UNDECIDED;
 }

@@ -6,7 +6,8 @@
 
 #include "core/table/registry.h"
 
-/* Range over model choices, from the table what_if, in which each choice is changed alone. */
+/* Range over model choices, each of which is changed alone: those of friction and layer are in the
+ * table what_if, those of the ratio of the moduli in the keys of the comparison. */
 typedef struct result_value_range {
     double low, high; /* NaN: no choice was tried, or none changes the number */
     const char *low_choice,
@@ -68,5 +69,7 @@ bool result_value_from_key(const result_value_tables *tables, const schema_field
  * digits of the half width, at most six. */
 int result_value_digits(double value, double low, double high);
 sign_verdict result_value_sign(const result_value *f);
+/* True if the interval shows a sign, but other model choices do not. */
+bool result_value_depends_on_choices(const result_value *f);
 
 #endif

@@ -413,6 +413,7 @@ void depth_pool_create(depth_pool *d, const wt_contact_table *table, double pois
     d->n_units = 1;
     for (size_t i = 1; i < d->n; i++)
         d->n_units += sorted[i].spot != sorted[i - 1].spot;
+    d->two_spots = d->n_units == 2;
     d->by_spot = d->n_units >= LEAST_SPOTS;
     if (!d->by_spot)
         d->n_units = d->n;

@@ -66,7 +66,8 @@ typedef struct depth_modulus {
 typedef struct depth_pool {
     const wt_curve_residuals *curve;       /* [n] sorted by spot */
     size_t n, n_excluded_by_loss, n_units; /* n_excluded_by_loss: excluded curves */
-    bool by_spot, has_mean;                /* true if the mean curve exists */
+    bool by_spot, two_spots;
+    bool has_mean; /* true if the mean curve exists */
     depth_mean mean;
     double *value; /* [n] of the curves, then of the units */
 } depth_pool;

@@ -188,6 +188,19 @@ static wt_status analyse_depth(depth_pool *d, wt_modulus_profile *to, wt_error *
     return failure.status;
 }
 
+/* The scatter of two spots is not known, and that of their curves does not replace it. */
+static void remove_interval(wt_modulus_profile *to)
+{
+    const double unknown = (double)NAN;
+    const wt_interval nothing = {unknown, unknown, unknown, unknown};
+    for (size_t i = 0; i < WT_DEPTHS; i++)
+        to->modulus[i].standard_error = to->modulus[i].low = to->modulus[i].high = unknown;
+    to->change.standard_error = to->change.low = to->change.high = unknown;
+    to->change_p = to->misfit_p = unknown;
+    to->layer_modulus = to->substrate_modulus = to->thickness = nothing;
+    to->verdict = WT_DEPTH_INCONCLUSIVE;
+}
+
 wt_status wt_modulus_profile_fit(const wt_contact_table *table, double poisson_ratio,
                                  const wt_curve_residuals *curve, size_t n, wt_modulus_profile *to,
                                  wt_error *err)
@@ -201,6 +214,7 @@ wt_status wt_modulus_profile_fit(const wt_contact_table *table, double poisson_r
     *to = (wt_modulus_profile){.n = d.n,
                                .n_units = d.n_units,
                                .by_spot = d.by_spot,
+                               .two_spots = d.two_spots,
                                .n_excluded_by_loss = d.n_excluded_by_loss,
                                .change_p = unknown,
                                .misfit_p = unknown,
@@ -210,6 +224,8 @@ wt_status wt_modulus_profile_fit(const wt_contact_table *table, double poisson_r
                                .thickness = nothing};
     if (d.has_mean)
         status = analyse_depth(&d, to, err);
+    if (status == WT_OK && d.two_spots)
+        remove_interval(to);
     arena_free(&memory);
     return status;
 }
