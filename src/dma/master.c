@@ -33,6 +33,13 @@ static wt_status check_exclusions(const void *member, wt_error *err)
     return flow_exclusions_check(job->leave_out, job->n_leave_out, err);
 }
 
+static wt_status check_hand_shifts(const void *member, wt_error *err)
+{
+    const char *at = member;
+    const wt_master_job *job = (const void *)(at - offsetof(wt_master_job, hand_shifts));
+    return flow_hand_shifts_check(job->hand_shifts, job->n_hand_shifts, err);
+}
+
 static const wt_param rows[] = {
     POISSON_RATIO(wt_master_job),
     {PARAM_TEXTS_OF("exclude", wt_master_job, leave_out, n_leave_out), .former = "leave-out",
@@ -46,6 +53,12 @@ static const wt_param rows[] = {
              "wlf:reference-temperature=20degC,c1=8.86,c2=101.6K or "
              "arrhenius:activation-energy=80kJ/mol; its errors are in no interval",
      .check = check_shift_law},
+    {PARAM_TEXTS_OF("shift", wt_master_job, hand_shifts, n_hand_shifts), .value = "T=LOG_AT",
+     .unset = "fitted",
+     .help = "log10 aT of one isotherm of the DMA by hand, against the isotherm nearest to the "
+             "reference temperature, such as 25degC=-1.2; it has no error, and the others are "
+             "fitted; repeatable",
+     .check = check_hand_shifts},
 };
 PARAM_TABLE(wt_master_job_params, wt_master_job, rows, wt_master_job_defaults,
             PARAM_PART(wt_master_options_params, wt_master_job, fit))
@@ -97,6 +110,15 @@ static wt_status prepare_sweep(const wt_master_job *job, const wt_job *work, wt_
         status = wt_fail(err, WT_E_ARG, "shifts are given by a law and by a table; give one");
     if (status == WT_OK)
         status = flow_set_stated_shifts(law, job->shifts, job->fit.vertical, sweep, work->log, err);
+    if (status == WT_OK && job->n_hand_shifts > 0 &&
+        job->fit.reference_at == WT_REFERENCE_TAN_DELTA_PEAK) {
+        status =
+            wt_fail(err, WT_E_ARG, "shifts by hand need a reference that is known before them");
+        wt_error_advice(err, "give --reference-temperature in place of --reference-at");
+        wt_error_options(err, "reference-temperature reference-at");
+    }
+    if (status == WT_OK)
+        status = flow_set_hand_shifts(job->hand_shifts, job->n_hand_shifts, sweep, work->log, err);
     if (status == WT_OK && law->kind != WT_LAW_NONE)
         wt_log_add(work->log, WT_NOTE, NULL, NULL,
                    "the shifts are those of the law that is given: its errors are in no "
