@@ -168,6 +168,7 @@ typedef struct wt_master_options {
                                 lines */
     bool liquid;             /* equilibrium modulus 0 */
     bool series_only;        /* skips the fitted moduli at the points (NaN) and the verdict */
+    bool skip_fitted_moduli; /* skips the fitted moduli at the points (NaN) only */
     wt_shift_quantity shift_by; /* default MODULI */
     wt_reference_choice reference_at;
 } wt_master_options;
