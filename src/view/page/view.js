@@ -294,7 +294,7 @@ const View = (() => {
     } catch (problem) {
       panel.problem.textContent = problem.message;
     }
-    root.dataset.shown = panel.id;
+    if (panel === current) root.dataset.shown = panel.id; /* another may have been opened meanwhile */
   };
   const select = (panel) => {
     for (const other of panels) {
