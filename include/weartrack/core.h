@@ -600,8 +600,10 @@ typedef struct wt_isotherm {
     double *strain;            /* [n] or NULL */
     char source[128];          /* file and step of origin */
     double stated_log_a;       /* log10 of the stated horizontal shift */
-    bool shift_is_stated; /* the horizontal shift is stated: it is used, not fitted, up to a common
-                         factor */
+    bool shift_is_stated;  /* the horizontal shift is stated: it is used, not fitted, up to a common
+                          factor */
+    bool shift_is_by_hand; /* with shift_is_stated: the shift is against the isotherm nearest to the
+                              reference temperature */
     bool vertical_shift_is_stated; /* with shift_is_stated: the vertical shift is stated, too */
     double *loss_factor;           /* [n] if measured without a modulus, else NULL */
     char *sample;                  /* name of the sample in the file; NULL if none */

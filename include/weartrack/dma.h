@@ -168,11 +168,25 @@ typedef struct wt_master_options {
                                 lines */
     bool liquid;             /* equilibrium modulus 0 */
     bool series_only;        /* skips the fitted moduli at the points (NaN) and the verdict */
+    bool skip_fitted_moduli; /* skips the fitted moduli at the points (NaN) only */
     wt_shift_quantity shift_by; /* default MODULI */
     wt_reference_choice reference_at;
 } wt_master_options;
 WT_API wt_master_options wt_master_options_defaults(void);
 WT_API const wt_params *wt_master_options_params(void);
+
+/* Where the horizontal shift of an isotherm comes from. */
+typedef enum wt_shift_origin {
+    WT_SHIFT_FITTED,
+    WT_SHIFT_REFERENCE, /* the isotherm that the others are shifted to */
+    WT_SHIFT_GIVEN,     /* by a law or a table */
+    WT_SHIFT_BY_HAND
+} wt_shift_origin;
+#define WT_SHIFT_ORIGIN_LIST(X)                                                                    \
+    X(WT_SHIFT_FITTED, "fitted")                                                                   \
+    X(WT_SHIFT_REFERENCE, "reference")                                                             \
+    X(WT_SHIFT_GIVEN, "given")                                                                     \
+    X(WT_SHIFT_BY_HAND, "by hand")
 
 /* Shift of one isotherm: x_r = log10 w + log_a, y_r = log10 M + log_b. b multiplies the measured
  * values. */
@@ -180,6 +194,7 @@ typedef struct wt_master_shift {
     double temperature; /* [K] */
     bool
         determined; /* false: log_a and log_b are NaN and the isotherm is not in the master curve */
+    wt_shift_origin origin;
     wt_interval log_a, log_b; /* [decade]; log_a is 0 at the reference isotherm */
     double log_b_physical;    /* value of rho T */
     double log_b_material;    /* value at this temperature without clamping scatter */
@@ -444,6 +459,9 @@ typedef struct wt_master_job {
                                "arrhenius:activation-energy=E", the law of all shifts; or NULL */
     const wt_table *shifts; /* columns temperature, log_a and optionally log_b of fixed shifts,
                                borrowed; or NULL */
+    const char *const *hand_shifts; /* "T=LOG_AT", the shift of an isotherm against that nearest to
+                                       the reference temperature */
+    size_t n_hand_shifts;
     wt_reduction reduction; /* has its own parameters */
 } wt_master_job;
 WT_API wt_master_job wt_master_job_defaults(void);

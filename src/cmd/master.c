@@ -324,7 +324,7 @@ int cmd_master(int argc, char **argv)
     cmd_option_group parts[] = {
         {wt_master_job_params(), &job,
          "reference-temperature reference-at vertical-shift expansion terms-per-decade liquid "
-         "shift-by exclude shift-law",
+         "shift-by exclude shift-law shift",
          0},
         {saved_params(), &saved, NULL, 0},
         [EXPORTED] = {exported_params(), &exports_given, NULL, 0},

@@ -33,6 +33,13 @@ static wt_status check_exclusions(const void *member, wt_error *err)
     return flow_exclusions_check(job->leave_out, job->n_leave_out, err);
 }
 
+static wt_status check_hand_shifts(const void *member, wt_error *err)
+{
+    const char *at = member;
+    const wt_master_job *job = (const void *)(at - offsetof(wt_master_job, hand_shifts));
+    return flow_hand_shifts_check(job->hand_shifts, job->n_hand_shifts, err);
+}
+
 static const wt_param rows[] = {
     POISSON_RATIO(wt_master_job),
     {PARAM_TEXTS_OF("exclude", wt_master_job, leave_out, n_leave_out), .former = "leave-out",
@@ -46,6 +53,12 @@ static const wt_param rows[] = {
              "wlf:reference-temperature=20degC,c1=8.86,c2=101.6K or "
              "arrhenius:activation-energy=80kJ/mol; its errors are in no interval",
      .check = check_shift_law},
+    {PARAM_TEXTS_OF("shift", wt_master_job, hand_shifts, n_hand_shifts), .value = "T=LOG_AT",
+     .unset = "fitted",
+     .help = "log10 aT of one isotherm of the DMA by hand, against the isotherm nearest to the "
+             "reference temperature, such as 25degC=-1.2; it has no error, and the others are "
+             "fitted; repeatable",
+     .check = check_hand_shifts},
 };
 PARAM_TABLE(wt_master_job_params, wt_master_job, rows, wt_master_job_defaults,
             PARAM_PART(wt_master_options_params, wt_master_job, fit))
@@ -97,6 +110,15 @@ static wt_status prepare_sweep(const wt_master_job *job, const wt_job *work, wt_
         status = wt_fail(err, WT_E_ARG, "shifts are given by a law and by a table; give one");
     if (status == WT_OK)
         status = flow_set_stated_shifts(law, job->shifts, job->fit.vertical, sweep, work->log, err);
+    if (status == WT_OK && job->n_hand_shifts > 0 &&
+        job->fit.reference_at == WT_REFERENCE_TAN_DELTA_PEAK) {
+        status =
+            wt_fail(err, WT_E_ARG, "shifts by hand need a reference that is known before them");
+        wt_error_advice(err, "give --reference-temperature in place of --reference-at");
+        wt_error_options(err, "reference-temperature reference-at");
+    }
+    if (status == WT_OK)
+        status = flow_set_hand_shifts(job->hand_shifts, job->n_hand_shifts, sweep, work->log, err);
     if (status == WT_OK && law->kind != WT_LAW_NONE)
         wt_log_add(work->log, WT_NOTE, NULL, NULL,
                    "the shifts are those of the law that is given: its errors are in no "
@@ -104,16 +126,23 @@ static wt_status prepare_sweep(const wt_master_job *job, const wt_job *work, wt_
     return status;
 }
 
+static bool needs_master_curve(const wt_job *work)
+{
+    return (work->left_out & WT_EXTRA_MASTER_CURVE) == 0;
+}
+
 /* Fits the sweeps. Temperature sweeps are converted to isotherms of `sweep`. */
 static wt_status fit_master_curve(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
                                   wt_master *master, wt_error *err)
 {
     wt_shift_law law;
+    wt_master_options options = job->fit;
+    options.skip_fitted_moduli = options.skip_fitted_moduli || !needs_master_curve(work);
     wt_status status = prepare_sweep(job, work, &law, sweep, err);
     if (status != WT_OK)
         return status;
-    status = sweep->n_ramps > 0 ? flow_ramps_fit(sweep, &job->fit, &law, work->log, master, err)
-                                : wt_master_fit(sweep, &job->fit, work->log, master, err);
+    status = sweep->n_ramps > 0 ? flow_ramps_fit(sweep, &options, &law, work->log, master, err)
+                                : wt_master_fit(sweep, &options, work->log, master, err);
     if (status == WT_OK)
         return WT_OK;
     /* the fit does not know the files, so the error gets them here */
@@ -239,11 +268,25 @@ static double fitted_modulus_error(const wt_master *m, size_t i)
                                               : m->fitted_loss_factor[i].standard_error;
 }
 
-/* Reports the cost. The reported number is the mean relative standard error of E'. */
+/* Returns the mean standard error of the determined shifts [decade]. */
+static double mean_shift_error(const wt_master *m)
+{
+    double sum = 0;
+    size_t n = 0;
+    for (size_t i = 0; i < m->n_shifts; i++)
+        if (m->shifts[i].determined) {
+            sum += m->shifts[i].log_a.standard_error;
+            n++;
+        }
+    return n > 0 ? sum / (double)n : 0;
+}
+
+/* Reports the cost. The reported number is the mean relative standard error of E', or of aT if the
+ * fitted moduli are not computed. */
 static void report_fit_cost(const wt_master *m, const wt_job *work)
 {
-    double error = 0;
-    for (size_t i = 0; i < m->n; i++)
+    double error = needs_master_curve(work) ? 0 : M_LN10 * mean_shift_error(m);
+    for (size_t i = 0; i < m->n && needs_master_curve(work); i++)
         error += M_LN10 * fitted_modulus_error(m, i) / (double)m->n;
     cost_add_nodes(work->cost, m->evaluations);
     cost_report(work, (cost_summary){.items = (double)m->n_shifts,
@@ -277,7 +320,7 @@ wt_status wt_master_compute(const wt_master_job *job, const wt_job *work, wt_mas
         status = build_fit_tables(&master, FLOW_STORED_DRAWS, work, &t, err);
     if (status == WT_OK)
         status = store_sample_name(&sweep, t.shift_factors, err);
-    if (status == WT_OK)
+    if (status == WT_OK && needs_master_curve(work))
         status = flow_master_curve_table(&master, &t.master_curve, err);
     if (status == WT_OK && has_modulus_level(&master) && (work->left_out & WT_EXTRA_SPECTRUM) == 0)
         status = flow_spectrum_table(&master, &t.relaxation_spectrum, err);

@@ -352,3 +352,85 @@ wt_status flow_set_stated_shifts(const wt_shift_law *law, const wt_table *table,
         status = set_table_shifts(table, vertical, sweep, log, err);
     return status;
 }
+
+/* ---- shifts by hand -------------------------------------------------------------------------- */
+
+typedef struct hand_shift {
+    double temperature; /* [K] */
+    double log_a;
+} hand_shift;
+
+static wt_status parse_hand_shift(const char *text, hand_shift *shift, wt_error *err)
+{
+    const char *const equals = strrchr(text, '=');
+    wt_status status = equals == NULL ? WT_E_ARG : WT_OK;
+    if (status == WT_OK) {
+        char *const temperature = wt_strndup(text, (size_t)(equals - text));
+        status = wt_quantity_parse(temperature, WT_Q_TEMPERATURE, &shift->temperature, err);
+        free(temperature);
+    }
+    if (status == WT_OK)
+        status = wt_quantity_parse(equals + 1, WT_Q_NONE, &shift->log_a, err);
+    if (status == WT_OK && isfinite(shift->log_a))
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, "\"%s\" is no shift of an isotherm", text);
+    wt_error_expected(err, "TEMPERATURE=LOG_AT, such as 25degC=-1.2");
+    return WT_E_ARG;
+}
+
+wt_status flow_hand_shifts_check(const char *const *texts, size_t n, wt_error *err)
+{
+    wt_status status = WT_OK;
+    hand_shift shift;
+    for (size_t i = 0; i < n && status == WT_OK; i++)
+        status = parse_hand_shift(texts[i], &shift, err);
+    return status;
+}
+
+/* Sets one shift for the isotherms of the nearest temperature, which several runs may share. */
+static wt_status set_hand_shift(const char *text, wt_sweep *sweep, wt_error *err)
+{
+    hand_shift shift;
+    const wt_status status = parse_hand_shift(text, &shift, err);
+    if (status != WT_OK)
+        return status;
+    double away = HUGE_VAL;
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        away = fmin(away, fabs(sweep->isotherms[i].temperature - shift.temperature));
+    if (!(away <= same_temperature)) {
+        wt_fail(err, WT_E_NOT_FOUND, "no isotherm to shift by hand at this temperature");
+        wt_error_place(err, "shift");
+        wt_error_expected(err, "a temperature within %g K of an isotherm", same_temperature);
+        wt_error_found(err, "%s", text);
+        return WT_E_NOT_FOUND;
+    }
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        wt_isotherm *const t = &sweep->isotherms[i];
+        if (fabs(t->temperature - shift.temperature) > away)
+            continue;
+        if (t->shift_is_by_hand) {
+            wt_fail(err, WT_E_AMBIGUOUS, "two shifts by hand of one isotherm");
+            wt_error_place(err, "shift");
+            wt_error_found(err, "%s", text);
+            return WT_E_AMBIGUOUS;
+        }
+        t->shift_is_stated = t->shift_is_by_hand = true;
+        t->vertical_shift_is_stated = false;
+        t->stated_log_a = shift.log_a;
+    }
+    return WT_OK;
+}
+
+wt_status flow_set_hand_shifts(const char *const *texts, size_t n, wt_sweep *sweep, wt_log *log,
+                               wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < n && status == WT_OK; i++)
+        status = set_hand_shift(texts[i], sweep, err);
+    if (status == WT_OK && n > 0)
+        wt_log_add(log, WT_NOTE, NULL, NULL,
+                   "%zu shift%s by hand, without an error of %s own, against the isotherm nearest "
+                   "to the reference temperature",
+                   n, n > 1 ? "s are" : " is", n > 1 ? "their" : "its");
+    return status;
+}

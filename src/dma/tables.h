@@ -43,7 +43,10 @@
       DECIMALS(3), SPARSE)                                                                         \
     X(SHIFT_FACTORS_CLOSED_FORM, "log_a_closed_form",                                              \
       "log10 a by the closed form of ISO 18437-6, of the storage modulus alone, for comparison",   \
-      NUMBER, SHOWS(closed_form), DECIMALS(3), SPARSE)
+      NUMBER, SHOWS(closed_form), DECIMALS(3), SPARSE)                                             \
+    X(SHIFT_FACTORS_ORIGIN, IN(shift, origin),                                                     \
+      "fitted, reference, given (law or table) or by hand", ENUM(shift_origin), LABEL("Origin"),   \
+      OPTIONAL)
 
 /* The keys of the law exist only if there is a law. */
 #define SHIFT_FACTORS_KEYS(X)                                                                      \

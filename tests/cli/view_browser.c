@@ -339,6 +339,82 @@ static void test_shell(const char *program)
     check(of_shell == atof(shown), "the shell gives the digits of the page");
 }
 
+/* Place on the screen where the handle of the isotherm of 60 degC lies above the others. */
+static void find_isotherm(double *x, double *y)
+{
+    (void)js("(() => { const g = document.querySelector('#master .handle[aria-label^=`Isotherm of "
+             "60`] .grip'.replaceAll('`', String.fromCharCode(34))), m = g.getScreenCTM(); "
+             "for (let s = 1; s < g.getTotalLength(); s += 2) { "
+             "const p = g.getPointAtLength(s).matrixTransform(m); "
+             "if (document.elementFromPoint(p.x, p.y) === g) return p.x + ' ' + p.y; } "
+             "return 'hidden'; })()");
+    check(sscanf(value, "%lf %lf", x, y) == 2, "the isotherm of 60 degC");
+}
+
+/* Compares the shifts that the page shows with a table of the shell, digit by digit. */
+static void compare_shifts(const char *shown, const char *name)
+{
+    char kind[32];
+    double of_page, of_shell;
+    int n = 0, by_hand = 0;
+    FILE *file = fopen(name, "r");
+    check(file != NULL, name);
+    for (const char *at = shown; at != NULL; at = strchr(at, ','), at += at != NULL ? 2 : 0, n++) {
+        check(sscanf(at, "%31[a-z ] %lf", kind, &of_page) == 2 &&
+                  fscanf(file, "%lf", &of_shell) == 1 && of_page == of_shell,
+              "the shell gives the shifts of the page");
+        by_hand += strncmp(kind, "by hand", 7) == 0;
+    }
+    (void)fclose(file);
+    check(n == 12 && by_hand == 1, "12 shifts, one of them by hand");
+}
+
+/* An isotherm is dragged with the mouse, taken back, and moved with a key. The case and the command
+ * line of the panel give the same shifts. */
+static void test_hand_shift(const char *program)
+{
+    char fitted[2048], dragged[2048], command[8192], line[1024];
+    double x, y;
+    open_panel("master");
+    (void)snprintf(fitted, sizeof fitted, "%s", data("shifts"));
+    check(strstr(fitted, "by hand") == NULL, "no shift by hand yet");
+    find_isotherm(&x, &y);
+    mouse("mousePressed", x, y);
+    for (int i = 1; i <= 4; i++)
+        mouse("mouseMoved", x + 5 * i, y);
+    mouse("mouseReleased", x + 20, y);
+    wait_for("document.documentElement.dataset.shifts.includes('by hand')", "true");
+    (void)snprintf(dragged, sizeof dragged, "%s", data("shifts"));
+    click("#undo");
+    wait_for("document.documentElement.dataset.shifts.includes('by hand')", "false");
+    check(strcmp(data("shifts"), fitted) == 0, "undo takes the shift back");
+    click("#redo");
+    wait_for("document.documentElement.dataset.shifts.includes('by hand')", "true");
+    check(strcmp(data("shifts"), dragged) == 0, "redo");
+    (void)js("document.querySelector('#master .handle[aria-label*=`60.`]'.replaceAll('`', "
+             "String.fromCharCode(34))).focus()");
+    key("ArrowLeft", 0);
+    for (const double end = now() + LIMIT; strcmp(data("shifts"), dragged) == 0;)
+        check(now() < end, "a key moves the isotherm");
+    (void)snprintf(dragged, sizeof dragged, "%s", data("shifts"));
+    key("s", 2 /* control */);
+    wait_for("document.documentElement.dataset.changed", "false");
+    (void)snprintf(
+        line, sizeof line, "%s",
+        js("document.querySelector('#command').textContent.split(String.fromCharCode(10))"
+           ".find((l) => l.startsWith('weartrack master')).slice(10)"));
+    check(strstr(line, "--shift 60.") != NULL, "the command line of the shift");
+    (void)snprintf(command, sizeof command,
+                   "'%s' run -q --no-report case.xml >answer.txt && '%s' %s -q && "
+                   "for f in case master; do '%s' table $f.h5 shift_factors | grep -v '^[#t]' | "
+                   "cut -f2 >$f.txt; done",
+                   program, program, line, program);
+    shell(command);
+    compare_shifts(dragged, "case.txt");
+    compare_shifts(dragged, "master.txt");
+    printf("by hand: weartrack %s\n", line);
+}
+
 static void test_sliders(void)
 {
     open_panel("master");
@@ -470,6 +546,7 @@ int main(int argc, char **argv)
     open_panel("answer");
     test_curves();
     test_shell(argv[1]);
+    test_hand_shift(argv[1]);
     test_sliders();
     test_saved_plot();
     check(strcmp(data("error"), "undefined") == 0, "an error of the page");

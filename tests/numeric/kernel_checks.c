@@ -2,10 +2,11 @@
  * the kernel: whether the true error lies within the stated one, whether the tolerance is met, and
  * how much more is stated than is true.
  *
- *   kernel_checks [SCENES [SEED [TRUTHS]]]
+ *   kernel_checks [SCENES [SEED [TRUTHS [steep]]]]
  *
  * Each scene is computed at seven tolerances, with four numbers to check at each. TRUTHS is a file
- * of the truths of that seed: what is there is read, and what is not is added. Compiled with
+ * of the truths of that seed, or "": what is there is read, and what is not is added. "steep" gives
+ * all scenes a material whose table is as steep as one may be. Compiled with
  * CHECKS_LONG_DOUBLE the truth is in long double, forty times faster. */
 #ifndef CHECKS_LONG_DOUBLE
 #define FRICTION_TRUTH_QUAD
@@ -81,6 +82,35 @@ static void draw_table(drawn *d)
         height *= jump ? decades(-1, 4) : decades(-0.05, 0.4);
     }
     s->slope = s->slope && d->e[1] > d->e[0] && d->loss[1] > d->loss[0];
+}
+
+/* Change of a logarithm that stays within a span. */
+static double turn_back(double from, double by, double span)
+{
+    return fabs(from + by) < span ? by : fabs(from - by) < span ? -by : 0;
+}
+
+/* Lines between the knots are nearly as steep as they may be, rising and falling, over a part of
+ * the hundreds of decades that a double has. */
+static void draw_steep_table(drawn *d)
+{
+    enum { STEEPEST = 99, SPAN = 140 };
+    scene *s = &d->s;
+    double log_omega = uniform(-4, 8), log_storage = uniform(5, 7), log_loss = uniform(4, 7);
+    s->law = TABLE;
+    s->n = whole(2, 24);
+    for (size_t k = 0; k < s->n; k++) {
+        d->tau[k] = pow(10, log_omega);
+        d->e[k] = pow(10, log_storage);
+        d->loss[k] = pow(10, log_loss);
+        const double step = uniform(0, 1) < 0.5 ? decades(-3, -1) : decades(-1, 0.3);
+        const double by_storage = uniform(-STEEPEST, STEEPEST) * step,
+                     by_loss =
+                         uniform(0, 1) < 0.5 ? by_storage : uniform(-STEEPEST, STEEPEST) * step;
+        log_omega += step;
+        log_storage += turn_back(log_storage, by_storage, SPAN);
+        log_loss += turn_back(log_loss, by_loss, SPAN);
+    }
 }
 
 /* ---- surfaces -------------------------------------------------------------------------------- */
@@ -219,6 +249,8 @@ static void draw_softening(drawn *d)
     }
 }
 
+static bool all_steep; /* the material of all scenes is a steep table */
+
 static void draw_scene(drawn *d, size_t number)
 {
     *d = (drawn){.s = {.e = d->e, .tau = d->tau, .loss = d->loss}};
@@ -230,7 +262,9 @@ static void draw_scene(drawn *d, size_t number)
     s->g = d->g;
     d->surface = number % SURFACES;
     const double law = uniform(0, 1);
-    if (law < 0.2)
+    if (all_steep)
+        draw_steep_table(d);
+    else if (law < 0.2)
         draw_table(d);
     else if (law < 0.23)
         draw_zener(d);
@@ -435,7 +469,8 @@ int main(int argc, char **argv)
 {
     const size_t scenes = argc > 1 ? strtoul(argv[1], NULL, 10) : 20;
     const uint64_t seed = argc > 2 ? strtoul(argv[2], NULL, 10) : 1;
-    if (argc > 3)
+    all_steep = argc > 4 && strcmp(argv[4], "steep") == 0;
+    if (argc > 3 && argv[3][0] != '\0')
         truths = fopen(argv[3], "a+");
     if (truths != NULL)
         rewind(truths);

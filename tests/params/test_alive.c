@@ -24,6 +24,7 @@ static const struct {
     {"reference-temperature", "35degC", NULL, NULL},
     {"terms-per-decade", "2.7", NULL, NULL},
     {"exclude", "temperature:..0degC", NULL, NULL},
+    {"shift", "30degC=-0.6", NULL, NULL},
     {"shift-law", "wlf:reference-temperature=20degC,c1=9,c2=100K", NULL, NULL},
     {"prony-terms", "3", NULL, NULL},
     {"prony-error", "0.2", NULL, NULL},

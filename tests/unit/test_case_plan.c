@@ -206,6 +206,11 @@ static void test_reasons(void **state)
                   "layer needs its material");
     check_because(ALL "<report><result>layer</result></report></case>", "indentation_bulk",
                   "nothing that is asked for needs it");
+    check_because(ALL "<report><result>shift_factors</result></report></case>", "master_curve",
+                  "runs because shift_factors is asked for; nothing needs master_curve, "
+                  "relaxation_spectrum, which it leaves out");
+    check_because(ALL "<report><result>master_curve</result></report></case>", "master_curve",
+                  "nothing needs relaxation_spectrum, which it leaves out");
 }
 
 /* Every stage comes after those it needs, each level needs more than that before, and every table

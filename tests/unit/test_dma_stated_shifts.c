@@ -141,6 +141,78 @@ static void some_given_others_fitted(void **unused)
     wt_sweep_clear(&sweep);
 }
 
+/* One isotherm is 0.3 decade off by hand: it stays there, and the others are where they are without
+ * it, for the spectrum is theirs. The value is against the isotherm nearest to the reference. */
+static void one_shift_by_hand(void **unused)
+{
+    (void)unused;
+    for (int between = 0; between < 2; between++) { /* the reference is an isotherm, or is not */
+        static const char *const texts[] = {"40degC=-1.5"};
+        wt_sweep sweep = {0};
+        wt_master m = {0};
+        wt_master_options o = options(WT_SHIFT_MODULI);
+        const size_t hand = 6, base = 4; /* 40 and 20 degC */
+        o.reference_temperature += between ? 2 : 0;
+        dma_usual(&sweep, true, noise, 7);
+        assert_int_equal(flow_set_hand_shifts(texts, 1, &sweep, NULL, NULL), WT_OK);
+        assert_int_equal(wt_master_fit(&sweep, &o, NULL, &m, NULL), WT_OK);
+        for (size_t i = 0; i < m.n_shifts; i++) {
+            const wt_master_shift *s = &m.shifts[i];
+            assert_int_equal(s->origin, i == hand   ? WT_SHIFT_BY_HAND
+                                        : i == base ? WT_SHIFT_REFERENCE
+                                                    : WT_SHIFT_FITTED);
+        }
+        assert_near_abs(m.shifts[hand].log_a.value - m.shifts[base].log_a.value, -1.5, 1e-9);
+        if (!between)
+            assert_true(m.shifts[hand].log_a.standard_error < 1e-9);
+        assert_non_null(strstr(m.shifts[hand].note, "by hand"));
+        assert_null(strstr(m.shifts[base].note, "as given"));
+        wt_master_clear(&m);
+        wt_sweep_clear(&sweep);
+    }
+}
+
+/* A shift by hand is on top of a law that gives all others, and is none of the reference. */
+static void by_hand_beside_a_law_and_where_it_is_none(void **unused)
+{
+    static const char *const forty[] = {"40degC=-1.5"}, *const reference[] = {"20.3degC=-1.5"},
+                             *const other[] = {"25degC=1"},
+                             *const twice[] = {"40degC=-1.5", "40.2degC=-1"},
+                             *const none[] = {"40degC"};
+    const wt_shift_law law = {.kind = WT_LAW_WLF,
+                              .wlf = {313.15, dma_rubber.wlf.c1, dma_rubber.wlf.c2}};
+    const wt_master_options o = options(WT_SHIFT_MODULI);
+    wt_sweep sweep = {0};
+    wt_master m = {0};
+    wt_error err = WT_ERROR_INIT;
+    (void)unused;
+    dma_usual(&sweep, true, noise, 7);
+    assert_int_equal(flow_set_hand_shifts(other, 1, &sweep, NULL, &err), WT_E_NOT_FOUND);
+    assert_int_equal(flow_hand_shifts_check(none, 1, &err), WT_E_ARG);
+    assert_int_equal(flow_set_stated_shifts(&law, NULL, WT_VERTICAL_TIED, &sweep, NULL, &err),
+                     WT_OK);
+    assert_int_equal(flow_set_hand_shifts(forty, 1, &sweep, NULL, &err), WT_OK);
+    assert_int_equal(wt_master_fit(&sweep, &o, NULL, &m, &err), WT_OK);
+    for (size_t i = 0; i < m.n_shifts; i++) {
+        const double given = wt_wlf_log_shift(&law.wlf, m.shifts[i].temperature) -
+                             wt_wlf_log_shift(&law.wlf, m.shifts[4].temperature);
+        assert_near_abs(m.shifts[i].log_a.value, i == 6 ? -1.5 : given, 1e-9);
+        assert_int_equal(m.shifts[i].origin, i == 6   ? WT_SHIFT_BY_HAND
+                                             : i == 4 ? WT_SHIFT_REFERENCE
+                                                      : WT_SHIFT_GIVEN);
+    }
+    wt_master_clear(&m);
+    wt_sweep_clear(&sweep);
+    dma_usual(&sweep, true, noise, 7);
+    assert_int_equal(flow_set_hand_shifts(twice, 2, &sweep, NULL, &err), WT_E_AMBIGUOUS);
+    wt_sweep_clear(&sweep);
+    dma_usual(&sweep, true, noise, 7);
+    assert_int_equal(flow_set_hand_shifts(reference, 1, &sweep, NULL, &err), WT_OK);
+    assert_int_equal(wt_master_fit(&sweep, &o, NULL, &m, &err), WT_E_ARG);
+    assert_string_equal(err.place, "shift");
+    wt_sweep_clear(&sweep);
+}
+
 /* Two runs at one temperature have two shifts in the table, each its own; two for one isotherm, or
  * of temperatures that were not measured, are no small matter. */
 static void runs_at_one_temperature_keep_their_shifts(void **unused)
@@ -332,6 +404,8 @@ int main(void)
         cmocka_unit_test(some_given_others_fitted),
         cmocka_unit_test(runs_at_one_temperature_keep_their_shifts),
         cmocka_unit_test(no_glass_transition_far_from_the_isotherms),
+        cmocka_unit_test(one_shift_by_hand),
+        cmocka_unit_test(by_hand_beside_a_law_and_where_it_is_none),
         cmocka_unit_test(closed_form_of_the_standard),
         cmocka_unit_test(one_quantity_alone),
         cmocka_unit_test(one_modulus_and_free_shifts),

@@ -192,6 +192,21 @@ static void add_limitation(flow_plan *plan, size_t i)
              additions->label, plan->lower_level_reason[i]);
 }
 
+/* Names the tables that a stage can make and that nothing needs. They cost it time, so that the run
+ * leaves them out. */
+static void add_unneeded_tables(flow_plan *plan, size_t i)
+{
+    const flow_resource_set costly =
+        FLOW_BIT(FLOW_MASTER_CURVE) | FLOW_BIT(FLOW_RELAXATION_SPECTRUM);
+    const flow_resource_set unneeded = flow_stages[i].outputs & costly & ~plan->required;
+    const size_t used = strlen(plan->reason[i]);
+    char names[128];
+    flow_resources_list(unneeded, names, sizeof names);
+    if (unneeded != 0)
+        snprintf(plan->reason[i] + used, sizeof plan->reason[i] - used,
+                 "; nothing needs %s, which it leaves out", names);
+}
+
 static void set_exclusion_reason(flow_plan *plan, size_t i, bool able)
 {
     char *because = plan->reason[i];
@@ -229,14 +244,16 @@ void flow_plan_create(const wt_case *c, flow_plan *plan)
         choose_stage(plan, able, (flow_resource)t, reason);
     }
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
-        if (plan->chosen[i])
+        if (plan->chosen[i]) {
             add_limitation(plan, i);
-        else if (able[i] && is_validation_off(c) &&
-                 (flow_stages[i].outputs & FLOW_VALIDATIONS) != 0)
+            add_unneeded_tables(plan, i);
+        } else if (able[i] && is_validation_off(c) &&
+                   (flow_stages[i].outputs & FLOW_VALIDATIONS) != 0) {
             snprintf(plan->reason[i], sizeof plan->reason[i],
                      "the case switches it off (<validate> in <record>)");
-        else
+        } else {
             set_exclusion_reason(plan, i, able[i]);
+        }
 }
 
 void flow_plan_reason(const flow_plan *plan, size_t stage, char *text, size_t size)

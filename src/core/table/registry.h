@@ -202,6 +202,7 @@
     X(curve_verdict, wt_curve_verdict, WT_CURVE_VERDICT_LIST)                                      \
     X(superposition, wt_superposition, WT_SUPERPOSITION_LIST)                                      \
     X(vertical_shift, wt_vertical_shift, WT_VERTICAL_SHIFT_LIST)                                   \
+    X(shift_origin, wt_shift_origin, WT_SHIFT_ORIGIN_LIST)                                         \
     X(shift_law_kind, wt_law_kind, WT_LAW_KIND_LIST)                                               \
     X(layer_regime, wt_layer_regime, WT_LAYER_REGIME_LIST)
 /* Closed lists of texts whose enum is defined here: name of the list and of the enum, rows, value

@@ -313,6 +313,9 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log
         shift_curve *curve = &set->curves[i];
         curve->temperature = isotherm->temperature;
         curve->is_shift_fixed = isotherm->shift_is_stated;
+        curve->origin = !isotherm->shift_is_stated   ? WT_SHIFT_FITTED
+                        : isotherm->shift_is_by_hand ? WT_SHIFT_BY_HAND
+                                                     : WT_SHIFT_GIVEN;
         curve->fixed_log_a = isotherm->stated_log_a;
         curve->is_vertical_fixed = isotherm->shift_is_stated &&
                                    isotherm->vertical_shift_is_stated &&

@@ -22,6 +22,7 @@ typedef struct shift_curve {
     size_t n_skipped;    /* points with a modulus <= 0 */
     size_t n_merged;     /* measured points if neighbours were merged; otherwise 0 */
     bool is_shift_fixed; /* the horizontal shift is stated and not fitted */
+    wt_shift_origin origin;
     double fixed_log_a; /* stated log10 a; only differences to other stated shifts count [decade] */
     bool is_vertical_fixed; /* the vertical shift is stated, too */
     double fixed_log_b;     /* stated log10 b [decade] */

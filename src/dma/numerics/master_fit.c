@@ -137,6 +137,38 @@ static void set_reference(master_work *work)
         work->physical[i] = vertical_physical(&work->vertical, set->curves[i].temperature) / M_LN10;
 }
 
+wt_status master_hold_hand_shifts(master_work *work, double base, wt_error *err)
+{
+    const size_t n = work->set.n;
+    size_t n_by_hand = 0, nearest = n;
+    for (size_t i = 0; i < n; i++) {
+        n_by_hand += work->set.curves[i].origin == WT_SHIFT_BY_HAND;
+        if (work->set.curves[i].n >= SHIFT_MIN_POINTS &&
+            (nearest == n ||
+             distance_to_start(work, i, true, base) < distance_to_start(work, nearest, true, base)))
+            nearest = i;
+    }
+    if (n_by_hand == 0 || nearest == n)
+        return WT_OK;
+    shift_curve *const held = &work->set.curves[nearest];
+    if (held->origin == WT_SHIFT_BY_HAND) {
+        wt_fail(err, WT_E_ARG, "the isotherm at the reference temperature has no shift of its own");
+        wt_error_place(err, "shift");
+        wt_error_found(err, "%.2f degC", held->temperature - WT_ZERO_CELSIUS);
+        wt_error_advice(err, "shift the others, or give another --reference-temperature");
+        wt_error_options(err, "reference-temperature");
+        return WT_E_ARG;
+    }
+    if (!held->is_shift_fixed) {
+        held->is_shift_fixed = true;
+        held->origin = WT_SHIFT_REFERENCE;
+    }
+    for (size_t i = 0; i < n; i++)
+        if (work->set.curves[i].origin == WT_SHIFT_BY_HAND)
+            work->set.curves[i].fixed_log_a += held->fixed_log_a;
+    return WT_OK;
+}
+
 wt_status master_choose_anchor(master_work *work, double base, wt_error *err)
 {
     const shift_set *set = &work->set;

@@ -66,6 +66,9 @@ void master_work_alloc(master_work *work);
 /* Chooses the isotherm to start from: the one nearest to `base` [K], or the middle one for NaN.
  * Stated shifts start from the stated isotherm nearest to the reference. */
 wt_status master_choose_anchor(master_work *work, double base, wt_error *err) WT_NODISCARD;
+/* Completes the shifts by hand: holds the isotherm that they refer to. Returns WT_E_ARG if that is
+ * shifted by hand itself. */
+wt_status master_hold_hand_shifts(master_work *work, double base, wt_error *err) WT_NODISCARD;
 /* Places the isotherms: start, outliers and connected isotherms. Sets the flag of a gross
  * misfit. */
 wt_status master_find_initial_shifts(master_work *work, wt_error *err) WT_NODISCARD;

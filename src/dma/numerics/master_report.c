@@ -253,9 +253,10 @@ static void fill_master_curve(const master_work *work, wt_master *m)
     for (size_t j = 0; j < m->n; j++)
         m->fitted_storage[j] = m->fitted_loss[j] = m->fitted_loss_factor[j] = m->fitted_step[j] =
             unknown_interval;
-    if (!work->options.series_only)
+    const bool fitted = !work->options.series_only && !work->options.skip_fitted_moduli;
+    if (fitted)
         fill_fitted_moduli(work->posterior, false, m);
-    if (!work->options.series_only && step_response)
+    if (fitted && step_response)
         fill_fitted_moduli(work->posterior, true, m);
     free(order);
 }

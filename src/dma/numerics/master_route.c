@@ -345,8 +345,10 @@ static wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options 
         status = master_check_vertical(&work, err);
     if (status == WT_OK) {
         master_work_alloc(&work);
-        status = master_choose_anchor(&work, *base, err);
+        status = master_hold_hand_shifts(&work, *base, err);
     }
+    if (status == WT_OK)
+        status = master_choose_anchor(&work, *base, err);
     if (status == WT_OK) {
         closed_form_shifts(&work.set, work.anchor, work.posterior->closed_form);
         status = fit_by_best_route(&work, err);

@@ -266,14 +266,16 @@ static void fill_shift(const master_work *work, size_t i, const double *log_b_ma
 {
     const wt_interval unknown = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     const size_t curve = work->curve[i];
-    *shift = (wt_master_shift){.temperature = work->set.curves[i].temperature,
-                               .log_a = unknown,
-                               .log_b = unknown,
-                               .log_b_physical = work->physical[i],
-                               .log_b_material = (double)NAN,
-                               .law = unknown,
-                               .overlap = work->overlap[i],
-                               .noise_factor = (double)NAN};
+    *shift =
+        (wt_master_shift){.temperature = work->set.curves[i].temperature,
+                          .origin = i == work->at ? WT_SHIFT_REFERENCE : work->set.curves[i].origin,
+                          .log_a = unknown,
+                          .log_b = unknown,
+                          .log_b_physical = work->physical[i],
+                          .log_b_material = (double)NAN,
+                          .law = unknown,
+                          .overlap = work->overlap[i],
+                          .noise_factor = (double)NAN};
     if (work->placed[i]) {
         shift->noise_factor = work->s->kappa[curve];
         shift->n_outliers = count_outliers(work->s, curve);

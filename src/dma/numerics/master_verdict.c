@@ -62,8 +62,10 @@ static void note_shift(const master_work *work, size_t i, wt_master_shift *shift
         return;
     if (work->set.curves[i].is_loss_excluded)
         master_add_note(shift, "%s", work->set.curves[i].exclusion);
-    if (work->set.curves[i].is_shift_fixed && work->route == WT_SHIFTS_FROM_SPECTRUM)
+    if (work->set.curves[i].origin == WT_SHIFT_GIVEN)
         master_add_note(shift, "as given");
+    else if (work->set.curves[i].origin == WT_SHIFT_BY_HAND)
+        master_add_note(shift, "by hand");
     if (work->options.vertical != WT_VERTICAL_NONE && isfinite(shift->log_b.value) &&
         fabs(shift->log_b.value - shift->log_b_physical) > vertical_deviation_limit)
         master_add_note(shift, "log bT %+.3f where rho T gives %+.3f", shift->log_b.value,

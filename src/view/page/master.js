@@ -1,4 +1,5 @@
-/* Panel Master curve: isotherms in colour, excluded ones, reference temperature, options of the shift.
+/* Panel Master curve: isotherms in colour, excluded or shifted by hand, reference temperature, options of
+ * the shift.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 'use strict';
 (() => {
@@ -31,6 +32,39 @@
     made.textContent = text;
     insert(section, made);
   });
+  /* A shift by hand is against the isotherm nearest to the reference temperature, which has none. */
+  const shiftOf = (temperature) => found.shift_factors.rows.find((row) => row.temperature === temperature);
+  const base = () => {
+    const t = found.shift_factors, reference = t.keys.reference_temperature.value;
+    return t.rows.find((row) => row.origin === 'reference') || t.rows.reduce((a, b) =>
+      Math.abs(b.temperature - reference) < Math.abs(a.temperature - reference) ? b : a);
+  };
+  let held = null; /* temperature of the isotherm that was moved last */
+  const shift = (temperature, decades) => {
+    const at = `${celsius(temperature)}degC=`;
+    held = temperature;
+    View.editDocument((doc, child, insert, remove) => {
+      const section = child(doc.documentElement, 'dma');
+      const there = [...section.children].find((c) => c.localName === 'shift' && c.textContent.trim().startsWith(at));
+      if (decades === null) {
+        if (there) remove(there);
+        return;
+      }
+      const old = there ? Number(there.textContent.trim().slice(at.length)) :
+        shiftOf(temperature).log_a - base().log_a;
+      const made = there || doc.createElementNS(section.namespaceURI, 'shift');
+      made.textContent = at + Number((old + decades).toFixed(4));
+      if (!there) insert(section, made);
+    });
+  };
+  const handleOf = (temperature) => {
+    const row = shiftOf(temperature);
+    if (!row || row === base() || row.log_a === null) return null;
+    return {label: `Isotherm of ${celsius(temperature)} °C, log a_T`, value: row.log_a.toFixed(4),
+      focused: held === temperature && (document.activeElement === document.body ||
+        ui.plot.contains(document.activeElement)),
+      moved: (decades) => shift(temperature, decades)};
+  };
   const excluded = () => View.all('dma/exclude');
   /* Column, fitted column, unit and label; M is E or G. */
   const quantities = {storage: ['storage_modulus', 'fitted_storage', 'Pa', "M'"],
@@ -43,7 +77,8 @@
     const label = general.replace('M', found.master_curve.keys.deformation === 'shear' ? 'G' : 'E');
     const own = name.startsWith('own_');
     const series = all.map(([temperature, rows], k) => ({name: null, color: Plot.heat(k / n), kind: 'points',
-      width: 5, x: rows.map((r) => own ? r.own_frequency : r.angular_frequency), y: rows.map((r) => r[name])}));
+      width: 5, x: rows.map((r) => own ? r.own_frequency : r.angular_frequency), y: rows.map((r) => r[name]),
+      handle: own ? null : handleOf(temperature)}));
     if (fitted) {
       const rows = [...found.master_curve.rows].sort((a, b) => a.angular_frequency - b.angular_frequency);
       const x = rows.map((r) => r.angular_frequency);
@@ -55,9 +90,12 @@
       x: {label: own ? 'angular frequency as measured (rad/s)' : 'reduced angular frequency (rad/s)', log: true},
       y: {label, unit, log: true}, series});
     const s = found.shift_factors, x = s.column('temperature').map(celsius);
+    const byHand = s.rows.filter((row) => row.origin === 'by hand');
     Plot.draw(ui.shifts, {title: 'Shift factors', height: 240, x: {label: 'temperature (°C)'},
       y: {label: 'log a_T'}, series: [
         {name: 'shift factors', x, y: s.column('log_a'), kind: 'points', width: 6, color: 'var(--s0)'},
+        ...(byHand.length === 0 ? [] : [{name: 'by hand', x: byHand.map((r) => celsius(r.temperature)),
+          y: byHand.map((r) => r.log_a), kind: 'points', width: 9, color: 'var(--fit)'}]),
         {name: s.keys.law || 'law', x, y: s.column('law_log_a'), color: 'var(--s1)'}]});
     Plot.draw(ui.vertical, {title: 'Vertical shifts', height: 240, x: {label: 'temperature (°C)'},
       y: {label: 'log b_T'}, series: [
@@ -81,7 +119,10 @@
       const i = element('i', {});
       i.style.cssText = `display:inline-block;width:.8rem;height:.8rem;margin:0 .3rem;background:${Plot.heat(k / n)}`;
       return element('label', {}, element('input', {type: 'checkbox', checked: true,
-        onchange: () => toggle(rangeOf(temperature))}), i, `${celsius(temperature)} °C, ${rows.length} points`);
+        onchange: () => toggle(rangeOf(temperature))}), i, `${celsius(temperature)} °C, ${rows.length} points`,
+      (shiftOf(temperature) || {}).origin !== 'by hand' ? null : element('button', {
+        'aria-label': `Shift of ${celsius(temperature)} °C as fitted`,
+        onclick: () => shift(temperature, null)}, 'by hand: as fitted'));
     }), ...excluded().map((text) => element('label', {}, element('input', {type: 'checkbox',
       onchange: () => toggle(text)}), ` ${text}, excluded`)));
     const [low, high] = Plot.range(all.map(([t]) => celsius(t)));
@@ -91,6 +132,7 @@
     ui.shown.textContent = `${ui.reference.value} °C`;
     document.documentElement.dataset.reference = ui.reference.value;
     document.documentElement.dataset.isotherms = all.length;
+    document.documentElement.dataset.shifts = found.shift_factors.rows.map((r) => `${r.origin} ${r.log_a}`).join(', ');
   };
   const compute = async (source) => {
     const made = source === undefined ? await View.results(tables) : await View.trial(tables, 0, source);
@@ -110,6 +152,18 @@
   });
   const choices = {'dma/vertical-shift': ['Vertical shift', ['', 'none', 'physical', 'free', 'tied']],
     'dma/shift-by': ['Shift by', ['', 'moduli', 'storage', 'loss', 'loss-factor']]};
+
+  /* The same fit without the case, where its files need no words of their own. */
+  const masterCommand = () => {
+    const section = new DOMParser().parseFromString(View.text(), 'application/xml').querySelector('dma');
+    const parts = section ? [...section.children] : [], files = parts.filter((c) => c.localName === 'files');
+    if (!parts.some((c) => c.localName === 'shift') || files.some((c) => c.attributes.length > 0)) return [];
+    const options = ['exclude', 'shift-law', 'shift', 'reference-temperature', 'reference-at', 'vertical-shift',
+      'expansion', 'terms-per-decade', 'shift-by'];
+    return [['weartrack master', ...parts.filter((c) => options.includes(c.localName)).map((c) =>
+      `--${c.localName} ${View.quote(c.textContent.trim())}`), ...(View.get('dma/liquid') === 'yes' ? ['--liquid'] : []),
+    ...files.flatMap((c) => c.textContent.trim().split(/\s+/)).map(View.quote), '-o master.h5'].join(' ')];
+  };
 
   View.add({
     id: 'master', title: 'Master curve',
@@ -133,7 +187,8 @@
       host.append(element('div', {class: 'tools'}, element('label', {}, 'Show ', ui.quantity),
         ...Object.values(ui.selects), element('label', {}, 'Reference temperature ', ui.reference), ui.shown),
       ui.verdict, ui.law, element('div', {class: 'columns'},
-        element('div', {}, element('h2', {}, 'Isotherms'), ui.isotherms), ui.plot),
+        element('div', {}, element('h2', {}, 'Isotherms'), ui.isotherms,
+          element('p', {class: 'soft'}, 'Drag an isotherm in the plot, or move it with the arrow keys, to shift it by hand.')), ui.plot),
       element('div', {class: 'halves'}, element('div', {}, element('h2', {}, 'Shift factors'), ui.shifts),
         element('div', {}, element('h2', {}, 'Vertical shifts'), ui.vertical),
         element('div', {}, element('h2', {}, 'Prony series'), ui.prony)));
@@ -145,6 +200,6 @@
       describe();
     },
     resize: () => found.master_curve && draw(),
-    command: () => [`weartrack table ${View.quote(View.state().resultName || 'case.h5')} shift_factors`],
+    command: () => [...masterCommand(), `weartrack table ${View.quote(View.state().resultName || 'case.h5')} shift_factors`],
   });
 })();

@@ -149,6 +149,37 @@ const Plot = (() => {
     });
     if (m.focused) requestAnimationFrame(() => g.focus());
   };
+  /* Points that are moved along a logarithmic axis: `handle.moved(decades)` is called when they are
+   * released. */
+  const handle = (svg, s, x, y, parent) => {
+    const g = node('g', {class: 'handle', role: 'slider', tabindex: 0, 'aria-label': s.handle.label,
+      'aria-valuenow': s.handle.value, 'aria-valuetext': s.handle.value}, parent);
+    node('path', {d: points(x, y, s, (s.width || 3) / 2), stroke: s.color, 'stroke-width': s.width || 3,
+      fill: 'none'}, g);
+    const grip = node('path', {class: 'grip', d: points(x, y, s, 9), fill: 'none'}, g);
+    const decades = (pixels) => Math.log10(x.value(pixels) / x.value(0));
+    grip.addEventListener('pointerdown', (event) => {
+      event.preventDefault();
+      g.focus();
+      grip.setPointerCapture(event.pointerId);
+      const box = svg.getBoundingClientRect(), width = svg.viewBox.baseVal.width;
+      grip.onpointermove = grip.onpointerup = grip.onpointercancel = (e) => {
+        const way = e.type === 'pointercancel' ? 0 : (e.clientX - event.clientX) * width / box.width;
+        g.setAttribute('transform', `translate(${way} 0)`);
+        if (e.type === 'pointermove') return;
+        grip.onpointermove = grip.onpointerup = grip.onpointercancel = null;
+        if (way !== 0) s.handle.moved(decades(way));
+      };
+    });
+    g.addEventListener('keydown', (event) => {
+      const n = {ArrowRight: 1, ArrowLeft: -1, PageUp: 10, PageDown: -10}[event.key];
+      if (n === undefined) return;
+      event.preventDefault();
+      event.stopPropagation();
+      s.handle.moved(n * (event.shiftKey ? 0.001 : 0.01));
+    });
+    if (s.handle.focused) requestAnimationFrame(() => g.focus());
+  };
   const legend = (host, series) => {
     const shown = series.filter((s) => s.name);
     if (shown.length < 2) return;
@@ -200,7 +231,7 @@ const Plot = (() => {
     host.append(p);
   };
   /* o: {title, x: {label, unit, log, range}, y: the same, height, series: [{name, x, y, color, kind:
-   * 'line' | 'points' | 'band', low, high, dash, width}], markers: [{x, label, unit, moved}]} */
+   * 'line' | 'points' | 'band', low, high, dash, width, handle: {label, value, moved}}], markers: [{x, label, unit, moved}]} */
   const draw = (host, o) => {
     const width = Math.max(280, host.clientWidth || 600), height = o.height || 300;
     const left = 62, right = width - 12, top = 10, bottom = height - 42;
@@ -209,7 +240,7 @@ const Plot = (() => {
     const x = axis(all('x').concat((o.markers || []).map((m) => m.x)), o.x.log, left, right, o.x.label,
       o.x.unit, o.x.range);
     const y = axis(all('y'), o.y.log, bottom, top, o.y.label, o.y.unit, o.y.range);
-    const svg = node('svg', {viewBox: `0 0 ${width} ${height}`, role: o.markers ? 'group' : 'img',
+    const svg = node('svg', {viewBox: `0 0 ${width} ${height}`, role: o.markers || o.series.some((s) => s.handle) ? 'group' : 'img',
       'aria-label': o.title || `${o.y.label} against ${o.x.label}`});
     const clip = 'clip' + Math.random().toString(36).slice(2);
     node('rect', {x: left, y: top, width: right - left, height: bottom - top},
@@ -229,7 +260,8 @@ const Plot = (() => {
     const fill = (all) => {
       inside.replaceChildren();
       for (const s of all) {
-        if (s.kind === 'band')
+        if (s.handle) handle(svg, s, x, y, inside);
+        else if (s.kind === 'band')
           node('path', {d: band(x, y, s), fill: s.color, 'fill-opacity': 0.18}, inside);
         else if (s.kind === 'points')
           node('path', {d: points(x, y, s, (s.width || 3) / 2), stroke: s.color,

@@ -115,7 +115,7 @@ const View = (() => {
 
   /* Sections whose elements have an order in the schema. */
   const orders = {
-    dma: ['poisson-ratio', 'reference-temperature', 'moduli', 'extrapolation', 'exclude', 'shift-law',
+    dma: ['poisson-ratio', 'reference-temperature', 'moduli', 'extrapolation', 'exclude', 'shift-law', 'shift',
       'reference-at', 'vertical-shift', 'expansion', 'terms-per-decade', 'liquid', 'shift-by', 'at',
       'peak-points', 'prony-terms', 'prony-error', 'prony-long-term', 'files'],
     roughness: ['form', 'window', 'scan-lines', 'points-per-wave', 'tip-radius', 'end', 'end-slope',
@@ -294,7 +294,7 @@ const View = (() => {
     } catch (problem) {
       panel.problem.textContent = problem.message;
     }
-    root.dataset.shown = panel.id;
+    if (panel === current) root.dataset.shown = panel.id; /* another may have been opened meanwhile */
   };
   const select = (panel) => {
     for (const other of panels) {

@@ -55,6 +55,15 @@ piece 'give --reference-temperature'
 cause 'give --reference-temperature' friction --material plain.tsv --roughness $surface --pressure 0.4MPa --velocity 0.1m/s --sliding-temperature 40degC
 leads friction --reference-temperature 20degC --material plain.tsv --roughness $surface --pressure 0.4MPa --velocity 0.1m/s --sliding-temperature 20degC
 
+piece 'shift the others, or give another --reference-temperature'
+cause 'give another --reference-temperature' master --poisson-ratio 0.5 --reference-temperature 20degC --shift 20degC=0.1 three.csv -o a.h5
+helps master --poisson-ratio 0.5 --reference-temperature 30degC --shift 20degC=1.1 three.csv -o a.h5
+helps master --poisson-ratio 0.5 --reference-temperature 20degC --shift 30degC=-0.9 three.csv -o a.h5
+
+piece 'give --reference-temperature in place of --reference-at'
+cause 'in place of --reference-at' master --poisson-ratio 0.5 --reference-at tan-delta-peak --shift 30degC=-0.9 three.csv -o a.h5
+helps master --poisson-ratio 0.5 --reference-temperature 20degC --shift 30degC=-0.9 three.csv -o a.h5
+
 piece 'leave out its column log_b, or give another --vertical-shift'
 "$weartrack" master -q --poisson-ratio 0.5 --vertical-shift tied three.csv --save-shifts shifts.tsv -o a.h5 2> err
 cause 'another --vertical-shift' master --poisson-ratio 0.5 --vertical-shift none --shifts shifts.tsv three.csv -o a.h5
