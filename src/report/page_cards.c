@@ -77,7 +77,8 @@ static void write_bar(page_writer *page, const char *name, const char *class, co
                       double low, double high)
 {
     const display_unit lab = select_finding_unit(f);
-    const int digits = result_value_digits(f->number.value, low, high);
+    /* both bars of a card have the digits of its number */
+    const int digits = result_value_digits(f->number.value, f->low, f->high);
     text_buffer text = {0};
     text_format(&text, "%s to %s", NUMBER(to_display_value(&lab, low), digits),
                 NUMBER(to_display_value(&lab, high), digits));
