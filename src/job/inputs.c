@@ -303,6 +303,7 @@ static void files_add(flow_files *files, char *path, const char *pattern, const 
                                         .number = files->n,
                                         .name = name,
                                         .set = set,
+                                        .seen = files->seen,
                                         .from_folder = path_depth(name) > path_depth(pattern)};
     files->n++;
 }
@@ -358,7 +359,7 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
                           flow_files *files, wt_error *err)
 {
     wt_status status = WT_OK;
-    *files = (flow_files){NULL, 0};
+    *files = (flow_files){.seen = wt_alloc(1, sizeof(sample_set))};
     for (size_t i = 0; status == WT_OK && i < n_sets; i++)
         for (size_t j = 0; status == WT_OK && j < sets[i].n_patterns; j++)
             status = list_pattern(&sets[i], sets[i].patterns[j], work, files, err);
@@ -377,7 +378,10 @@ void flow_files_clear(flow_files *files)
     for (size_t i = 0; i < files->n; i++)
         free((void *)files->file[i].path);
     free(files->file);
-    *files = (flow_files){NULL, 0};
+    if (files->seen != NULL)
+        sample_set_clear(files->seen);
+    free(files->seen);
+    *files = (flow_files){0};
 }
 
 static bool is_path_suffix(const char *end, size_t n_end, const char *path, size_t n)
