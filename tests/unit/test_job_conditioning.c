@@ -276,6 +276,28 @@ static void test_repeated_isotherms(void **state)
     }
 }
 
+/* Sound isotherms give no action, and no bit of them changes. */
+static void test_sound_sweep(void **state)
+{
+    (void)state;
+    wt_sweep sweep = {0}, same = {0};
+    for (size_t i = 0; i < 4; i++) {
+        add_isotherm(&sweep, 270 + 10 * (double)i, 1e7 / (double)(i + 1), "a");
+        add_isotherm(&same, 270 + 10 * (double)i, 1e7 / (double)(i + 1), "a");
+    }
+    assert_false(sweep_is_warned(&sweep, NULL));
+    for (size_t i = 0; i < 4; i++) {
+        const wt_isotherm *const a = &sweep.isotherms[i], *const b = &same.isotherms[i];
+        assert_int_equal(a->n, POINTS);
+        assert_true(memcmp(&a->temperature, &b->temperature, sizeof a->temperature) == 0);
+        assert_memory_equal(a->angular_frequency, b->angular_frequency, POINTS * sizeof(double));
+        assert_memory_equal(a->storage_modulus, b->storage_modulus, POINTS * sizeof(double));
+        assert_memory_equal(a->loss_modulus, b->loss_modulus, POINTS * sizeof(double));
+    }
+    wt_sweep_clear(&sweep);
+    wt_sweep_clear(&same);
+}
+
 static void test_plausible_moduli(void **state)
 {
     (void)state;
@@ -369,7 +391,7 @@ int main(void)
         cmocka_unit_test(test_unloaded_scatter),   cmocka_unit_test(test_zero_before_loading),
         cmocka_unit_test(test_repeated_isotherms), cmocka_unit_test(test_plausible_moduli),
         cmocka_unit_test(test_scan_lines),         cmocka_unit_test(test_hash_of_samples),
-        cmocka_unit_test(test_copied_curves),
+        cmocka_unit_test(test_copied_curves),      cmocka_unit_test(test_sound_sweep),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
