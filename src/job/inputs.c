@@ -355,6 +355,22 @@ static void repeated_paths_remove(flow_files *files, const wt_job *work)
     files->n = n;
 }
 
+/* One action for the sets, so that a result of data that were not looked at says so. */
+static void note_kept(const flow_files *files, const wt_job *work)
+{
+    size_t n = 0, last = 0;
+    for (size_t i = 0; i < files->n; i++)
+        if (files->file[i].set->read.conditioning == WT_CONDITIONING_KEEP) {
+            last = i;
+            n++;
+        }
+    if (n > 0)
+        wt_log_action(work->log, WT_NOTE, WT_KEPT, n, "--conditioning mend",
+                      n == 1 ? files->file[last].name : NULL, NULL,
+                      "conditioning keep: all data count as they stand in the file%s",
+                      n == 1 ? "" : "s");
+}
+
 wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                           flow_files *files, wt_error *err)
 {
@@ -368,7 +384,9 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
     repeated_paths_remove(files, work);
     if (status == WT_OK && files->n > 1)
         file_copies_remove(files, work);
-    else if (status != WT_OK)
+    if (status == WT_OK)
+        note_kept(files, work);
+    else
         flow_files_clear(files);
     return status;
 }
