@@ -166,7 +166,8 @@ typedef enum wt_action {
     WT_CORRECTED,    /* values were changed */
     WT_CONTRADICTED, /* two statements of one input disagree */
     WT_COPIED,       /* the data of another input, which count once */
-    WT_IMPLAUSIBLE   /* values that the quantity does not have; unchanged */
+    WT_IMPLAUSIBLE,  /* values that the quantity does not have; unchanged */
+    WT_KEPT          /* all data count as they stand: what would be left out was not looked for */
 } wt_action;
 #define WT_ACTION_LIST(X)                                                                          \
     X(WT_ACTION_NONE, "none")                                                                      \
@@ -174,7 +175,8 @@ typedef enum wt_action {
     X(WT_CORRECTED, "corrected")                                                                   \
     X(WT_CONTRADICTED, "contradicted")                                                             \
     X(WT_COPIED, "copied")                                                                         \
-    X(WT_IMPLAUSIBLE, "implausible")
+    X(WT_IMPLAUSIBLE, "implausible")                                                               \
+    X(WT_KEPT, "kept")
 
 typedef struct wt_log_entry {
     wt_severity severity;

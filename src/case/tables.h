@@ -75,8 +75,9 @@
 #define DATA_QUALITY_COLUMNS(X)                                                                    \
     X(DATA_QUALITY_FILE, AS(file), "file it is about", TEXT, LABEL("File"))                        \
     X(DATA_QUALITY_PLACE, IN(entry, place), "first place in the file", TEXT, LABEL("Place"))       \
-    X(DATA_QUALITY_ACTION, AS(action), "left out, corrected, contradicted, copied or implausible", \
-      ENUM(action), LABEL("Action"))                                                               \
+    X(DATA_QUALITY_ACTION, AS(action),                                                             \
+      "left out, corrected, contradicted, copied, implausible or kept", ENUM(action),              \
+      LABEL("Action"))                                                                             \
     X(DATA_QUALITY_VALUES, AS(n_values), "number of values, rows or files; nan unless known",      \
       NUMBER, LABEL("Number"))                                                                     \
     X(DATA_QUALITY_REASON, IN(entry, text), "why", TEXT, LABEL("Reason"))                          \

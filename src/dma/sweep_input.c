@@ -91,7 +91,7 @@ static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_jo
         copy_sweep(sweep, work->dma);
         return WT_OK;
     }
-    flow_files files = {NULL, 0};
+    flow_files files = {0};
     wt_status status = flow_files_list(sets, n_sets, work, &files, err);
     for (size_t i = 0; status == WT_OK && i < files.n; i++) {
         wt_input *input = NULL;

@@ -310,7 +310,7 @@ static wt_status read_roughness_input(const char *path, const wt_read_options *r
 {
     const wt_file_set set = {
         .patterns = &path, .n_patterns = 1, .read = read != NULL ? *read : wt_read_defaults()};
-    flow_files files = {NULL, 0};
+    flow_files files = {0};
     wt_topography_job job = wt_topography_job_defaults();
     bool heights = false;
     job.sets = &set;

@@ -485,7 +485,7 @@ wt_status wt_dwell_compute(const wt_indent_job *job, const wt_job *work, wt_dwel
         return wt_fail(err, WT_E_ARG, "no job of dwells");
     dwell_task task = {.job = job, .work = work};
     wt_dwell_tables result = {0};
-    flow_files files = {NULL, 0};
+    flow_files files = {0};
     wt_status status = param_check(wt_indent_job_params(), job, err);
     if (status == WT_OK && (job->tip.half_angle_error > 0 || job->tip.radius_error > 0)) {
         status = wt_fail(err, WT_E_ARG, "an error of the tip would not be used");

@@ -268,7 +268,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
                         .k_high = (double)NAN,
                         .s_low = (double)NAN,
                         .s_high = (double)NAN};
-    flow_files files = {NULL, 0};
+    flow_files files = {0};
     wt_status status = prepare_task(&task, err);
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);

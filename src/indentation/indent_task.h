@@ -21,6 +21,7 @@ typedef struct queued_curve {
     wt_status status;
     wt_error error;
     wt_indent_fit fit;
+    uint64_t hash; /* of the samples; 0 if no modulus follows from them */
 } queued_curve;
 
 typedef struct accepted_modulus {
@@ -64,6 +65,9 @@ typedef struct indent_task {
     table_writer rows;
     size_t n_curves, n_failed;
     size_t n_accepted, n_wide, n_doubtful; /* n_accepted includes wide and doubtful curves */
+    /* Curves of the file that are copies of curves of the file `original`. */
+    size_t n_copies;
+    const flow_file *original;
     /* Equal failures of one file make one row. */
     wt_error failure;
     size_t n_equal, first_equal;

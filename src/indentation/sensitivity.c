@@ -560,7 +560,7 @@ wt_status wt_sensitivity_compute(const wt_sensitivity_job *job, const wt_job *wo
         return wt_fail(err, WT_E_ARG, "no job of sensitivity");
     sensitivity_task task = {.job = job, .work = work};
     wt_sensitivity_tables result = {0};
-    flow_files files = {NULL, 0};
+    flow_files files = {0};
     size_t n_failed = 0;
     wt_status status = param_check(wt_sensitivity_job_params(), job, err);
     if (status == WT_OK && !(job->options.from < job->options.to))

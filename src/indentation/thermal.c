@@ -448,7 +448,7 @@ wt_status wt_thermal_compute(const wt_thermal_job *job, const wt_job *work, wt_t
 {
     if (job == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no job of thermal noise");
-    flow_files files = {NULL, 0};
+    flow_files files = {0};
     wt_status status = param_check(wt_thermal_job_params(), job, err);
     if (status == WT_OK && isnan(job->length.value) != isnan(job->width.value)) {
         status =

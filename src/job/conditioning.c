@@ -268,31 +268,63 @@ static void subtract_zero(double *force, const double *load, size_t n, const cha
         mean, count);
 }
 
-uint64_t flow_hash_samples(uint64_t before, const double *x, size_t n)
+/* One step is a one-to-one function of the hash, so that one changed sample always changes it. The
+ * shift brings the high bits, such as the sign, to the low ones. */
+static uint64_t hash_step(uint64_t hash, double x)
 {
-    uint64_t hash = before;
-    for (size_t i = 0; i < n; i++) {
-        uint64_t bits;
-        memcpy(&bits, &x[i], sizeof bits);
-        hash = splitmix64(hash ^ bits);
-    }
-    return hash;
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    hash = (hash ^ bits) * UINT64_C(0x9e3779b97f4a7c15);
+    return hash ^ (hash >> 32);
 }
 
-wt_status flow_check_copy(flow_file *file, size_t i, uint64_t samples, const wt_job *work)
+uint64_t flow_hash_samples(uint64_t before, const double *x, size_t n)
 {
-    file->samples = samples;
-    for (const flow_file *earlier = file - i;
-         earlier < file && file->set->read.conditioning == WT_CONDITIONING_MEND; earlier++) {
-        if (earlier->samples != samples || earlier->is_copy)
-            continue;
-        wt_log_action(work->log, WT_WARNING, WT_COPIED, 1, WT_KEEP_OPTION, file->name, NULL,
+    /* Each step waits for the one before it; the processor computes four chains at once. */
+    enum { CHAINS = 4 };
+    uint64_t chain[CHAINS], hash = splitmix64(before ^ n);
+    size_t i = 0;
+    for (size_t k = 0; k < CHAINS; k++)
+        chain[k] = splitmix64(before + k);
+    for (; i + CHAINS <= n; i += CHAINS)
+        for (size_t k = 0; k < CHAINS; k++)
+            chain[k] = hash_step(chain[k], x[i + k]);
+    for (; i < n; i++)
+        hash = hash_step(hash, x[i]);
+    for (size_t k = 0; k < CHAINS; k++)
+        hash = splitmix64(hash) ^ chain[k]; /* a step alone changes alike where signs change */
+    return splitmix64(hash);
+}
+
+const flow_file *flow_find_original(const flow_file *file, uint64_t samples)
+{
+    const flow_file *const first = sample_set_add(file->seen, samples, file);
+    const bool counts_again = first == file || file->set->read.conditioning != WT_CONDITIONING_MEND;
+    return counts_again ? NULL : first;
+}
+
+void flow_log_copy(flow_file *file, const flow_file *original, size_t n, size_t n_all,
+                   const wt_job *work)
+{
+    file->is_copy = n == n_all;
+    if (file->is_copy)
+        wt_log_action(work->log, WT_WARNING, WT_COPIED, n, WT_KEEP_OPTION, file->name, NULL,
                       "the same samples as %s: a copy, left out; both count as one measurement",
-                      earlier->name);
-        file->is_copy = true;
-        return WT_END;
-    }
-    return WT_OK;
+                      original->name);
+    else
+        wt_log_action(work->log, WT_WARNING, WT_COPIED, n, WT_KEEP_OPTION, file->name, NULL,
+                      "%zu of %zu curves have the same samples as curves of other files, such as "
+                      "%s: copies, left out; both count as one measurement",
+                      n, n_all, original->name);
+}
+
+wt_status flow_check_copy(flow_file *file, uint64_t samples, const wt_job *work)
+{
+    const flow_file *const original = flow_find_original(file, samples);
+    if (original == NULL)
+        return WT_OK;
+    flow_log_copy(file, original, 1, 1, work);
+    return WT_END;
 }
 
 uint64_t condition_hash_record(const wt_record *record)

@@ -8,9 +8,15 @@
 
 /* Hash of values that follow those of the hash `before`, 0 for none. */
 uint64_t flow_hash_samples(uint64_t before, const double *x, size_t n);
-/* Returns WT_END, with a warning, if file i of a list has the samples of one before it, under
- * another name or with another header: flow_skip_file is then true. */
-wt_status flow_check_copy(flow_file *file, size_t i, uint64_t samples, const wt_job *work);
+/* Returns WT_END, with a warning, if a file has the samples of one before it, under another name or
+ * with another header: flow_skip_file is then true. */
+wt_status flow_check_copy(flow_file *file, uint64_t samples, const wt_job *work);
+/* The two parts of it, for a file of many curves. The first returns the earlier file with the same
+ * samples; NULL if there is none, or if `file` counts as it stands. The second warns that n of
+ * n_all curves are copies. */
+const flow_file *flow_find_original(const flow_file *file, uint64_t samples);
+void flow_log_copy(flow_file *file, const flow_file *original, size_t n, size_t n_all,
+                   const wt_job *work);
 /* Hash of all channels of a record. */
 uint64_t condition_hash_record(const wt_record *record);
 /* Leaves out samples of friction and load that are far from all others (they become NaN), sets a

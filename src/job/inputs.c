@@ -303,6 +303,7 @@ static void files_add(flow_files *files, char *path, const char *pattern, const 
                                         .number = files->n,
                                         .name = name,
                                         .set = set,
+                                        .seen = files->seen,
                                         .from_folder = path_depth(name) > path_depth(pattern)};
     files->n++;
 }
@@ -354,11 +355,27 @@ static void repeated_paths_remove(flow_files *files, const wt_job *work)
     files->n = n;
 }
 
+/* One action for the sets, so that a result of data that were not looked at says so. */
+static void note_kept(const flow_files *files, const wt_job *work)
+{
+    size_t n = 0, last = 0;
+    for (size_t i = 0; i < files->n; i++)
+        if (files->file[i].set->read.conditioning == WT_CONDITIONING_KEEP) {
+            last = i;
+            n++;
+        }
+    if (n > 0)
+        wt_log_action(work->log, WT_NOTE, WT_KEPT, n, "--conditioning mend",
+                      n == 1 ? files->file[last].name : NULL, NULL,
+                      "conditioning keep: all data count as they stand in the file%s",
+                      n == 1 ? "" : "s");
+}
+
 wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *work,
                           flow_files *files, wt_error *err)
 {
     wt_status status = WT_OK;
-    *files = (flow_files){NULL, 0};
+    *files = (flow_files){.seen = wt_alloc(1, sizeof(sample_set))};
     for (size_t i = 0; status == WT_OK && i < n_sets; i++)
         for (size_t j = 0; status == WT_OK && j < sets[i].n_patterns; j++)
             status = list_pattern(&sets[i], sets[i].patterns[j], work, files, err);
@@ -367,7 +384,9 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
     repeated_paths_remove(files, work);
     if (status == WT_OK && files->n > 1)
         file_copies_remove(files, work);
-    else if (status != WT_OK)
+    if (status == WT_OK)
+        note_kept(files, work);
+    else
         flow_files_clear(files);
     return status;
 }
@@ -377,7 +396,10 @@ void flow_files_clear(flow_files *files)
     for (size_t i = 0; i < files->n; i++)
         free((void *)files->file[i].path);
     free(files->file);
-    *files = (flow_files){NULL, 0};
+    if (files->seen != NULL)
+        sample_set_clear(files->seen);
+    free(files->seen);
+    *files = (flow_files){0};
 }
 
 static bool is_path_suffix(const char *end, size_t n_end, const char *path, size_t n)

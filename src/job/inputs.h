@@ -4,6 +4,7 @@
 #define WT_JOB_INPUTS_H
 
 #include "core/base/shared_params.h"
+#include "job/sample_set.h"
 #include "weartrack/job.h"
 
 /* Parameters of a job that a run also has. */
@@ -24,14 +25,14 @@ typedef struct flow_file {
     bool from_folder;       /* found in a folder, not named itself */
     /* set by flow_open: */
     const wt_format_info *format;
-    /* set by flow_check_copy: */
-    uint64_t samples; /* hash; 0: not checked */
-    bool is_copy;
+    bool is_copy;     /* set by flow_check_copy */
+    sample_set *seen; /* samples of the files of the list; owned by it */
 } flow_file;
 
 typedef struct flow_files {
     flow_file *file;
     size_t n;
+    sample_set *seen;
 } flow_files;
 
 /* Lists all files of the sets in the order of their paths, so that sums do not depend on the order

@@ -454,7 +454,7 @@ static bool is_stored(const flow_file *file)
 }
 
 static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow_file *file,
-                              size_t i, record_writers *w, wt_error *err)
+                              record_writers *w, wt_error *err)
 {
     wt_input *input = NULL;
     wt_record record = {.n = 0};
@@ -466,7 +466,7 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
         status = wt_record_read(work->formats, input, &read, work->log, &record, err);
     wt_input_close(input);
     if (status == WT_OK)
-        status = flow_check_copy(file, i, condition_hash_record(&record), work);
+        status = flow_check_copy(file, condition_hash_record(&record), work);
     const wt_estimate stated = job->track_radius, read_radius = {record.radius, 0, 0, "m"},
                       radius = isnan(stated.value) ? read_radius : stated;
     if (status == WT_OK && read.conditioning == WT_CONDITIONING_MEND) {
@@ -509,8 +509,9 @@ typedef struct record_task {
 static wt_status process_file(void *user, flow_file *file, size_t i, wt_error *err)
 {
     const record_task *const task = user;
+    (void)i;
     return is_stored(file) ? read_stored_record(task->work, file, task->w, task->all, err)
-                           : measure_file(task->job, task->work, file, i, task->w, err);
+                           : measure_file(task->job, task->work, file, task->w, err);
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
@@ -570,7 +571,7 @@ wt_status wt_record_compute(const wt_record_job *job, const wt_job *work, wt_rec
 {
     if (job == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no job of records");
-    flow_files files = {NULL, 0};
+    flow_files files = {0};
     wt_record_tables made = {0};
     wt_status status = param_check(wt_record_job_params(), job, err);
     if (status == WT_OK)

@@ -75,7 +75,7 @@ wt_status wear_profile_area(const wt_record_job *job, const wt_job *work, wt_est
     set.n_patterns = 1;
     if (job->profile_set == NULL)
         set.read.format = NULL; /* that of the records does not apply */
-    flow_files files = {NULL, 0};
+    flow_files files = {0};
     profile_areas found = {.work = work};
     size_t n_failed = 0;
     wt_status status = flow_files_list(&set, 1, work, &files, err);

@@ -9,9 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Characters of 8 points per line above a third of a sheet, and lines for a reason of at most 159
- * characters. */
-enum { LINE_LENGTH = 48, REASON_LINES = 4 };
+/* Characters of 8 points per line, and lines for a reason of at most 159 characters. A heading of
+ * the last column begins 181 points from the edge of the sheet; a letter is 4 points wide in the
+ * mean. */
+enum { LINE_LENGTH = 40, REASON_LINES = 6 };
 
 const char curve_panel_legend[] =
     "Points: approach; black line: fit; grey line: retract; vertical line: contact point.";
@@ -80,7 +81,7 @@ static size_t add_wrapped_lines(text_buffer *to, const char *text, size_t most)
         size_t left = strlen(text), length = left;
         if (left > LINE_LENGTH) {
             length = utf8_truncated_length(text, left, LINE_LENGTH);
-            const char *blank = memrchr(text, ' ', length);
+            const char *blank = memrchr(text, ' ', length + 1);
             if (blank != NULL && n + 1 < most)
                 length = (size_t)(blank - text);
         }

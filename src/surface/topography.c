@@ -96,15 +96,15 @@ static void condition_scan(const wt_topography_job *job, const wt_job *work, con
             "again at 90 degrees to tell");
 }
 
-/* Measures file i of n. */
+/* Measures one of the files. */
 static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, flow_file *file,
-                              size_t i, size_t n_files, surface_scan *to, wt_error *err)
+                              size_t n_files, surface_scan *to, wt_error *err)
 {
     wt_image image = {.values = NULL};
     wt_status status = flow_heights_read(file, job->image, true, "topography", work, &image, err);
     if (status == WT_OK)
         status = flow_check_copy(
-            file, i, flow_hash_samples(0, image.values, image.n_columns * image.n_rows), work);
+            file, flow_hash_samples(0, image.values, image.n_columns * image.n_rows), work);
     if (status != WT_OK) {
         wt_image_clear(&image);
         return status;
@@ -142,7 +142,7 @@ static wt_status measure_scans(const wt_topography_job *job, const wt_job *work,
     size_t n_failed = 0;
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
-        status = measure_scan(job, work, &files->file[i], i, files->n, &scans[*n], &failure);
+        status = measure_scan(job, work, &files->file[i], files->n, &scans[*n], &failure);
         if (status == WT_OK) {
             (*n)++;
         } else if (flow_skip_file(work, &files->file[i], &failure)) {
@@ -200,7 +200,7 @@ wt_status wt_topography_compute(const wt_topography_job *job, const wt_job *work
 {
     if (job == NULL || work == NULL || tables == NULL)
         return wt_fail(err, WT_E_ARG, "no job of a surface");
-    flow_files files = {NULL, 0};
+    flow_files files = {0};
     surface_result whole = {.steep = (double)NAN};
     surface_scan *scans = NULL;
     size_t n = 0;

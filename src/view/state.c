@@ -32,7 +32,7 @@ static void add_case_files(wt_view *view, const wt_case *c)
     wt_job work = wt_job_defaults();
     work.formats = view->formats;
     for (const case_files *role = c->roles; role != NULL; role = role->next) {
-        flow_files files = {NULL, 0};
+        flow_files files = {0};
         /* A pattern without a file is an error, which the run reports. */
         if (flow_files_list(role->sets, role->n, &work, &files, NULL) == WT_OK)
             for (size_t i = 0; i < files.n; i++)

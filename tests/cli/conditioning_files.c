@@ -372,6 +372,8 @@ int main(int argc, char *argv[])
     write_profile("way.csv", "Way,Depth");
     write_curve("curve.txt", "# spring constant: 0.12 N/m\n");
     write_curve("curve-2.txt", "# spring constant: 0.12 N/m\n");
+    write_curve("titled.txt", "# exported again\n# spring constant: 0.12 N/m\n");
+    write_curve("stiffer.txt", "# spring constant: 0.13 N/m\n");
     write_curve("two-springs.txt", "# spring constant: 0.24 N/m\n# spring constant: 0.12 N/m\n");
     write_map("map.gsf", 0, 0, false, "Height");
     write_map("map-2.gsf", 0, 0, false, "Height");

@@ -159,6 +159,75 @@ static void test_zero_before_loading(void **state)
     wt_log_free(log);
 }
 
+/* ---- copies ---------------------------------------------------------------------------------- */
+
+/* Any one bit counts, also of two samples that change alike, and so does the number of samples. */
+static void test_hash_of_samples(void **state)
+{
+    (void)state;
+    enum { N = 11 };
+    double x[N];
+    for (size_t i = 0; i < N; i++)
+        x[i] = scatter(i);
+    const uint64_t hash = flow_hash_samples(0, x, N);
+    assert_true(flow_hash_samples(0, x, N) == hash);
+    assert_true(flow_hash_samples(0, x, N - 1) != hash);
+    assert_true(flow_hash_samples(1, x, N) != hash);
+    for (size_t i = 0; i < N; i++) {
+        const double before = x[i];
+        x[i] = nextafter(before, 2);
+        assert_true(flow_hash_samples(0, x, N) != hash);
+        x[i] = before;
+        for (size_t k = 0; k < i; k++) {
+            x[i] = -x[i];
+            x[k] = -x[k];
+            assert_true(flow_hash_samples(0, x, N) != hash);
+            x[i] = -x[i];
+            x[k] = -x[k];
+        }
+    }
+}
+
+/* Three files of 300 curves each: the second has 100 of those of the first, the third has all of
+ * the first but uses data as they stand. */
+static void test_copied_curves(void **state)
+{
+    (void)state;
+    enum { CURVES = 300, COMMON = 100 };
+    sample_set seen = {0};
+    wt_file_set mend = {.read.conditioning = WT_CONDITIONING_MEND},
+                keep = {.read.conditioning = WT_CONDITIONING_KEEP};
+    flow_file file[] = {{.name = "a", .set = &mend, .seen = &seen},
+                        {.name = "b", .set = &mend, .seen = &seen},
+                        {.name = "c", .set = &keep, .seen = &seen}};
+    wt_log *log = wt_log_new();
+    const wt_job work = {.log = log};
+    size_t n = 0;
+    for (uint64_t i = 1; i <= CURVES; i++)
+        assert_null(flow_find_original(&file[0], 16 * i)); /* many share their low bits */
+    for (uint64_t i = 1; i <= CURVES; i++)
+        assert_null(flow_find_original(&file[0], 16 * i)); /* curves of one file */
+    for (uint64_t i = CURVES - COMMON + 1; i <= 2 * CURVES - COMMON; i++) {
+        const flow_file *const original = flow_find_original(&file[1], 16 * i);
+        assert_true(original == NULL || original == &file[0]);
+        n += original != NULL;
+    }
+    assert_int_equal(n, COMMON);
+    for (uint64_t i = 1; i <= CURVES; i++)
+        assert_null(flow_find_original(&file[2], 16 * i));
+    flow_log_copy(&file[1], &file[0], n, CURVES, &work);
+    assert_false(file[1].is_copy);
+    assert_true(log_has(log, "100 of 300 curves have the same samples"));
+    assert_int_equal(wt_log_get(log, 0).action, WT_COPIED);
+    assert_int_equal(wt_log_get(log, 0).n_values, COMMON);
+    assert_int_equal(flow_check_copy(&file[1], 16, &work), WT_END);
+    assert_true(file[1].is_copy);
+    assert_true(log_has(log, "the same samples as a: a copy"));
+    assert_int_equal(flow_check_copy(&file[2], 16, &work), WT_OK);
+    sample_set_clear(&seen);
+    wt_log_free(log);
+}
+
 /* ---- sweeps ---------------------------------------------------------------------------------- */
 
 enum { POINTS = 5 };
@@ -205,6 +274,28 @@ static void test_repeated_isotherms(void **state)
         assert_int_equal(sweep_is_warned(&sweep, NULL), cases[k].warned);
         wt_sweep_clear(&sweep);
     }
+}
+
+/* Sound isotherms give no action, and no bit of them changes. */
+static void test_sound_sweep(void **state)
+{
+    (void)state;
+    wt_sweep sweep = {0}, same = {0};
+    for (size_t i = 0; i < 4; i++) {
+        add_isotherm(&sweep, 270 + 10 * (double)i, 1e7 / (double)(i + 1), "a");
+        add_isotherm(&same, 270 + 10 * (double)i, 1e7 / (double)(i + 1), "a");
+    }
+    assert_false(sweep_is_warned(&sweep, NULL));
+    for (size_t i = 0; i < 4; i++) {
+        const wt_isotherm *const a = &sweep.isotherms[i], *const b = &same.isotherms[i];
+        assert_int_equal(a->n, POINTS);
+        assert_true(memcmp(&a->temperature, &b->temperature, sizeof a->temperature) == 0);
+        assert_memory_equal(a->angular_frequency, b->angular_frequency, POINTS * sizeof(double));
+        assert_memory_equal(a->storage_modulus, b->storage_modulus, POINTS * sizeof(double));
+        assert_memory_equal(a->loss_modulus, b->loss_modulus, POINTS * sizeof(double));
+    }
+    wt_sweep_clear(&sweep);
+    wt_sweep_clear(&same);
 }
 
 static void test_plausible_moduli(void **state)
@@ -299,7 +390,8 @@ int main(void)
         cmocka_unit_test(test_table_of_actions),   cmocka_unit_test(test_other_load),
         cmocka_unit_test(test_unloaded_scatter),   cmocka_unit_test(test_zero_before_loading),
         cmocka_unit_test(test_repeated_isotherms), cmocka_unit_test(test_plausible_moduli),
-        cmocka_unit_test(test_scan_lines),
+        cmocka_unit_test(test_scan_lines),         cmocka_unit_test(test_hash_of_samples),
+        cmocka_unit_test(test_copied_curves),      cmocka_unit_test(test_sound_sweep),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
