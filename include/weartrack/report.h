@@ -20,7 +20,7 @@ typedef struct wt_report_options {
     unsigned figures;     /* pictures for a paper, WT_FIGURE_* flags; 0: only those of the page */
     double width; /* width of a figure [m]; figures with panels side by side have at least 0.17 m;
                      NaN (default): that of the style */
-    const char *font; /* font of the figures; NULL (default): that of the style */
+    const char *font;   /* font of the figures; NULL (default): that of the style */
     const char *figure; /* name of the only figure, see wt_figure_get; NULL (default): all */
 } wt_report_options;
 

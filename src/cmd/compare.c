@@ -47,11 +47,16 @@ static wt_status find_group_table(const compare_call *call, int g, const wt_tabl
         *err = input->failure;
         if (err->status != WT_E_IO)
             wt_error_advice(err, "force curves go to `weartrack indent` first, bulk and track "
-                                 "each: compare takes what it writes");
+                                 "each: compare takes what it writes; a DMA goes to `weartrack "
+                                 "master`, and its output to --master");
         return err->status;
     }
     const wt_status status =
         cmd_table_find(input->tables, input->path, "indentation/", "indent", table, err);
+    if (status != WT_OK &&
+        (cmd_tables_contain(input->tables, "prony") || cmd_tables_contain(input->tables, "sweep")))
+        wt_error_advice(err, "materials are not compared any more: BULK and TRACK are outputs of "
+                             "`weartrack indent`, and a DMA goes to --master");
     if (status != WT_OK)
         return status;
     for (size_t i = 0; i < wt_result_n_tables(input->tables); i++)

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "cmd/table_output.h"
+#include "core/base/spell_suggest.h"
 
 static const wt_param rows[] = {
     {PARAM_TEXT_OF("output", cmd_common_options, output), .value = "PLACE", .letter = 'o',
@@ -167,18 +168,41 @@ static bool check_figure_name(cmd_session *s, const char *name)
     char *names = NULL;
     size_t size = 0;
     bool found = name == NULL;
+    spell_suggestion near =
+        spell_suggestion_begin(name != NULL ? name : "", found ? 0 : strlen(name));
     FILE *const list = open_memstream(&names, &size);
     if (list == NULL)
         cmd_exit_without_memory(size);
     for (size_t i = 0; !found && i < wt_figure_count(); i++) {
         found = strcmp(wt_figure_get(i).name, name) == 0;
+        spell_suggestion_try(&near, wt_figure_get(i).name, strlen(wt_figure_get(i).name));
         fprintf(list, "%s%s", i > 0 ? ", " : "", wt_figure_get(i).name);
     }
     fclose(list);
     if (!found)
-        (void)cmd_usage_error(s, "there is no figure '%s'; the figures are %s", name, names);
+        (void)cmd_usage_error(s, "there is no figure '%s'%s%s%s; the figures are %s", name,
+                              near.name != NULL ? "; did you mean " : "",
+                              near.name != NULL ? near.name : "", near.name != NULL ? "?" : "",
+                              names);
     free(names);
     return found;
+}
+
+/* Rejects the name of a picture for the page, and a figure without a page. */
+static bool check_page_name(cmd_session *s, const report_outputs *own, const char *figure)
+{
+    static const char *const pictures[] = {".svg", ".pdf", ".png"};
+    const char *const output = s->common.output;
+    const char *const dot = output != NULL && !own->methods ? strrchr(output, '.') : NULL;
+    for (size_t i = 0; dot != NULL && i < COUNT_OF(pictures); i++)
+        if (strcasecmp(dot, pictures[i]) == 0)
+            return cmd_usage_error(s,
+                                   "-o %s: a page or a folder is written; -o FOLDER --figures %s "
+                                   "puts the pictures there, --figure NAME one of them",
+                                   output, pictures[i] + 1);
+    if (figure != NULL && (output == NULL || own->methods))
+        return cmd_usage_error(s, "--figure is of the page: -o NAME.html or a folder");
+    return true;
 }
 
 static bool is_inside_folder(const char *path, const char *folder)
@@ -260,7 +284,8 @@ int cmd_report(int argc, char **argv)
         (void)cmd_usage_error(&s, "--methods is a call of its own");
         return cmd_session_free(&s);
     }
-    if (!check_output_names(&s, &own) || !check_figure_name(&s, report_options.figure))
+    if (!check_output_names(&s, &own) || !check_page_name(&s, &own, report_options.figure) ||
+        !check_figure_name(&s, report_options.figure))
         return cmd_session_free(&s);
     report_options.with_provenance = s.common.provenance;
     wt_status status = cmd_tables_read(s.files[0], &s.result, &s.err);

@@ -172,8 +172,10 @@ static void print_heading(const cmd_session *s, FILE *out, const wt_result_rows 
     fprintf(out, "%s: ", s->name);
     if (*heading != '\0')
         print_cell(out, heading, CMD_SCREEN_WIDTH - strlen(s->name) - 2);
-    else
+    else if (n > 0 || s->n_files == 0)
         fprintf(out, "%zu file%s", n, n == 1 ? "" : "s");
+    else /* a text stream does not list its inputs */
+        print_cell(out, wt_path_base(s->files[0]), CMD_SCREEN_WIDTH - strlen(s->name) - 2);
     fputs("\n\n", out);
 }
 

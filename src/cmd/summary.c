@@ -73,16 +73,30 @@ static wt_status read_all_results(cmd_session *s, wt_table **headlines, size_t *
     return status == WT_OK ? WT_OK : wt_fail(&s->err, status, "%s", wt_status_text(status));
 }
 
+/* Prints how much of the result failed; without it the list of its numbers would look complete. */
+static void print_counts(const cmd_session *s)
+{
+    const wt_table *failures = wt_result_find(s->result, "failures");
+    const size_t n_failed = failures != NULL ? wt_table_n_rows(failures) : 0;
+    const size_t n_remarks = cmd_count_remarks(s->result);
+    if (n_failed > 0)
+        printf("failed   %zu, see the table failures\n", n_failed);
+    if (n_remarks > 0)
+        printf("remarks  %zu, see the table notes\n", n_remarks);
+}
+
 /* Prints the main numbers of one result below each other, where a row of 60 columns would be cut.
- * Returns false if the result has none, or if the table is requested. */
+ * Returns false if the result has none, or if the table is requested; --quiet prints no list. */
 static bool print_one_result(cmd_session *s, const cmd_option_group *form)
 {
-    if (s->n_files != 1 || cmd_option_is_set(form, "format") || !cmd_shows_first_lines(s))
+    if (s->n_files != 1 || cmd_option_is_set(form, "format") || s->common.quiet ||
+        !cmd_shows_first_lines(s))
         return false;
     wt_error err = WT_ERROR_INIT; /* the table reports the failure */
     if (cmd_tables_read(s->files[0], &s->result, &err) != WT_OK || !cmd_shows_short_table(s))
         return false;
     cmd_print_short_table(s, wt_result_find(s->result, "answer") != NULL);
+    print_counts(s);
     cmd_apply_strict(s, s->files[0], cmd_count_remarks(s->result));
     puts("one row of all main numbers: -o FILE, or -o - to print it");
     return true;

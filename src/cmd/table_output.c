@@ -122,8 +122,8 @@ wt_status cmd_check_sample(const wt_result *tables, const char *path, const char
     return err->status;
 }
 
-wt_status cmd_rubber_from_tables(const wt_result *tables, const char *path, const char *sample,
-                                 double poisson_ratio, wt_rubber *rubber, wt_error *err)
+static wt_status create_rubber(const wt_result *tables, const char *path, const char *sample,
+                               double poisson_ratio, wt_rubber *rubber, wt_error *err)
 {
     wt_rubber_tables of = {.prony = cmd_sample_table(tables, "prony", sample),
                            .shift_factors = cmd_sample_table(tables, "shift_factors", sample),
@@ -143,7 +143,6 @@ wt_status cmd_rubber_read(const char *path, const char *sample, double poisson_r
 {
     const wt_status status = wt_tables_read(
         path, path, work, (wt_tables_role){"material", "material", NULL}, tables, err);
-    return status == WT_OK
-               ? cmd_rubber_from_tables(*tables, path, sample, poisson_ratio, rubber, err)
-               : status;
+    return status == WT_OK ? create_rubber(*tables, path, sample, poisson_ratio, rubber, err)
+                           : status;
 }

@@ -23,10 +23,8 @@ const wt_table *cmd_sample_table(const wt_result *tables, const char *table, con
  * WT_E_NOT_FOUND: the sample is missing. */
 wt_status cmd_check_sample(const wt_result *tables, const char *path, const char *table,
                            const char *sample, wt_error *err);
-/* Creates the rubber from tables of weartrack master; sample as above. */
-wt_status cmd_rubber_from_tables(const wt_result *tables, const char *path, const char *sample,
-                                 double poisson_ratio, wt_rubber *rubber, wt_error *err);
-/* Creates the rubber from a file, which becomes an input of the work. */
+/* Creates the rubber from a file of weartrack master, which becomes an input of the work; sample as
+ * above. */
 wt_status cmd_rubber_read(const char *path, const char *sample, double poisson_ratio,
                           const wt_job *work, wt_result **tables, wt_rubber *rubber, wt_error *err);
 

@@ -41,8 +41,7 @@ double indent_summary_range_spread(const indent_summary *summary);
 wt_estimate indent_summary_range_shift(const indent_summary *summary, int range);
 /* Writes the systematic errors that curves of this depth cannot show, and how to detect them. */
 void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size);
-/* Reports the shifts that all moduli share, tests the mean residual and reports the contact points
- * of other estimators. */
+/* Reports the shifts that all moduli share and tests the mean residual. */
 void indent_summary_report(const indent_summary *summary, const wt_indent_job *job,
                            const wt_job *work, table_writer *rows);
 

@@ -1,5 +1,6 @@
 /* Combined results of the curves of a group: modulus against depth, errors that no residual shows,
- * shared shifts, mean residual and contact points of other estimators.
+ * shared shifts and mean residual.
+ *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/clocale.h"

@@ -118,25 +118,30 @@ static bool may_continue_pictures(void *user)
     return !r->timed_out && notify_progress(r, r->pictures[drawn].figure);
 }
 
+/* A table may have rows, but not those that the figure shows. */
+static wt_status fail_without_data(const figure_description *figure, bool has_rows, wt_error *err)
+{
+    return has_rows ? wt_fail(err, WT_E_EMPTY,
+                              "the table %s of the result has nothing that the figure %s shows",
+                              figure->table->name, figure->name)
+                    : wt_fail(err, WT_E_EMPTY,
+                              "the result has no data for the figure %s, which needs the table %s",
+                              figure->name, figure->table->name);
+}
+
 /* Writes data and script of a figure; nothing if there is nothing to draw. */
 static wt_status write_figure(report *r, size_t i, wt_error *err)
 {
     figure_drawing *d = &r->figures[i].drawing;
     if (!is_requested(r->options.figure, i))
         return WT_OK;
-    if (figure_tables_find(&r->tables, figure_find(i)->table)->n_rows == 0) {
-        if (r->options.figure == NULL)
-            return WT_OK;
-        return wt_fail(err, WT_E_EMPTY,
-                       "the result has no data for the figure %s, which needs the "
-                       "table %s",
-                       r->options.figure, figure_find(i)->table->name);
-    }
-    const wt_status status = drawing_build(d, figure_find(i), &r->tables, err);
-    if (status != WT_OK)
-        return status;
-    return d->script.length == 0 ? WT_OK
-                                 : figure_write(r->folder, &r->options, &r->figures[i], err);
+    const bool has_rows = figure_tables_find(&r->tables, figure_find(i)->table)->n_rows > 0;
+    const wt_status status = has_rows ? drawing_build(d, figure_find(i), &r->tables, err) : WT_OK;
+    if (status == WT_OK && d->script.length > 0)
+        return figure_write(r->folder, &r->options, &r->figures[i], err);
+    return status != WT_OK || r->options.figure == NULL
+               ? status
+               : fail_without_data(figure_find(i), has_rows, err);
 }
 
 /* Writes the files that all scripts load. */

@@ -34,13 +34,15 @@ static const struct {
                    {WT_SYSTEMATIC_RADIUS, 1 / 1.5},
                    {WT_SYSTEMATIC_RADIUS, 1.5}};
 
-/* A tip whose error is stated was measured, and is no choice. */
+/* A tip whose error is stated, for its source or as that of the tip, was measured, and is no
+ * choice. */
 static wt_estimate tip_shift(const compare_pair *p, int g, size_t alternative)
 {
     const wt_group_data *d = &p->data[g];
     const wt_systematic_source source = tip_factors[alternative].source;
     const double change = d->common_gain[source].value * log(tip_factors[alternative].factor);
-    return exact_shift(isnan(d->common_error[source]) ? expm1(change) : (double)NAN);
+    const bool stated = !isnan(d->common_error[source]) || d->tip_error > 0;
+    return exact_shift(stated ? (double)NAN : expm1(change));
 }
 
 /* A fit with the spectrum of the DMA does not choose the loss. */

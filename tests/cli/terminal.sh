@@ -93,6 +93,12 @@ follows() { "$program" "$@" -o next.h5 > screen 2>&1 || fail "no such next comma
 short summary case.h5
 grep -q 'Is the track different?  *yes, softer' screen || fail "no answer in the list of summary"
 grep -q '\.\.\.' screen && fail "a line of summary is cut"
+"$program" indent -q $fit "$case"/bulk-1.jpk-force-map "$case/dma.txt" -o part.h5 2> screen ||
+  [ $? = 3 ] || fail "no partial result"
+short summary part.h5
+grep -qx 'failed   1, see the table failures' screen || fail "the list of summary hides a failure"
+terminal summary -q part.h5
+grep -q modulus_bulk screen || fail "no number by summary -q"
 "$program" summary case.h5 > pipe
 terminal summary case.h5 -o -
 [ "$(lines screen)" -ge "$(lines pipe)" ] && grep -q modulus_ratio_low screen || fail "no row of summary with -o -"

@@ -766,6 +766,13 @@ static void test_model_choices(void **state)
     assert_near(key_estimate(tables.comparison, "model_choices_high").value, RATIO * pow(1.5, 0.6),
                 1e-9);
     assert_string_equal(wt_table_key(tables.comparison, "widest_choice"), "shape of the tip");
+    set_assumed(bulk_table, 0.1, 0.2, -0.3);
+    set_assumed(track_table, 0.1, 0.2, -0.9);
+    assert_non_null(includes_of(job));
+    assert_string_equal(wt_table_key(tables.comparison, "widest_choice"), "shape of the tip");
+    job.tip_error = 0.05;
+    assert_non_null(includes_of(job));
+    assert_string_equal(wt_table_key(tables.comparison, "widest_choice"), "range of the fit");
 }
 
 /* What the loss of the curves does to the moduli may be unknown: that is not zero, and bars "no".

@@ -25,6 +25,14 @@ static const double zero_spread_weight = 0.15;
  * the noise appears absent (chi^2 below half its mean) with probability 0.39 for five, 0.26 for
  * seven. */
 enum { LEAST_STEADY = 7 };
+/* Range of the pole distance below the coldest isotherm [K]. Measurements end above it, because
+ * the pole is 51.6 K below the glass transition (Williams, Landel and Ferry 1955). A farther
+ * pole gives a straight line, with 1 % of curvature over 100 K. */
+#define POLE_NEAREST 2.0
+#define POLE_FARTHEST 1e4
+/* Maximum error of ln of the pole distance (a factor 50 to either side at 95 %). A less certain
+ * pole has no visible curvature, its constants are meaningless, and the law is rejected. */
+#define POLE_ERROR 2.0
 /* Positions of the pole in the scan, a factor 1.24 apart, before bisection. */
 enum { POLE_GRID = 40 };
 

@@ -22,15 +22,6 @@ double law_spread(size_t i);
 /* Half width of the prior of the temperature error [K]. */
 extern const double law_temperature_tolerance;
 
-/* Range of the pole distance below the coldest isotherm [K]. Measurements end above it, because
- * the pole is 51.6 K below the glass transition (Williams, Landel and Ferry 1955). A farther
- * pole gives a straight line, with 1 % of curvature over 100 K. */
-#define POLE_NEAREST 2.0
-#define POLE_FARTHEST 1e4
-/* Maximum error of ln of the pole distance (a factor 50 to either side at 95 %). A less certain
- * pole has no visible curvature, its constants are meaningless, and the law is rejected. */
-#define POLE_ERROR 2.0
-
 typedef struct law_shape {
     wt_law_kind kind;
     double reference; /* [K] */

@@ -59,6 +59,11 @@ not_advice 'a whole case from one case file; --plan' 'part of the help'
 piece '-o is required: NAME.html or a folder' 'standard output with --methods, none with'
 cause '--sheets FILE.pdf' report three.h5
 helps report three.h5 -o page.html
+piece '--figure is of the page: -o NAME.html or a folder' '-o %s: a page or a folder is written; -o FOLDER --figures'
+cause '-o NAME.html or a folder' report --methods --figure master_curve three.h5
+helps report --figure master_curve three.h5 -o page.html
+cause '-o FOLDER --figures svg' report --figure master_curve three.h5 -o picture.svg
+helps report --figure master_curve three.h5 -o figures --figures svg
 not_advice 'standard output with --methods' 'part of the help'
 piece '--methods is a call of its own'
 cause '--methods is a call of its own' report --methods --browse a.html three.h5
@@ -100,6 +105,10 @@ cause '`weartrack indent` first' compare bulk track
 helps indent --tip "$tip" --spring-constant 0.3N/m bulk -o b.h5
 helps indent --tip "$tip" --spring-constant 0.3N/m --group track track -o t.h5
 helps compare b.h5 t.h5
+piece 'materials are not compared any more'
+cause 'BULK and TRACK are outputs of `weartrack indent`' compare three.h5 three.h5
+helps compare b.h5 t.h5
+helps compare b.h5 t.h5 --master three.h5
 piece 'its curves are called bulk and are treated as those of the track'
 "$weartrack" indent -q --tip "$tip" --spring-constant 0.3N/m "$track" -o unnamed.h5 2> err
 cause '`weartrack indent --group track`' compare bulk.h5 unnamed.h5
