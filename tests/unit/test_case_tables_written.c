@@ -472,9 +472,10 @@ static void test_one_spot_of_each(void **state)
 static void test_spring_constants(void **state)
 {
     (void)state;
-    static const char *const files[] = {CASE "bulk-1.jpk-force-map", CASE "bulk-2.jpk-force-map"};
-    wt_file_set sets[2] = {{&files[0], 1, NULL, wt_read_defaults(), NULL},
-                           {&files[1], 1, NULL, wt_read_defaults(), NULL}};
+    static const char *const files[] = {CASE "bulk-1.jpk-force-map", CASE "bulk-3.jpk-force-map",
+                                        CASE "bulk-4.jpk-force-map", CASE "bulk-2.jpk-force-map"};
+    wt_file_set sets[2] = {{files, 4, NULL, wt_read_defaults(), NULL},
+                           {&files[3], 1, NULL, wt_read_defaults(), NULL}};
     sets[1].read.spring_constant = 0.2;
     wt_indent_job job = wt_indent_job_defaults();
     wt_job common = wt_job_defaults();
@@ -485,11 +486,12 @@ static void test_spring_constants(void **state)
     job.n_sets = 2;
     job.tip = (wt_tip){.sides = 4, .half_angle = M_PI / 9, .radius = 30e-9}; /* it was 20 nm */
     job.tip.transition_radius = wt_tip_tangent_transition(job.tip.radius, job.tip.half_angle);
-    job.n_sets = 1; /* the change has an interval */
+    job.n_sets = 1;
     if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s", err.message);
     see(tables.modulus_depth);
     wt_indent_tables_clear(&tables);
+    sets[0].n_patterns = 1;
     job.n_sets = 2;
     if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s", err.message);
