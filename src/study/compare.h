@@ -118,19 +118,6 @@ wt_status compare_find_unstated_errors(const compare_pair *p, const wt_compare_j
 wt_status compare_temperature_slope(const compare_pair *p, const wt_compare_job *job,
                                     const wt_job *work, double *slope, wt_error *err) WT_NODISCARD;
 
-/* Verdict on the difference between track and bulk, and how to decide it. */
-typedef struct compare_verdict {
-    stated_verdict verdict;
-    char reason[628], settled_by[480];
-    bool depends_on_rate; /* the ratio depends on the rate */
-    bool is_unreportable; /* no ratio can be reported */
-} compare_verdict;
-
-/* Assesses the difference. `row` has all rates; `rates` has one row per rate. */
-compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
-                               const comparison_inputs *inputs, const unstated_errors *unstated,
-                               const compare_row *row, const compare_row *rates, size_t n_rates);
-
 /* Range of the ratio over the choices of the fit, which are made alike for both groups, and the
  * choice with the largest effect. NaN and NULL if no choice has an effect beyond the noise. */
 typedef struct ratio_choices {
@@ -138,6 +125,20 @@ typedef struct ratio_choices {
     const char *widest, *remedy;
 } ratio_choices;
 ratio_choices compare_ratio_choices(const compare_pair *p, double ratio);
+
+/* Verdict on the difference between track and bulk, and how to decide it. */
+typedef struct compare_verdict {
+    stated_verdict verdict;
+    char reason[628], settled_by[480];
+    bool depends_on_rate; /* the ratio depends on the rate */
+    bool is_unreportable; /* no ratio can be reported */
+    ratio_choices choices;
+} compare_verdict;
+
+/* Assesses the difference. `row` has all rates; `rates` has one row per rate. */
+compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
+                               const comparison_inputs *inputs, const unstated_errors *unstated,
+                               const compare_row *row, const compare_row *rates, size_t n_rates);
 
 /* Reads both groups of a job with their rates. The caller clears `p`, also after a failure. */
 wt_status compare_read_groups(const wt_compare_job *job, compare_pair *p,

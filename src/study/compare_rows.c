@@ -344,7 +344,7 @@ static wt_status write_comparison_table(const comparison_task *task, wt_table **
         .ratio_df = none,
         .rate_spread = none,
         .calibration_share = none,
-        .choices = compare_ratio_choices(p, v.is_unreportable ? none : c->ratio),
+        .choices = v.choices,
         .spot_scatter = given ? task->job->spot_scatter : none};
     if (!v.is_unreportable)
         set_ratio_keys(task, v.depends_on_rate, interval, &keys);

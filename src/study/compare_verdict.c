@@ -274,9 +274,11 @@ static void report_unstated_errors(const unstated_errors *unstated, const char *
     clocale_print(v->settled_by, sizeof v->settled_by, "%s", unstated->settled_by);
 }
 
-compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
-                               const comparison_inputs *inputs, const unstated_errors *unstated,
-                               const compare_row *row, const compare_row *rates, size_t n_rates)
+/* Assesses the difference by its interval. */
+static compare_verdict assess_interval(const compare_pair *p, const wt_compare_job *job,
+                                       const comparison_inputs *inputs,
+                                       const unstated_errors *unstated, const compare_row *row,
+                                       const compare_row *rates, size_t n_rates)
 {
     const wt_comparison *c = &row->c;
     const double margin = log1p(job->margin);
@@ -330,5 +332,31 @@ compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
         else
             advise_spots(job, c, &v);
     }
+    return v;
+}
+
+/* Withdraws the verdict of the interval if another choice of the fit contradicts it. */
+static void assess_choices(double margin, compare_verdict *v)
+{
+    const double low = log(v->choices.low), high = log(v->choices.high);
+    const bool contradicts = v->verdict == VERDICT_YES  ? low <= 0 && high >= 0
+                             : v->verdict == VERDICT_NO ? low <= -margin || high >= margin
+                                                        : false;
+    if (!contradicts || v->depends_on_rate)
+        return;
+    SET_VERDICT(v, VERDICT_INCONCLUSIVE,
+                "the interval decides, but another choice of the fit (%s) moves the ratio to "
+                "between %.3g and %.3g",
+                v->choices.widest, v->choices.low, v->choices.high);
+    clocale_print(v->settled_by, sizeof v->settled_by, "%s", v->choices.remedy);
+}
+
+compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
+                               const comparison_inputs *inputs, const unstated_errors *unstated,
+                               const compare_row *row, const compare_row *rates, size_t n_rates)
+{
+    compare_verdict v = assess_interval(p, job, inputs, unstated, row, rates, n_rates);
+    v.choices = compare_ratio_choices(p, v.is_unreportable ? (double)NAN : row->c.ratio);
+    assess_choices(log1p(job->margin), &v);
     return v;
 }

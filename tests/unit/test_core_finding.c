@@ -88,55 +88,6 @@ static wt_table *table_of_key(const char *name, const char *key, double value, d
     return table;
 }
 
-/* A difference that another choice of the fit does not show is inconclusive. */
-static void test_model_choices_decide(void **state)
-{
-    (void)state;
-    static const struct {
-        double choices_high;
-        finding_verdict verdict;
-        const char *sentence;
-    } cases[] = {{0.85, FINDING_YES, "The wear track is softer than the bulk."},
-                 {1.1, FINDING_INCONCLUSIVE,
-                  "The 95 % interval shows a difference, but other choices of the model do not."}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        wt_table *table = NULL;
-        table_view view;
-        wt_error err = WT_ERROR_INIT;
-        table_writer w = table_begin(&comparison_schema, &err);
-        table_row(&w);
-        for (unsigned c = 0; c < comparison_schema.n_columns; c++)
-            writer_number(&w, &comparison_schema, c,
-                          c == COMPARISON_RATIO       ? 0.8
-                          : c == COMPARISON_RATIO_LOW ? 0.7
-                                                      : 0.9);
-        comparison_set_text(&w, COMPARISON_KEY_DIFFERS,
-                            "yes: the wear track is softer than the bulk");
-        comparison_set_value(&w, COMPARISON_KEY_CHOICES_LOW, 0.75, 0, 0);
-        comparison_set_value(&w, COMPARISON_KEY_CHOICES_HIGH, cases[i].choices_high, 0, 0);
-        comparison_set_text(&w, COMPARISON_KEY_WIDEST_CHOICE, "range of the fit");
-        comparison_set_text(&w, COMPARISON_KEY_CHOICE_REMEDY, "Measure the tip.");
-        for (unsigned k = 0; k < comparison_schema.n_keys; k++) /* those that must be there */
-            if (!comparison_schema.keys[k].optional && k != COMPARISON_KEY_DIFFERS)
-                writer_key_text(&w, &comparison_schema, k, "0");
-        if (table_end(&w, &table) != WT_OK)
-            fail_msg("%s: %s", err.place, err.message);
-        assert_int_equal(table_bind(table, &comparison_schema, "", &view, NULL), WT_OK);
-        const result_value_tables tables = {.comparison = view};
-        finding findings[FINDING_QUESTIONS];
-        assert_true(findings_compute(&tables, findings));
-        const finding *f = &findings[FINDING_TRACK_DIFFERS];
-        assert_int_equal(f->verdict, cases[i].verdict);
-        assert_string_equal(f->sentence, cases[i].sentence);
-        assert_string_equal(f->value.range.widest, "range of the fit");
-        if (cases[i].verdict == FINDING_YES) /* the range is within the interval */
-            assert_null(f->value.range.remedy);
-        else
-            assert_string_equal(f->value.range.remedy, "Measure the tip.");
-        wt_table_free(table);
-    }
-}
-
 /* Without a layer the change of the friction is none and needs no interval; with one it does. */
 static void test_change_without_a_layer(void **state)
 {
@@ -176,7 +127,6 @@ int main(void)
         cmocka_unit_test(test_no_findings),
         cmocka_unit_test(test_former_answer),
         cmocka_unit_test(test_verdicts),
-        cmocka_unit_test(test_model_choices_decide),
         cmocka_unit_test(test_change_without_a_layer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -773,6 +773,13 @@ static void test_model_choices(void **state)
     job.tip_error = 0.05;
     assert_non_null(includes_of(job));
     assert_string_equal(wt_table_key(tables.comparison, "widest_choice"), "range of the fit");
+    /* a choice that shows no difference withdraws the verdict */
+    assert_int_equal(strncmp(wt_table_key(tables.comparison, "differs"), "yes", 3), 0);
+    set_shift("loss_shift", 0, 1 / RATIO, 0);
+    assert_non_null(includes_of(job));
+    assert_int_equal(strncmp(wt_table_key(tables.comparison, "differs"), "inconclusive", 12), 0);
+    assert_string_equal(wt_table_key(tables.comparison, "settled_by"),
+                        "Measure a DMA of the rubber.");
 }
 
 /* What the loss of the curves does to the moduli may be unknown: that is not zero, and bars "no".

@@ -79,16 +79,12 @@ static const char *general_sentence(const finding *f)
     return decided[f->question][f->sign == SIGN_ABOVE];
 }
 
-/* The test of the moduli states its own reason: "inconclusive: too few spots". It knows no other
- * model choices. */
-static void write_sentence(const result_value_tables *t, finding *f)
+/* The test of the moduli states its own reason: "inconclusive: too few spots". */
+static void write_sentence(finding *f)
 {
     const char *stated = f->value.verdict != NULL ? f->value.verdict : "";
-    const bool held_back_by_choices =
-        result_value_depends_on_choices(&f->value) &&
-        comparison_key_enum(&t->comparison, COMPARISON_KEY_DIFFERS) == VERDICT_YES;
     stated += length_without_reason(stated);
-    if (stated[0] == '\0' || f->question != FINDING_TRACK_DIFFERS || held_back_by_choices)
+    if (stated[0] == '\0' || f->question != FINDING_TRACK_DIFFERS)
         snprintf(f->sentence, sizeof f->sentence, "%s", general_sentence(f));
     else
         snprintf(f->sentence, sizeof f->sentence, "%c%s.", toupper((unsigned char)stated[2]),
@@ -127,7 +123,7 @@ bool findings_compute(const result_value_tables *t, finding findings[FINDING_QUE
         if (findings[i].verdict == FINDING_YES)
             findings[i].sign = result_value_sign(&findings[i].value);
     for (size_t i = 0; i < FINDING_QUESTIONS; i++)
-        write_sentence(t, &findings[i]);
+        write_sentence(&findings[i]);
     return t->comparison.table != NULL || t->layer.table != NULL;
 }
 

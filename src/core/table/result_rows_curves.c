@@ -95,13 +95,10 @@ static void add_ratio(rows_source *s, const table_view *v)
         const sign_verdict sign = result_value_sign(&ratio);
         const stated_verdict differs =
             (stated_verdict)comparison_key_enum(v, COMPARISON_KEY_DIFFERS);
-        if (differs == VERDICT_YES && result_value_depends_on_choices(&ratio))
-            rows_note(row, "inconclusive: other model choices show no difference");
-        else
-            rows_note(row, "%.*s%s", (int)length_without_reason(verdict), verdict,
-                      differs != VERDICT_YES || sign == SIGN_UNDECIDED ? ""
-                      : sign == SIGN_BELOW                             ? ", softer"
-                                                                       : ", stiffer");
+        rows_note(row, "%.*s%s", (int)length_without_reason(verdict), verdict,
+                  differs != VERDICT_YES || sign == SIGN_UNDECIDED ? ""
+                  : sign == SIGN_BELOW                             ? ", softer"
+                                                                   : ", stiffer");
     }
     rows_reason(row, "is the track different", verdict);
     rows_reason(row, "how to decide it", ratio.remedy);

@@ -333,9 +333,3 @@ sign_verdict result_value_sign(const result_value *f)
     return sign_from_bounds(f->range.low, f->range.high, f->neutral) == measured ? measured
                                                                                  : SIGN_UNDECIDED;
 }
-
-bool result_value_depends_on_choices(const result_value *f)
-{
-    return result_value_sign_measured(f) != SIGN_UNDECIDED &&
-           result_value_sign(f) == SIGN_UNDECIDED;
-}

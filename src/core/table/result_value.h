@@ -69,7 +69,5 @@ bool result_value_from_key(const result_value_tables *tables, const schema_field
  * digits of the half width, at most six. */
 int result_value_digits(double value, double low, double high);
 sign_verdict result_value_sign(const result_value *f);
-/* True if the interval shows a sign, but other model choices do not. */
-bool result_value_depends_on_choices(const result_value *f);
 
 #endif
