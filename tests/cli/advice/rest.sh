@@ -19,3 +19,4 @@ no_input 'the spectrum departs from an oscillator on a white floor' 'a list of p
 no_input 'that of --pixel-size is taken' 'says what was done'
 not_advice 'a result of weartrack run, beside which those of curves stand' 'what is expected: taken with collect'
 no_input '--anisotropy %.4g --texture-angle' 'key of psd, taken by tests/unit/test_surface_job.c'
+no_input '--conditioning mend' 'the option of an action in the table data_quality: cli_conditioning'
