@@ -398,17 +398,19 @@ wt_estimate indent_summary_range_shift(const indent_summary *summary, int range)
 }
 
 /* Writes the changes of the moduli with other choices of the fit, as far as they are known. A pull
- * that the fit left out adds to the force, so that the modulus rises by its share. */
+ * that the fit left out adds to the force, so that the modulus rises by its share; the summary has
+ * that share as the 95 % limit of an error. */
 static void report_choices(const indent_summary *summary, table_writer *rows)
 {
+    const double loss =
+        isnan(loss_error(summary)) ? (double)NAN : mean_shift(summary, &summary->loss);
     for (int i = 0; i < WT_FIT_RANGES; i++) {
         const wt_estimate shift = indent_summary_range_shift(summary, i);
         if (summary->range[i].n > 0)
             indentation_set_value(rows, (indentation_key)(INDENTATION_KEY_RANGE_SHIFT + i),
                                   shift.value, shift.standard_error, 0);
     }
-    indentation_set_value(rows, INDENTATION_KEY_LOSS_SHIFT, mean_shift(summary, &summary->loss), 0,
-                          0);
+    indentation_set_value(rows, INDENTATION_KEY_LOSS_SHIFT, loss, 0, 0);
     indentation_set_value(rows, INDENTATION_KEY_PULL_SHIFT,
                           NORMAL_95 * mean_shift(summary, &summary->left_out), 0, 0);
 }

@@ -344,10 +344,11 @@ static void assess_choices(double margin, compare_verdict *v)
                                                         : false;
     if (!contradicts || v->depends_on_rate)
         return;
-    SET_VERDICT(v, VERDICT_INCONCLUSIVE,
-                "the interval decides, but another choice of the fit (%s) moves the ratio to "
-                "between %.3g and %.3g",
-                v->choices.widest, v->choices.low, v->choices.high);
+    SET_VERDICT(
+        v, VERDICT_INCONCLUSIVE,
+        "the interval alone would decide, but other choices of the fit give ratios from %.3g "
+        "to %.3g; the choice with the largest effect is: %s",
+        v->choices.low, v->choices.high, v->choices.widest);
     clocale_print(v->settled_by, sizeof v->settled_by, "%s", v->choices.remedy);
 }
 
