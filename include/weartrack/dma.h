@@ -644,7 +644,9 @@ WT_API wt_status wt_strain_softening_read(const char *path, const char *name,
 typedef enum wt_fem_program {
     WT_FEM_ABAQUS,
     WT_FEM_ANSYS,
-    WT_FEM_CODE_ASTER, /* needs a Poisson's ratio below 0.5 */
+    WT_FEM_CODE_ASTER,  /* needs a Poisson's ratio below 0.5 */
+    WT_FEM_LS_DYNA,     /* the same and a density; at most 18 terms; one temperature */
+    WT_FEM_OPENRADIOSS, /* the same, at most 100 terms, and a long-term modulus */
     WT_FEM_TABLE
 } wt_fem_program;
 /* Units of stress and time: Pa and s, MPa and s, GPa and ms. */
@@ -662,7 +664,8 @@ typedef struct wt_fem_export_options {
 } wt_fem_export_options;
 WT_API wt_fem_export_options wt_fem_export_options_defaults(void);
 WT_API const wt_params *wt_fem_export_options_params(void);
-/* Finds a program by name: "abaqus", "ansys", "code_aster", "table". False if there is none. */
+/* Finds a program by name: "abaqus", "ansys", "code_aster", "ls-dyna",
+ * "openradioss", "table". False if there is none. */
 WT_API bool wt_fem_program_find(const char *name, size_t length, wt_fem_program *program);
 /* Checks that the program supports such a material. */
 WT_API wt_status wt_fem_export_check(wt_fem_program program, const wt_fem_export_options *options,

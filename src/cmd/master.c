@@ -37,7 +37,8 @@ static const wt_param export_rows[] = {
     {PARAM_TEXTS_OF("export", fem_exports, exports, n_exports), .value = "PROGRAM:FILE",
      .unset = "",
      .help = "write the reduced series with its shifts as the material of a program for finite "
-             "elements: abaqus, ansys, code_aster, or as a plain table; repeatable"},
+             "elements: abaqus, ansys, code_aster, ls-dyna, openradioss, or as a plain table; "
+             "repeatable"},
 };
 PARAM_LOCAL_TABLE(exported_params, fem_exports, export_rows, export_defaults,
                   PARAM_PART(wt_reduction_params, fem_exports, reduction),
@@ -92,7 +93,8 @@ static bool check_exports(cmd_session *s, const fem_exports *exports_given)
         const char *file;
         if (!split_export(exports_given->exports[i], &program, &file))
             return cmd_usage_error(s,
-                                   "--export %s: expected abaqus, ansys, code_aster or table, a "
+                                   "--export %s: expected abaqus, ansys, code_aster, ls-dyna, "
+                                   "openradioss or table, a "
                                    "colon and the name of a file, such as abaqus:rubber.inp",
                                    exports_given->exports[i]);
         if (wt_fem_export_check(program, &exports_given->solid, &s->err) != WT_OK)

@@ -330,8 +330,83 @@ static void read_table(char *text, solid *s)
     }
 }
 
-static void (*const readers[])(char *, solid *) = {read_abaqus, read_ansys, read_code_aster,
-                                                   read_table};
+/* ---- programs of one temperature, with an elastic bulk modulus --------------------------------
+ */
+
+/* What a card of fixed columns holds: a sum of exponentials of the shear modulus. */
+typedef struct shear_solid {
+    size_t n;
+    double modulus[MOST], rate[MOST], bulk, density; /* rate 0: long-term modulus */
+} shear_solid;
+
+static double column(const char *line, size_t from, size_t width)
+{
+    char text[32] = "";
+    assert_true(strlen(line) >= from + width && width < sizeof text);
+    memcpy(text, line + from, width);
+    return number(text + strspn(text, " "));
+}
+
+static char *next_card(char **text, char comment)
+{
+    char *line;
+    do
+        line = strsep(text, "\n");
+    while (line != NULL && line[0] == comment);
+    return line;
+}
+
+static void read_ls_dyna(char *text, shear_solid *s)
+{
+    assert_string_equal(next_card(&text, '$'), "*MAT_GENERAL_VISCOELASTIC_TITLE");
+    assert_string_equal(next_card(&text, '$'), "RUBBER");
+    const char *line = next_card(&text, '$');
+    assert_int_equal(strlen(line), 80);
+    assert_near(column(line, 0, 10), 1, 0);
+    s->density = column(line, 10, 10);
+    s->bulk = column(line, 20, 10);
+    for (size_t i = 3; i < 8; i++)
+        assert_near_abs(column(line, 10 * i, 10), 0, 0); /* no shift law */
+    line = next_card(&text, '$');
+    for (size_t i = 0; i < 8; i++)
+        assert_near_abs(column(line, 10 * i, 10), 0, 0); /* no relaxation curve */
+    while ((line = next_card(&text, '$')) != NULL && *line != '\0') {
+        assert_true(s->n < 18);
+        s->modulus[s->n] = column(line, 0, 10);
+        s->rate[s->n++] = column(line, 10, 10);
+    }
+}
+
+static void read_openradioss(char *text, shear_solid *s)
+{
+    assert_string_equal(next_card(&text, '#'), "/MAT/LAW42/1");
+    assert_string_equal(next_card(&text, '#'), "RUBBER");
+    s->density = column(next_card(&text, '#'), 0, 20);
+    const char *line = next_card(&text, '#');
+    const double nu = column(line, 0, 20);
+    const size_t n = (size_t)column(line, 80, 10);
+    const double mu = column(next_card(&text, '#'), 0, 20);
+    assert_string_equal(next_card(&text, '#'), "");
+    const double alpha = column(next_card(&text, '#'), 0, 20);
+    assert_string_equal(next_card(&text, '#'), "");
+    s->modulus[0] = mu * alpha / 2;
+    s->bulk = mu * alpha * (1 + nu) / (3 * (1 - 2 * nu));
+    for (size_t i = 0; i < 2 * n; i++) {
+        if (i % n % 5 == 0)
+            line = next_card(&text, '#');
+        const double value = column(line, i % n % 5 * 20, 20);
+        if (i < n)
+            s->modulus[i + 1] = value;
+        else
+            s->rate[i - n + 1] = 1 / value;
+    }
+    s->n = n + 1;
+}
+
+static void (*const readers[])(char *, solid *) = {[WT_FEM_ABAQUS] = read_abaqus,
+                                                   [WT_FEM_ANSYS] = read_ansys,
+                                                   [WT_FEM_CODE_ASTER] = read_code_aster,
+                                                   [WT_FEM_TABLE] = read_table};
 
 /* ---- a bar that is stretched at once --------------------------------------------------------- */
 
@@ -514,7 +589,7 @@ static void check_all(const wt_shift_law *law)
                     o.units = (wt_fem_units)units;
                     o.temperature = (wt_fem_temperature)kelvin;
                     o.poisson_ratio = i == 0 ? 0.45 : 0.5;
-                    if (program != WT_FEM_CODE_ASTER || i == 0)
+                    if (readers[program] != NULL && (program != WT_FEM_CODE_ASTER || i == 0))
                         check((wt_fem_program)program, &o, law);
                 }
 }
@@ -537,6 +612,55 @@ static void of_shear(void **state)
     assert_int_equal(wt_table_set_key(tables.prony_reduced, "deformation", "tension", NULL), WT_OK);
 }
 
+static void holds_text(const char *text, const char *words)
+{
+    if (strstr(text, words) == NULL)
+        fail_msg("no \"%s\" in:\n%s", words, text);
+}
+
+/* Shear relaxation of explicit programs at the reference temperature. */
+static void at_one_temperature(void **state)
+{
+    (void)state;
+    static const double stress[] = {1, 1e6, 1e9}, second[] = {1, 1, 1e3},
+                        density[] = {1, 1e-12, 1e-9};
+    static const wt_fem_program programs[] = {WT_FEM_LS_DYNA, WT_FEM_OPENRADIOSS};
+    static void (*const read[])(char *, shear_solid *) = {read_ls_dyna, read_openradioss};
+    static const double digits[] = {2e-4, 1e-10};
+    const wt_table *p = tables.prony_reduced;
+    const double nu = 0.49;
+    const bool shear = strcmp(wt_table_key(p, "deformation"), "shear") == 0;
+    const double to_shear = shear ? 1 : 1 / (2 * (1 + nu));
+    for (size_t i = 0; i < 2; i++)
+        for (int units = 0; units < 3; units++) {
+            wt_fem_export_options o = wt_fem_export_options_defaults();
+            shear_solid s = {0};
+            char *text = NULL;
+            o.units = (wt_fem_units)units;
+            o.poisson_ratio = nu;
+            o.density = 1120;
+            write(programs[i], &o, &text);
+            holds_text(text, "hold at the reference temperature alone");
+            read[i](text, &s);
+            free(text);
+            assert_int_equal(s.n, wt_table_n_rows(p) + 1);
+            assert_near(s.density, 1120 * density[units], digits[i]);
+            assert_near(s.bulk * stress[units],
+                        2 * (1 + nu) * to_shear * key(p, "equilibrium_modulus") /
+                            (3 * (1 - 2 * nu)),
+                        digits[i]);
+            for (int k = -2; k <= 12; k++) {
+                const double time =
+                    pow(key(p, "frequency_max") / key(p, "frequency_min"), k / 10.0) /
+                    key(p, "frequency_max");
+                double sum = 0;
+                for (size_t m = 0; m < s.n; m++)
+                    sum += s.modulus[m] * exp(-time * second[units] * s.rate[m]);
+                assert_near(sum * stress[units], known(NULL, SIZE_MAX, to_shear, time), digits[i]);
+            }
+        }
+}
+
 /* Abaqus for vibrations: the same series beside the modulus in the end, and no shifts. */
 static void of_frequency(void **state)
 {
@@ -548,12 +672,6 @@ static void of_frequency(void **state)
         o.poisson_ratio = i == 0 ? 0.45 : 0.5;
         check(WT_FEM_ABAQUS, &o, &law);
     }
-}
-
-static void holds_text(const char *text, const char *words)
-{
-    if (strstr(text, words) == NULL)
-        fail_msg("no \"%s\" in:\n%s", words, text);
 }
 
 /* 1120 kg/m3 are 1.12e-9 t/mm3 and 1.12e-6 kg/mm3. */
@@ -727,6 +845,16 @@ static void refused(void **state)
     assert_int_equal(wt_fem_export_check(WT_FEM_CODE_ASTER, &o, NULL), WT_E_ARG);
     o.name = "NR_CB_50";
     assert_int_equal(wt_fem_export_check(WT_FEM_CODE_ASTER, &o, NULL), WT_OK);
+    for (int i = WT_FEM_LS_DYNA; i <= WT_FEM_OPENRADIOSS; i++) {
+        o.poisson_ratio = 0.49;
+        assert_int_equal(wt_fem_export_check((wt_fem_program)i, &o, &err), WT_E_RANGE);
+        assert_string_equal(err.place, "export-density");
+        o.density = 1100;
+        assert_int_equal(wt_fem_export_check((wt_fem_program)i, &o, NULL), WT_OK);
+        o.poisson_ratio = 0.5;
+        assert_int_equal(wt_fem_export_check((wt_fem_program)i, &o, NULL), WT_E_RANGE);
+        o.density = (double)NAN;
+    }
     o.poisson_ratio = 0.6;
     assert_int_equal(wt_fem_export(out, WT_FEM_ABAQUS, tables.prony_reduced, NULL, &o, NULL),
                      WT_E_RANGE);
@@ -751,6 +879,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(relaxation_is_that_of_the_fit),
         cmocka_unit_test(of_shear),
+        cmocka_unit_test(at_one_temperature),
         cmocka_unit_test(of_frequency),
         cmocka_unit_test(what_else_a_material_has),
         cmocka_unit_test(the_fast_end_is_told),

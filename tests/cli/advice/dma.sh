@@ -47,7 +47,7 @@ leads master --frequency 10Hz --shift-law wlf:reference-temperature=20degC,c1=8.
 
 no_input '--reference-at tan-del' 'the reference is put elsewhere by itself unless it is stated, and then it is kept'
 
-no_input 'give it by --prony-long-term' 'a fitted series without a modulus in the end'
+no_input 'give it by --prony-long-term' 'a fitted series without a long-term modulus'
 
 piece 'give --reference-temperature'
 { printf "# angular_frequency[rad/s]\tstorage_modulus[Pa]\tloss_modulus[Pa]\n"
@@ -119,3 +119,8 @@ piece '--export %s: expected abaqus'
 cause '--export rubber.inp: expected abaqus' master --poisson-ratio 0.5 three.csv --export rubber.inp -o a.h5
 helps master --poisson-ratio 0.5 three.csv --export abaqus:rubber.inp -o a.h5
 
+piece 'give --prony-terms %zu'
+cause 'give one, such as 0.499' master --poisson-ratio 0.5 three.csv --export ls-dyna:rubber.k -o a.h5
+cause 'give one, such as 1100kg/m3' master --poisson-ratio 0.499 three.csv --export ls-dyna:rubber.k -o a.h5
+cause 'give --prony-terms 17' master --poisson-ratio 0.499 --export-density 1100kg/m3 --prony-terms 19 "$fixtures/case/dma.txt" --export ls-dyna:rubber.k -o a.h5
+helps master --poisson-ratio 0.499 --export-density 1100kg/m3 --prony-terms 17 "$fixtures/case/dma.txt" --export ls-dyna:rubber.k -o a.h5
