@@ -385,6 +385,7 @@ typedef struct wt_rubber {
     bool is_transverse; /* the moduli are the E that `transverse` multiplies */
     wt_transverse transverse;
     wt_shift_law law;                         /* kind WT_LAW_NONE: only the reference temperature */
+    wt_superposition superposition;           /* of the isotherms; holds if it was not tested */
     double c1_error, c2_error, c_correlation; /* of a law without isotherms; 0 = unknown */
     double temperature_min, temperature_max;  /* of the isotherms [K]; NaN = unknown */
     size_t n_vertical; /* points of log_b against temperature; 0 = no vertical shift */

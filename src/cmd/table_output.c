@@ -141,8 +141,17 @@ static wt_status create_rubber(const wt_result *tables, const char *path, const 
 wt_status cmd_rubber_read(const char *path, const char *sample, double poisson_ratio,
                           const wt_job *work, wt_result **tables, wt_rubber *rubber, wt_error *err)
 {
-    const wt_status status = wt_tables_read(
-        path, path, work, (wt_tables_role){"material", "material", NULL}, tables, err);
-    return status == WT_OK ? create_rubber(*tables, path, sample, poisson_ratio, rubber, err)
-                           : status;
+    wt_status status = wt_tables_read(path, path, work,
+                                      (wt_tables_role){"material", "material", NULL}, tables, err);
+    if (status == WT_OK)
+        status = create_rubber(*tables, path, sample, poisson_ratio, rubber, err);
+    if (status == WT_OK && rubber->superposition != WT_SUPERPOSITION_HOLDS)
+        wt_log_add(
+            work->log, WT_WARNING, path, NULL,
+            rubber->superposition == WT_SUPERPOSITION_FAILS
+                ? "time-temperature superposition of this material fails: its moduli at "
+                  "other temperatures and frequencies than the measured ones are doubtful"
+                : "whether time-temperature superposition of this material holds is not "
+                  "known: its moduli at other temperatures than the measured ones may be off");
+    return status;
 }

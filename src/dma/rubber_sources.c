@@ -268,6 +268,7 @@ static void read_shift_factors(const table_view *shifts, wt_rubber *rubber)
         shift_factors_key_enum(shifts, SHIFT_FACTORS_KEY_VERTICAL) == WT_VERTICAL_NONE;
     const char *correlation = shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_WLF_CORRELATION);
     const int kind = shift_factors_key_enum(shifts, SHIFT_FACTORS_KEY_LAW);
+    const int verdict = shift_factors_key_enum(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
     const wt_estimate c1 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C1),
                       c2 = shift_factors_value(shifts, SHIFT_FACTORS_KEY_WLF_C2);
     const size_t rows = shifts->n_rows;
@@ -276,6 +277,8 @@ static void read_shift_factors(const table_view *shifts, wt_rubber *rubber)
         .wlf = {rubber->prony.reference_temperature, c1.value, c2.value},
         .activation_energy = shift_factors_value(shifts, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY).value,
         .joint = shift_factors_value(shifts, SHIFT_FACTORS_KEY_JOINT).value};
+    rubber->superposition = verdict <= WT_SUPERPOSITION_INCONCLUSIVE ? (wt_superposition)verdict
+                                                                     : WT_SUPERPOSITION_HOLDS;
     rubber->c1_error = c1.standard_error;
     rubber->c2_error = c2.standard_error;
     if (correlation != NULL &&
