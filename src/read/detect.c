@@ -56,8 +56,6 @@ static const file_signature signatures[] = {
     SIGNATURE_MEASURED("WSxM file copyright", "a WSxM file", ADVICE_CURVES),
     SIGNATURE_MEASURED("\1\260\223\377", "an NT-MDT file (.mdt)",
                        "export each curve as text from Nova: height, approach and retract"),
-    SIGNATURE_AT(8, "ARDF", "an Asylum Research map (ARDF)",
-                 "export its curves as Igor binary waves (.ibw), and give their folder", true),
     SIGNATURE_MEASURED("Experiment\t", "a Nanonis (SPECS) spectrum", ADVICE_CURVES),
     SIGNATURE(":NANONIS_VERSION:", "a Nanonis (SPECS) image", ADVICE_TEXT),
     SIGNATURE_AT(257, "ustar", "a tar archive",

@@ -232,7 +232,6 @@ static void unknown_files_are_described(void **state)
         {"BZh91AY&SY\1\2", 12, "bzip2", "bunzip2", WT_E_UNSUPPORTED},
         {"\3757zXZ\0\0\4", 8, "xz", "unxz", WT_E_UNSUPPORTED},
         {"TDSm\16\0\0\0", 8, "TDMS", "as text or CSV", WT_E_UNSUPPORTED},
-        {"\1\2\3\4\20\0\0\0ARDF", 12, "Asylum", ".ibw", WT_E_UNSUPPORTED},
         {"\320\317\021\340\241\261\032\341", 8, "sectors", "CSV or text", WT_E_CORRUPT},
         {"\1\2\3\0\0\0\0\0", 8, "binary", "export it as text", WT_E_FORMAT},
         {"%PDF-1.4", 8, "PDF", "CSV", WT_E_FORMAT},

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum {
     HEADER_5 = 64, /* file header, before the wave header */
@@ -324,7 +325,7 @@ static const ibw_channel *position_channel(const ibw_file *file)
     static const char *const names[] = {"Raw", "ZSnsr"};
     for (size_t i = 0; i < COUNT_OF(names); i++)
         for (size_t c = 0; c < file->n_channels; c++)
-            if (strcmp(file->channels[c].name, names[i]) == 0)
+            if (strcasecmp(file->channels[c].name, names[i]) == 0)
                 return &file->channels[c];
     return NULL;
 }
