@@ -51,9 +51,10 @@ void ardf_writer_mend(unsigned char *bytes, size_t length)
 {
     buffer b = {bytes, length};
     for (size_t at = 0; at + 16 <= length; at += 4) {
-        const uint32_t size = bytes[at + 4] | bytes[at + 5] << 8 | bytes[at + 6] << 16 |
-                              (uint32_t)bytes[at + 7] << 24;
+        uint32_t size = 0;
         bool name = true;
+        for (size_t i = 8; i-- > 4;)
+            size = size << 8 | bytes[at + i];
         for (size_t i = 8; i < 12; i++)
             name = name && bytes[at + i] >= 'A' && bytes[at + i] <= 'Z';
         if (name && size >= 16 && size <= length - at)
