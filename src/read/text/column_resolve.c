@@ -31,6 +31,14 @@ static text_span strip_unit(text_span unit)
     return unit;
 }
 
+/* True for an angular frequency in 1/s: its name says that radians are meant. */
+static bool is_angular_per_second(wt_quantity quantity, const char *unit)
+{
+    double factor = 0, offset = 0;
+    return quantity == WT_Q_ANGULAR_FREQUENCY && strstr(unit, "Hz") == NULL &&
+           wt_unit_to_si(unit, WT_Q_FREQUENCY, &factor, &offset, NULL) == WT_OK && factor == 1;
+}
+
 bool description_unit_to_si(const text_description *d, wt_quantity quantity, const char *unit,
                             double *factor, double *offset)
 {
@@ -38,7 +46,10 @@ bool description_unit_to_si(const text_description *d, wt_quantity quantity, con
         if (strcmp(d->aliases[i].found, unit) == 0 &&
             wt_unit_to_si(d->aliases[i].means, quantity, factor, offset, NULL) == WT_OK)
             return true;
-    return wt_unit_to_si(unit, quantity, factor, offset, NULL) == WT_OK;
+    *factor = 1;
+    *offset = 0;
+    return is_angular_per_second(quantity, unit) ||
+           wt_unit_to_si(unit, quantity, factor, offset, NULL) == WT_OK;
 }
 
 static bool rule_unit_to_si(const text_description *d, const column_rule *rule, const char *unit,
@@ -90,8 +101,8 @@ static size_t find_cell(const column_resolver *r, const char *name)
     return SIZE_MAX;
 }
 
-/* Returns the unit that the user states for a column, or NULL. Names that differ in case alone, such
- * as t and T, must be given exactly. */
+/* Returns the unit that the user states for a column, or NULL. Names that differ in case alone,
+ * such as t and T, must be given exactly. */
 static const char *option_unit(const column_resolver *r, size_t cell)
 {
     const text_cells *const names = &r->names->names;
@@ -259,6 +270,9 @@ static text_column resolve_column(const column_resolver *r, size_t cell, const n
             snprintf(column.unit, sizeof column.unit, "%s", unit);
         column.rule = rule;
         column.assumed = answer == DEFORMATION_STATED ? rule->assumed : NULL;
+        if (unit != NULL && is_angular_per_second(rule->quantity, unit))
+            column.assumed = "the angular frequency is in 1/s: taken as rad/s; if cycles are "
+                             "meant, give the column as frequency with --columns";
         column.problem = COLUMN_GOOD;
         column.factor = rule->negate ? -factor : factor;
         column.offset = rule->negate ? -offset : offset;
