@@ -322,7 +322,12 @@ static void normalise_spelling(char unit[UNIT_MAX])
                      {"\xd0\x9c\xd0\x9f\xd0\xb0", "MPa"},
                      {"\xd0\xba\xd0\x9f\xd0\xb0", "kPa"},
                      {"\xd0\x9f\xd0\xb0", "Pa"},
-                     {"\xd0\x93\xd1\x86", "Hz"}};
+                     {"\xd0\x93\xd1\x86", "Hz"},
+                     {"\xd0\xbc\xd0\xba", "u"}, /* micro */
+                     {"\xd0\xbc", "m"},
+                     {"\xd1\x81", "s"},
+                     {"\xd0\x9d", "N"},
+                     {"hh:mm:ss", "s"}};
     for (size_t i = 0; i < COUNT_OF(spellings); i++) {
         const size_t found = strlen(spellings[i].found), means = strlen(spellings[i].means);
         for (char *at = unit; (at = strstr(at, spellings[i].found)) != NULL; at += means) {
