@@ -47,7 +47,8 @@ WT_API double wt_tip_tangent_transition(double radius, double half_angle);
 WT_API wt_status wt_tip_check(const wt_tip *tip, wt_error *err) WT_NODISCARD;
 /* Parses a tip: "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=12nm]",
  * "sphere:radius=5um", "cone:half-angle=20deg[,radius=20nm][,transition=12nm]" (a blunted cone with
- * a radius), "paraboloid:radius=5um", "punch:radius=2um".
+ * a radius), "paraboloid:radius=5um", "punch:radius=2um"; "berkovich:radius=150nm" (3 sides, 65.27
+ * degrees from the axis to a face) and "vickers:radius=200nm" (4 sides, 68 degrees).
  * The default transition radius is the tangent one; radius=0nm is a sharp pyramid. Half-angle and
  * radius may have a standard error, "radius=20nm+-15%". WT_E_ARG or WT_E_UNIT for the spelling,
  * else as wt_tip_check. `tip` is unchanged on failure. */

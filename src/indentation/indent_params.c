@@ -80,6 +80,7 @@ static const wt_param rows[] = {
     {PARAM_OTHER_OF("tip", wt_indent_job, tip, indent_read_tip), .check = indent_check_tip,
      .value = "TIP", .flags = PARAM_REQUIRED,
      .help = "pyramid:half-angle=35deg,radius=20nm[,sides=4][,transition=16nm] (axis to FACE), "
+             "berkovich:radius=150nm, vickers:radius=200nm, "
              "cone:half-angle=20deg[,radius=20nm], sphere:radius=5um, paraboloid:radius=5um or "
              "punch:radius=2um; half-angle and radius with their standard errors, as "
              "radius=20nm+-15%"},

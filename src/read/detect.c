@@ -29,6 +29,7 @@ typedef struct file_signature {
 #define SIGNATURE_MEASURED(bytes, label, advice) SIGNATURE_AT(0, bytes, label, advice, true)
 #define ADVICE_TEXT "export it as text or CSV from the program of the instrument"
 #define ADVICE_EXPORT "give the file that the instrument exported, as text or CSV"
+#define ADVICE_UNPACK(program) "unpack it with `" program "` and give what is in it"
 #define ADVICE_CURVES "export force curves as text: columns of height and force with their units"
 #define LABEL_RESULT                                                                               \
     "a result of weartrack (text stream) without measured curves, sweeps or spectra"
@@ -55,11 +56,18 @@ static const file_signature signatures[] = {
     SIGNATURE_MEASURED("WSxM file copyright", "a WSxM file", ADVICE_CURVES),
     SIGNATURE_MEASURED("\1\260\223\377", "an NT-MDT file (.mdt)",
                        "export each curve as text from Nova: height, approach and retract"),
-    SIGNATURE_AT(8, "ARDF", "an Asylum Research map (ARDF)",
-                 "export its curves as Igor binary waves (.ibw), and give their folder", true),
     SIGNATURE_MEASURED("Experiment\t", "a Nanonis (SPECS) spectrum", ADVICE_CURVES),
     SIGNATURE(":NANONIS_VERSION:", "a Nanonis (SPECS) image", ADVICE_TEXT),
-    SIGNATURE_AT(257, "ustar", "a tar archive", "give its files, or a ZIP archive of them", true),
+    SIGNATURE_AT(257, "ustar", "a tar archive",
+                 "unpack it (tar -xf), and give its files or a ZIP archive of them", true),
+    SIGNATURE_AT(4, "1AY&SY", "a bzip2 archive", ADVICE_UNPACK("bunzip2"), true),
+    SIGNATURE_MEASURED("\3757zXZ", "an xz archive", ADVICE_UNPACK("unxz")),
+    SIGNATURE_MEASURED("\50\265\57\375", "a Zstandard archive", ADVICE_UNPACK("unzstd")),
+    SIGNATURE_MEASURED("7z\274\257\47\34", "a 7-Zip archive", ADVICE_UNPACK("7z x")),
+    SIGNATURE_MEASURED("Rar!\32\7", "a RAR archive", ADVICE_UNPACK("unrar x")),
+    SIGNATURE_MEASURED("TDSm", "a TDMS file of LabVIEW or DIAdem (National Instruments)",
+                       "export its channels as text or CSV with a names row and units, from the "
+                       "program that wrote it, DIAdem or npTDMS (Python)"),
     SIGNATURE_MEASURED("\5\0", "an Igor binary wave (Asylum Research), or unknown binary data",
                        ADVICE_TEXT),
     SIGNATURE_MEASURED("## weartrack: ", LABEL_RESULT, ADVICE_TABLES),

@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "writers/ardf_writer.h"
 #include "writers/book_writer.h"
 #include "writers/curve_hdf5_writer.h"
 #include "writers/ibw_writer.h"
@@ -175,6 +176,37 @@ static int make_ibw(const char *folder)
                 "SpringConstant: 0.5\rInvOLS: 5e-08\rTriggerChannel:Force\rTriggerPoint: 2e-09\r"
                 "Indexes: 0,6,8,11\rDirection: NaN,1,0,-1,\r"};
         if (ibw_write(&f) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static int make_ardf(const char *folder)
+{
+    static const char *const labels[] = {"Raw", "Defl", "ZSnsr"}, *const units[] = {"m", "m", "m"};
+    const double *const values[] = {height, force, sensor};
+    char path[512];
+    for (int kind = 0; kind < 2; kind++) {
+        char name[32];
+        snprintf(name, sizeof name, "seed%d.ardf", kind);
+        path_of(path, sizeof path, folder, name);
+        const ardf_writer_file f = {
+            .path = path,
+            .columns = 2,
+            .lines = 2,
+            .written = kind == 1 ? 3 : 4,
+            .labels = labels,
+            .units = units,
+            .n_channels = kind == 1 ? 3 : 2,
+            .n = POINTS,
+            .values = values,
+            .segments = kind == 1 ? "Ext;Dwell;Ret;" : "Ext;Ret;",
+            .begins = {0, 6, kind == 1 ? 8 : POINTS - 1, kind == 1 ? POINTS - 1 : 0, 0},
+            .interval = 0.01,
+            .step = 1e-6,
+            .note = "SpringConstant: 0.5\rInvOLS: 5e-08\r",
+            .both = kind == 1};
+        if (ardf_write(&f) != 0)
             return -1;
     }
     return 0;
@@ -490,6 +522,7 @@ int main(int argc, char *argv[])
         const char *name;
         int (*make)(const char *folder);
     } targets[] = {{"afmformats", make_afmformats},
+                   {"ardf", make_ardf},
                    {"gsf", make_gsf},
                    {"gwy", make_gwy},
                    {"ibw", make_ibw},

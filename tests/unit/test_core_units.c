@@ -106,6 +106,26 @@ static void frequency_is_not_angular(void **state)
     assert_non_null(strstr(err.advice, "2 pi"));
 }
 
+/* Spellings of instruments and of people. */
+static void spellings(void **state)
+{
+    (void)state;
+    check_unit("Mpa", WT_Q_PRESSURE, 1e6, 0);
+    check_unit("x10^6 Pa", WT_Q_PRESSURE, 1e6, 0);
+    check_unit("\xc3\x97"
+               "10\xe2\x81\xb6 Pa",
+               WT_Q_PRESSURE, 1e6, 0);
+    check_unit("kg/mm2", WT_Q_PRESSURE, 9.80665e6, 0);
+    check_unit("\xd0\x9c\xd0\x9f\xd0\xb0", WT_Q_PRESSURE, 1e6, 0);
+    check_unit("deg. C", WT_Q_TEMPERATURE, 1, 273.15);
+    check_unit("g", WT_Q_FORCE, 9.80665e-3, 0);
+    check_unit("kg", WT_Q_FORCE, 9.80665, 0);
+    check_refused("kg/s", WT_Q_FORCE);
+    char long_unit[128] = "kg/mm";
+    memset(long_unit + 5, '2', 122); /* no room for a longer spelling */
+    check_refused(long_unit, WT_Q_PRESSURE);
+}
+
 static void wrong_units(void **state)
 {
     (void)state;
@@ -409,13 +429,21 @@ static void no_database(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_database),        cmocka_unit_test(units_of_instruments),
-        cmocka_unit_test(temperatures),       cmocka_unit_test(frequency_is_not_angular),
-        cmocka_unit_test(wrong_units),        cmocka_unit_test(every_si_unit_is_itself),
-        cmocka_unit_test(quantities),         cmocka_unit_test(largest_of_each),
-        cmocka_unit_test(quantities_refused), cmocka_unit_test(formatted),
-        cmocka_unit_test(foreign_locale),     cmocka_unit_test(chances_in_words),
-        cmocka_unit_test(several_threads),    cmocka_unit_test(known_as_udunits_says),
+        cmocka_unit_test(no_database),
+        cmocka_unit_test(units_of_instruments),
+        cmocka_unit_test(temperatures),
+        cmocka_unit_test(frequency_is_not_angular),
+        cmocka_unit_test(spellings),
+        cmocka_unit_test(wrong_units),
+        cmocka_unit_test(every_si_unit_is_itself),
+        cmocka_unit_test(quantities),
+        cmocka_unit_test(largest_of_each),
+        cmocka_unit_test(quantities_refused),
+        cmocka_unit_test(formatted),
+        cmocka_unit_test(foreign_locale),
+        cmocka_unit_test(chances_in_words),
+        cmocka_unit_test(several_threads),
+        cmocka_unit_test(known_as_udunits_says),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

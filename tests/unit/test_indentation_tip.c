@@ -55,6 +55,20 @@ static void understood(void **state)
     assert_int_equal(tip.sides, 3);
     assert_near(tip.transition_radius, 0.0, 0.0);
 
+    tip = parsed("berkovich:radius=150nm+-10%"); /* blunter than the tangent cap allows */
+    assert_int_equal(tip.shape, WT_TIP_BLUNTED_PYRAMID);
+    assert_int_equal(tip.sides, 3);
+    assert_near(tip.half_angle, 65.27 * degree, 1e-14);
+    assert_near(tip.radius_error, 15e-9, 1e-14);
+    assert_near(tip.transition_radius,
+                tip_largest_transition(tip.radius, tip.half_angle, tip.sides), 1e-14);
+    tip = parsed("vickers:radius=200nm,transition=20nm");
+    assert_int_equal(tip.sides, 4);
+    assert_near(tip.half_angle, 68 * degree, 1e-14);
+    assert_near(tip.transition_radius, 20e-9, 1e-14);
+    tip = parsed("vickers:radius=0nm"); /* sharp */
+    assert_near(tip.transition_radius, 0.0, 0.0);
+
     tip = parsed("cone:half-angle=20deg");
     assert_int_equal(tip.shape, WT_TIP_CONE);
     assert_near(tip.half_angle, 20 * degree, 1e-14);
@@ -73,9 +87,11 @@ static void refused_in_clear_words(void **state)
         wt_status status;
         const char *words; /* somewhere in the message */
     } cases[] = {
-        {"", WT_E_ARG, "pyramid, cone, sphere, paraboloid or punch"},
-        {"cube:radius=5um", WT_E_ARG, "pyramid, cone, sphere, paraboloid or punch"},
-        {"pyramids:radius=5um", WT_E_ARG, "pyramid, cone, sphere, paraboloid or punch"},
+        {"", WT_E_ARG, "pyramid, berkovich, vickers, cone, sphere, paraboloid or punch"},
+        {"cube:radius=5um", WT_E_ARG,
+         "pyramid, berkovich, vickers, cone, sphere, paraboloid or punch"},
+        {"pyramids:radius=5um", WT_E_ARG,
+         "pyramid, berkovich, vickers, cone, sphere, paraboloid or punch"},
         {"pyramid", WT_E_ARG, "lacks its half-angle"},
         {"pyramid:", WT_E_ARG, "lacks its half-angle"},
         {"pyramid:half-angle=35deg", WT_E_ARG, "pyramid:half-angle=35deg,radius=20nm"},
@@ -86,6 +102,8 @@ static void refused_in_clear_words(void **state)
         {"sphere:radius=5um,half-angle=35deg", WT_E_ARG, "half-angle"},
         {"sphere:half-angle=35deg", WT_E_ARG, "sphere:radius=5um"},
         {"cone:half-angle=20deg,transition=5nm", WT_E_ARG, "lacks its radius"},
+        {"berkovich", WT_E_ARG, "lacks its radius"},
+        {"vickers:radius=200nm,half-angle=70deg", WT_E_ARG, "radius or transition"},
         {"pyramid:half-angle=35,radius=20nm", WT_E_UNIT, "half-angle"},
         {"pyramid:half-angle=35deg,radius=20", WT_E_UNIT, "radius"},
         {"pyramid:half-angle=35deg,radius=20deg", WT_E_UNIT, "radius"},
@@ -173,6 +191,7 @@ static void kept_in_a_table(void **state)
                                         "cone:half-angle=20deg,radius=10nm",
                                         "cone:half-angle=20deg",
                                         "pyramid:half-angle=35deg,radius=0nm",
+                                        "berkovich:radius=150nm",
                                         "sphere:radius=5.00001um",
                                         "paraboloid:radius=5um",
                                         "punch:radius=2um"};

@@ -67,20 +67,22 @@ static void test_curve(void **state)
     }
 }
 
-/* A curve without Indexes and Direction, as extracted from a map, is split where the piezo turns:
+/* A curve without Indexes, as extracted from a map, is split where the piezo turns:
  * the sample of the turn ends the approach. */
 static void test_turning_point(void **state)
 {
     (void)state;
     static const double falling[N] = {5e-7, 4e-7, 3e-7, 2e-7, 1e-7, 0, -1e-7};
-    for (int way = 0; way < 3; way++) {
+    for (int way = 0; way < 4; way++) {
         const double *own[] = {way == 1 ? falling : raw, deflection, sensor};
-        ibw_writer_file f = usual(NOTE);
+        ibw_writer_file f = usual(way == 3 ? NOTE "Direction: NaN,1,-1\r" : NOTE);
         reading r;
         f.values = own;
-        static const char *const without_raw[] = {"Other", "Defl", "ZSnsr"};
-        if (way == 2)
-            f.labels = without_raw;
+        static const char *const without_raw[] = {"Other", "Defl", "ZSnsr"}, *const lower_case[] = {
+                                                                                 "raw", "defl",
+                                                                                 "zsnsr"};
+        if (way >= 2)
+            f.labels = way == 2 ? without_raw : lower_case;
         assert_int_equal(ibw_write(&f), 0);
         assert_int_equal(open_force(&r, path, NULL), WT_OK);
         next_curve(&r);
@@ -91,6 +93,7 @@ static void test_turning_point(void **state)
         assert_int_equal(r.curve.segments[0].n_points, way == 1 ? N : 5);
         assert_int_equal(r.curve.segments[last].kind, WT_SEGMENT_RETRACT);
         assert_int_equal(r.curve.segments[last].n_points, way == 1 ? N : 2);
+        assert_non_null(channel(&r.curve.segments[0], WT_Q_FORCE));
         close_all(&r);
     }
 }
@@ -128,8 +131,7 @@ static void test_refused(void **state)
 {
     (void)state;
     static const char *const parts[] = {
-        "Indexes: 0,4,6\r", /* no Direction */
-        "Direction: NaN,1,-1\r",
+        "Indexes: 0,4,6\r",                      /* no Direction */
         "Indexes: 0,4,7\rDirection: NaN,1,-1\r", /* behind the last sample */
         "Indexes: 0,4,4\rDirection: NaN,1,-1\r",
         "Indexes: 0,4,2\rDirection: NaN,1,-1\r",

@@ -152,19 +152,25 @@ static void nanoscope_image(void **state)
     enum { DATA = 4096, SIZE = COLUMNS * ROWS };
     for (size_t width = 2; width <= 4; width += 2) {
         made m = {.n = 0};
-        put_text(&m, "\\*File list\r\n\\Version: 0x08150300\r\n\\*Scanner list\r\n"
-                     "\\@Sens. Zsens: V 10.00000 nm/V\r\n\\*Ciao scan list\r\n\\Scan Size: 9 nm\r\n"
-                     "\\@Sens. DeflSens: V 40.00000 nm/V\r\n");
+        const bool phase = width == 4; /* and another first line, and a micro sign of Latin-1 */
+        put_text(&m,
+                 "\\*%sFile list\r\n\\Version: 0x08150300\r\n\\*Scanner list\r\n"
+                 "\\@Sens. Zsens: V 10.00000 nm/V\r\n\\*Ciao scan list\r\n\\Scan Size: 9 nm\r\n"
+                 "\\@Sens. DeflSens: V 40.00000 nm/V\r\n",
+                 phase ? "EC " : "");
         for (int i = 0; i < 2; i++)
             put_text(&m,
                      "\\*Ciao image list\r\n\\Data offset: %d\r\n\\Data length: %d\r\n"
                      "\\Bytes/pixel: 2\r\n\\Samps/line: %d\r\n\\Number of lines: %d\r\n"
-                     "\\Scan Size: 500 300 nm\r\n\\Line Direction: Trace\r\n"
+                     "\\Scan Size: %s\r\n\\Line Direction: Trace\r\n"
                      "\\@2:Image Data: S [%s] \"%s\"\r\n"
-                     "\\@2:Z scale: V [Sens. %s] (0.006713867 V/LSB) 6.5536 V\r\n",
+                     "\\@2:Z scale: V [Sens. %s] (0.006713867 V/LSB) 6.5536 %s\r\n",
                      DATA + i * SIZE * (int)width, SIZE * (int)width, COLUMNS, ROWS,
-                     i == 0 ? "DeflectionError" : "Height", i == 0 ? "Deflection Error" : "Height",
-                     i == 0 ? "DeflSens" : "Zsens");
+                     phase ? "0.5 0.3 \265m" : "500 300 nm", i == 0 ? "DeflectionError" : "Height",
+                     i == 1  ? "Height"
+                     : phase ? "Phase"
+                             : "Deflection Error",
+                     i == 0 ? "DeflSens" : "Zsens", i == 0 && phase ? "\260" : "V");
         put_text(&m, "\\*File list end\r\n\032");
         fill(&m, DATA);
         for (size_t i = 0; i < SIZE; i++)
@@ -178,7 +184,7 @@ static void nanoscope_image(void **state)
         wt_image *images = NULL;
         size_t n = 0;
         assert_int_equal(read_images_of(m.bytes, m.n, "made", NULL, &images, &n, NULL), WT_OK);
-        assert_string_equal(images[0].unit, "V");
+        assert_string_equal(images[0].unit, phase ? "deg" : "V");
         assert_near(images[0].values[0], 100 * 6.5536 / (width == 2 ? 65536.0 : 4294967296.0),
                     1e-12);
         clear_images(images, n);

@@ -169,6 +169,41 @@ static void mark_alone(void **state)
     }
 }
 
+/* A ramp that was stopped leaves room behind the samples of each way. */
+static void stopped_ramp(void **state)
+{
+    (void)state;
+    enum { GONE_IN = 1, GONE_OUT = 2 };
+    for (int padding = 0; padding < 2; padding++) {
+        nanoscope_writer_file f = usual(0, false);
+        reading r;
+        f.n_in -= GONE_IN;
+        f.n_out -= GONE_OUT;
+        f.half = IN;
+        f.padding = padding == 0 ? (double)NAN : 0;
+        f.trigger = 0;
+        assert_int_equal(nanoscope_write(&f), 0);
+        assert_int_equal(open_force(&r, path, NULL), WT_OK);
+        assert_true(logged(&r, "7 and 6 of 8 samples"));
+        next_curve(&r);
+        for (size_t s = 0, at = 0; s < 2; s++) {
+            const wt_segment *segment = &r.curve.segments[s];
+            assert_int_equal(segment->n_points, s == 0 ? f.n_in : f.n_out);
+            assert_near(segment->duration, 0.2 * (double)segment->n_points / IN, 1e-12);
+            for (size_t i = 0; i < segment->n_points; i++, at++) {
+                assert_near_abs(channel(segment, WT_Q_DEFLECTION_VOLTAGE)[i], volts[at], 1e-15);
+                assert_near_abs(channel(segment, WT_Q_HEIGHT)[i],
+                                200e-9 / IN * (double)(s == 0 ? f.n_in - 1 - i : i), 1e-20);
+            }
+        }
+        close_all(&r);
+        static unsigned char bytes[16384];
+        const size_t n = read_bytes(bytes, sizeof bytes);
+        bytes[n - 4] ^= 1; /* the padding of the last way */
+        assert_int_equal(open_bytes(bytes, n), WT_E_CORRUPT);
+    }
+}
+
 static void oddities(void **state)
 {
     (void)state;
@@ -287,6 +322,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(curves),   cmocka_unit_test(large),
                                        cmocka_unit_test(cut),      cmocka_unit_test(mark_alone),
                                        cmocka_unit_test(oddities), cmocka_unit_test(peakforce),
-                                       cmocka_unit_test(damaged)};
+                                       cmocka_unit_test(damaged),  cmocka_unit_test(stopped_ramp)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -51,7 +51,7 @@ static void write_count(const nanoscope_writer_file *f, double volts, double ste
 int nanoscope_write(const nanoscope_writer_file *f)
 {
     const size_t curves = f->volume ? f->side * f->side : 1, n = samples(f);
-    size_t block = curves * n * f->width;
+    size_t block = curves * (f->half > 0 ? 2 * f->half : n) * f->width;
     FILE *out = fopen(f->path, "wb");
     if (out == NULL)
         return -1;
@@ -78,6 +78,11 @@ int nanoscope_write(const nanoscope_writer_file *f)
             for (size_t i = 0; i < n; i++) {
                 const size_t at = curve * n + (i < f->n_in ? f->n_in - 1 - i : i);
                 write_count(f, values != NULL ? values[at] : 0, f->channels[c].step, out);
+                for (size_t k = i + 1 == f->n_in ? f->n_in
+                                : i + 1 == n     ? f->n_out
+                                                 : f->half;
+                     k < f->half; k++)
+                    write_count(f, f->padding, f->channels[c].step, out);
             }
         }
     bool good = ferror(out) == 0;

@@ -20,8 +20,10 @@ typedef struct nanoscope_writer_file {
     bool volume; /* a force volume, or a capture: several curves */
     size_t side; /* curves in a line, and lines */
     size_t n_in, n_hold, n_out;
-    unsigned width;                                 /* bytes of a sample: 2, 4 */
-    bool scaled;                                    /* counts times 256 */
+    size_t half;    /* room for each way of a ramp that was stopped; 0: as many as there are */
+    double padding; /* behind its samples [V] */
+    unsigned width; /* bytes of a sample: 2, 4 */
+    bool scaled;    /* counts times 256 */
     size_t missing_bytes;                           /* cut off at the end */
     double ramp_volts, z_sensitivity;               /* [V], [nm/V] */
     double deflection_sensitivity, spring_constant; /* [nm/V], [N/m]; 0: left out */

@@ -293,22 +293,50 @@ static const char *skip_outer_blanks(const char *text, size_t *length)
     return text;
 }
 
-/* Replaces the characters that look like the degree sign, and the single character for degree
- * Celsius, by the degree sign U+00B0. The result is not longer. */
-static void normalise_degree_signs(char *unit)
+/* Replaces spellings that no database knows: characters that look like the degree sign, degrees
+ * with a dot or a blank, wrong cases of the pascal, powers of ten with a multiplication sign,
+ * kilogram as force in a pressure, and Cyrillic letters. A spelling that does not fit stays. */
+static void normalise_spelling(char unit[UNIT_MAX])
 {
     static const struct {
         const char *found, *means;
-    } signs[] = {{"\xc2\xba", "\xc2\xb0"}, /* U+00BA masculine ordinal indicator */
-                 {"\xcb\x9a", "\xc2\xb0"}, /* U+02DA ring above */
-                 {"\xe2\x84\x83", "\xc2\xb0"
-                                  "C"}}; /* U+2103 degree Celsius */
-    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
-        for (char *at = unit; (at = strstr(at, signs[i].found)) != NULL;)
-            memcpy(at, signs[i].means, strlen(signs[i].means));
-    /* "° C" has a blank that no database knows */
-    for (char *at = unit; (at = strstr(at, "\xc2\xb0 C")) != NULL;)
-        memmove(at + 2, at + 3, strlen(at + 3) + 1);
+    } spellings[] = {{"\xc2\xba", "\xc2\xb0"}, /* U+00BA masculine ordinal indicator */
+                     {"\xcb\x9a", "\xc2\xb0"}, /* U+02DA ring above */
+                     {"\xe2\x84\x83", "\xc2\xb0"
+                                      "C"}, /* U+2103 degree Celsius */
+                     {"\xc2\xb0 C", "\xc2\xb0"
+                                    "C"},
+                     {"deg. C", "degC"},
+                     {"deg.C", "degC"},
+                     {"Mpa", "MPa"},
+                     {"Gpa", "GPa"},
+                     {"Kpa", "kPa"},
+                     {"KPa", "kPa"},
+                     {"\xc3\x97", "x"},      /* U+00D7 multiplication sign */
+                     {"\xe2\x81\xb6", "^6"}, /* U+2076 superscript six */
+                     {"\xe2\x81\xb9", "^9"}, /* U+2079 superscript nine */
+                     {"x 10^", "10^"},
+                     {"x10^", "10^"},
+                     {"kg/mm", "kgf/mm"},
+                     {"kg/cm", "kgf/cm"},
+                     {"\xd0\x9c\xd0\x9f\xd0\xb0", "MPa"},
+                     {"\xd0\xba\xd0\x9f\xd0\xb0", "kPa"},
+                     {"\xd0\x9f\xd0\xb0", "Pa"},
+                     {"\xd0\x93\xd1\x86", "Hz"},
+                     {"\xd0\xbc\xd0\xba", "u"}, /* micro */
+                     {"\xd0\xbc", "m"},
+                     {"\xd1\x81", "s"},
+                     {"\xd0\x9d", "N"},
+                     {"hh:mm:ss", "s"}};
+    for (size_t i = 0; i < COUNT_OF(spellings); i++) {
+        const size_t found = strlen(spellings[i].found), means = strlen(spellings[i].means);
+        for (char *at = unit; (at = strstr(at, spellings[i].found)) != NULL; at += means) {
+            if (strlen(unit) + means - found >= UNIT_MAX)
+                return;
+            memmove(at + means, at + found, strlen(at + found) + 1);
+            memcpy(at, spellings[i].means, means);
+        }
+    }
 }
 
 /* Copies a unit without surrounding blanks and one pair of square brackets. False if it is too long
@@ -329,7 +357,7 @@ static bool copy_trimmed_unit(const char *unit, char copy[UNIT_MAX])
             return false;
     memcpy(copy, unit, length);
     copy[length] = '\0';
-    normalise_degree_signs(copy);
+    normalise_spelling(copy);
     return true;
 }
 
@@ -359,6 +387,13 @@ static wt_status convert_quantity_unit(const char text[UNIT_MAX], wt_quantity qu
     wt_status status = convert_unit(unit, si, good, factor, offset, err);
     if (status != WT_OK || *good)
         return status;
+    /* A mass that is given as a force is that of its weight. */
+    if (strcmp(si, "N") == 0) {
+        static const double standard_gravity = 9.80665; /* [m/s^2] */
+        status = convert_unit(unit, "kg", good, factor, offset, err);
+        *factor *= standard_gravity;
+        return status;
+    }
     /* A spatial frequency would have the unit cycles/m, so that 1/m means rad/m. */
     if (quantity == WT_Q_WAVENUMBER)
         return convert_unit(unit, "1/m", good, factor, offset, err);

@@ -148,23 +148,32 @@ bool tips_differ(const wt_tip *a, const wt_tip *b)
 
 /* ---- text form ------------------------------------------------------------------------------- */
 
-/* Dimensions of each shape; "allowed" includes "needed". */
+/* Dimensions of each shape; "allowed" includes "needed". Number of sides and half-angle [degrees]
+ * where they are not stated: Berkovich and Vickers are the pyramids of ISO 14577-2, with a blunt
+ * end. */
 static const struct {
     const char *name, *example;
     unsigned allowed, needed;
     wt_tip_shape shape;
+    unsigned sides;
+    double half_angle;
 } shapes[] = {
     {"pyramid", "pyramid:half-angle=35deg,radius=20nm",
      1u << TIP_HALF_ANGLE | 1u << TIP_RADIUS | 1u << TIP_SIDES | 1u << TIP_TRANSITION,
-     1u << TIP_HALF_ANGLE | 1u << TIP_RADIUS, WT_TIP_BLUNTED_PYRAMID},
+     1u << TIP_HALF_ANGLE | 1u << TIP_RADIUS, WT_TIP_BLUNTED_PYRAMID, 4, 0},
+    {"berkovich", "berkovich:radius=150nm", 1u << TIP_RADIUS | 1u << TIP_TRANSITION,
+     1u << TIP_RADIUS, WT_TIP_BLUNTED_PYRAMID, 3, 65.27},
+    {"vickers", "vickers:radius=200nm", 1u << TIP_RADIUS | 1u << TIP_TRANSITION, 1u << TIP_RADIUS,
+     WT_TIP_BLUNTED_PYRAMID, 4, 68},
     {"cone", "cone:half-angle=20deg",
      1u << TIP_HALF_ANGLE | 1u << TIP_RADIUS | 1u << TIP_TRANSITION, 1u << TIP_HALF_ANGLE,
-     WT_TIP_CONE},
-    {"sphere", "sphere:radius=5um", 1u << TIP_RADIUS, 1u << TIP_RADIUS, WT_TIP_SPHERE},
-    {"paraboloid", "paraboloid:radius=5um", 1u << TIP_RADIUS, 1u << TIP_RADIUS, WT_TIP_PARABOLOID},
-    {"punch", "punch:radius=2um", 1u << TIP_RADIUS, 1u << TIP_RADIUS, WT_TIP_PUNCH},
+     WT_TIP_CONE, 0, 0},
+    {"sphere", "sphere:radius=5um", 1u << TIP_RADIUS, 1u << TIP_RADIUS, WT_TIP_SPHERE, 0, 0},
+    {"paraboloid", "paraboloid:radius=5um", 1u << TIP_RADIUS, 1u << TIP_RADIUS, WT_TIP_PARABOLOID,
+     0, 0},
+    {"punch", "punch:radius=2um", 1u << TIP_RADIUS, 1u << TIP_RADIUS, WT_TIP_PUNCH, 0, 0},
 };
-enum { PYRAMID, N_SHAPES = sizeof shapes / sizeof shapes[0] };
+enum { N_SHAPES = sizeof shapes / sizeof shapes[0] };
 
 enum { LIST_SIZE = 256 }; /* characters of a list */
 
@@ -317,14 +326,15 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
     }
 
     wt_tip parsed = {.shape = shapes[shape].shape,
-                     .half_angle = values[TIP_HALF_ANGLE].value,
+                     .half_angle = seen & 1u << TIP_HALF_ANGLE ? values[TIP_HALF_ANGLE].value
+                                                               : shapes[shape].half_angle * degree,
                      .radius = values[TIP_RADIUS].value,
                      .half_angle_error = values[TIP_HALF_ANGLE].standard_error,
                      .radius_error = values[TIP_RADIUS].standard_error};
-    if (seen & 1u << TIP_HALF_ANGLE && seen & 1u << TIP_RADIUS) {
+    if (seen & 1u << TIP_RADIUS && (seen & 1u << TIP_HALF_ANGLE || shapes[shape].sides > 0)) {
         parsed.shape = WT_TIP_BLUNTED_PYRAMID;
-        if (shape == PYRAMID)
-            parsed.sides = seen & 1u << TIP_SIDES ? (unsigned)values[TIP_SIDES].value : 4;
+        parsed.sides =
+            seen & 1u << TIP_SIDES ? (unsigned)values[TIP_SIDES].value : shapes[shape].sides;
         parsed.transition_radius = read_transition(
             &parsed, seen & 1u << TIP_TRANSITION ? values[TIP_TRANSITION].value : (double)NAN);
     }

@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 static recognition detect(const file_reader *self, file_peek *peek)
 {
@@ -72,7 +73,7 @@ force_metadata ibw_metadata(const ibw_file *file)
         .n_offers = 6};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         for (size_t c = 0; c < file->n_channels; c++)
-            if (strcmp(file->channels[c].name, known[i].name) == 0)
+            if (strcasecmp(file->channels[c].name, known[i].name) == 0)
                 force_add_signal(&metadata, (force_signal){.quantity = known[i].quantity,
                                                            .name = file->channels[c].name,
                                                            .unit = "m",
@@ -80,6 +81,21 @@ force_metadata ibw_metadata(const ibw_file *file)
                                                            .channel = &file->channels[c]});
     add_setpoint(file, &metadata);
     return metadata;
+}
+
+void ibw_describe_channels(const ibw_file *file, const force_metadata *read,
+                           const wt_read_options *options, table_writer *metadata)
+{
+    for (size_t i = 0; i < file->n_channels; i++) {
+        const wt_quantity q = force_channel_quantity(read, options, &file->channels[i]);
+        char samples[32] = ""; /* of a wave, not of a map */
+        if (file->n > 0)
+            snprintf(samples, sizeof samples, "%zu samples%s", file->n, q != WT_Q_NONE ? ", " : "");
+        if (file->n > 0 || q != WT_Q_NONE)
+            metadata_add(metadata, file->channels[i].name, "m", "label", "%s%s", samples,
+                         q != WT_Q_NONE ? wt_quantity_id(q) : "");
+    }
+    force_describe_calibration(read, options, "note, SpringConstant", "note, InvOLS", metadata);
 }
 
 static wt_status describe_curve(wt_input *input, const wt_read_options *options,
@@ -100,18 +116,13 @@ static wt_status describe_curve(wt_input *input, const wt_read_options *options,
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (ibw_note_text(&file, keys[i], text))
             metadata_add(metadata, keys[i], "", "note", "%s", text);
-    for (size_t i = 0; i < file.n_channels; i++) {
-        const wt_quantity q = force_channel_quantity(&read, options, &file.channels[i]);
-        metadata_add(metadata, file.channels[i].name, "m", "label", "%zu samples%s%s", file.n,
-                     q != WT_Q_NONE ? ", " : "", q != WT_Q_NONE ? wt_quantity_id(q) : "");
-    }
     for (size_t i = 0; i < n; i++) {
         char item[32];
         snprintf(item, sizeof item, "segment %zu", i);
         metadata_add(metadata, item, "", "Indexes, Direction or turning point", "%s, %zu points",
                      wt_segment_kind_name(segments[i].kind), segments[i].n);
     }
-    force_describe_calibration(&read, options, "note, SpringConstant", "note, InvOLS", metadata);
+    ibw_describe_channels(&file, &read, options, metadata);
     return WT_OK;
 }
 

@@ -63,5 +63,8 @@ wt_status ibw_read_segments(const ibw_file *file, ibw_segment segments[IBW_SEGME
                             wt_error *err) WT_NODISCARD;
 /* Returns signals and calibration, which all segments share. */
 force_metadata ibw_metadata(const ibw_file *file);
+/* Adds the rows of the channels and of the calibration. */
+void ibw_describe_channels(const ibw_file *file, const force_metadata *read,
+                           const wt_read_options *options, table_writer *metadata);
 
 #endif

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum {
     HEADER_5 = 64, /* file header, before the wave header */
@@ -324,7 +325,7 @@ static const ibw_channel *position_channel(const ibw_file *file)
     static const char *const names[] = {"Raw", "ZSnsr"};
     for (size_t i = 0; i < COUNT_OF(names); i++)
         for (size_t c = 0; c < file->n_channels; c++)
-            if (strcmp(file->channels[c].name, names[i]) == 0)
+            if (strcasecmp(file->channels[c].name, names[i]) == 0)
                 return &file->channels[c];
     return NULL;
 }
@@ -356,7 +357,7 @@ static wt_status split_at_turning_point(const ibw_file *file, ibw_segment segmen
 }
 
 /* Splits the samples by the keys of the note. "0,1008,2015" and "NaN,1,-1," mean an approach from 0
- * to 1008 and a retract from there to the end. Without both keys the samples are split where the
+ * to 1008 and a retract from there to the end. Without Indexes the samples are split where the
  * piezo turns. */
 wt_status ibw_read_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS], size_t *n,
                             wt_error *err)
@@ -365,10 +366,10 @@ wt_status ibw_read_segments(const ibw_file *file, ibw_segment segments[IBW_SEGME
     *n = 0;
     const bool has_indexes = ibw_note_text(file, "Indexes", indexes),
                has_directions = ibw_note_text(file, "Direction", directions);
-    if (!has_indexes && !has_directions)
+    if (!has_indexes)
         return split_at_turning_point(file, segments, n, err);
-    if (!has_indexes || !has_directions)
-        return fail_segments(has_indexes ? "no Direction" : "no Indexes", err);
+    if (!has_directions)
+        return fail_segments("no Direction", err);
     char *index = indexes, *direction = directions;
     unsigned long from = strtoul(index, &index, 10);
     (void)parse_next_number(&direction);

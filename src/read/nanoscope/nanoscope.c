@@ -66,7 +66,10 @@ static double read_value_scale(const nanoscope_header *h, size_t section, wt_ima
         snprintf(head->name + n, sizeof head->name - n, ", %s", line);
     const bool height =
         strncmp(head->name, "Height", 6) == 0 || strncmp(head->name, "ZSensor", 7) == 0;
-    snprintf(head->unit, sizeof head->unit, "%s", height && soft > 0 ? "m" : "V");
+    const char *const full = nanoscope_get(h, section, "Z scale");
+    const bool degrees = strncmp(head->name, "Phase", 5) == 0 && full != NULL && full[0] != '\0' &&
+                         full[strlen(full) - 1] != 'V'; /* such as "180.0 deg" */
+    snprintf(head->unit, sizeof head->unit, "%s", height && soft > 0 ? "m" : degrees ? "deg" : "V");
     return height && soft > 0 ? scale.value * soft : scale.value;
 }
 
@@ -200,9 +203,11 @@ static double ramp_height(const nanoscope_file *f, size_t i)
     if (f->sinusoid)
         return f->ramp / 2 * (1 + cos(2 * pi * (double)i / n));
     if (i < f->n_in)
-        return f->ramp * (double)(f->n_in - 1 - i) / (double)f->n_in;
+        return f->ramp * (double)(f->n_in - 1 - i) / (double)(f->half > 0 ? f->half : f->n_in);
     const size_t out = i - f->n_in;
-    return out < f->n_hold ? 0 : f->ramp * (double)(out - f->n_hold) / (double)f->n_out;
+    return out < f->n_hold
+               ? 0
+               : f->ramp * (double)(out - f->n_hold) / (double)(f->half > 0 ? f->half : f->n_out);
 }
 
 static wt_status decode(wt_force_source *base, const force_signal *signal, force_linear scaling,

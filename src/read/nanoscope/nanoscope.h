@@ -72,6 +72,7 @@ typedef struct nanoscope_file {
     input_window *windows; /* [n_channels] */
     size_t n_channels;
     size_t n_in, n_hold, n_out; /* samples of approach, hold and retract */
+    size_t half; /* samples stored for each way of a ramp that was stopped; 0 if it was not */
     size_t n_curves, n_planned;
     long columns, rows; /* grid; 0 if there is none */
     double pitch;       /* distance of the grid points [m]; NaN if unknown */

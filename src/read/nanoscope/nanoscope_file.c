@@ -53,6 +53,12 @@ static size_t curve_samples(const nanoscope_file *f)
     return f->n_in + f->n_hold + f->n_out;
 }
 
+/* Samples that a curve occupies in the file. */
+static size_t stored_samples(const nanoscope_file *f)
+{
+    return f->half > 0 ? 2 * f->half : curve_samples(f);
+}
+
 /* Tries a grid that the header names against the size of the block. The pixels of an image need not
  * be those of the curves. "Bytes/pixel" is 2 even where four bytes are stored. */
 static bool try_grid(nanoscope_file *f, size_t columns, size_t rows, size_t bytes, unsigned *width)
@@ -92,6 +98,21 @@ static bool find_grid(nanoscope_file *f, size_t bytes, unsigned *width)
                      header_integer(f, image, "Number of lines", 0), bytes, width))
             return true;
     }
+}
+
+/* Tries a single curve whose ramp was stopped: the block has room for two whole ways. */
+static bool find_stopped_ramp(nanoscope_file *f, size_t section, size_t bytes, unsigned *width)
+{
+    const char *context = nanoscope_get(&f->header, 0, "Start context");
+    const size_t w = header_integer(f, section, "Bytes/pixel", 0), half = w > 0 ? bytes / w / 2 : 0;
+    if (context == NULL || strcmp(context, "FOL") != 0 || (w != 2 && w != 4) || f->n_hold > 0 ||
+        bytes != 2 * w * half || half < f->n_in || half < f->n_out || half > CURVE_SAMPLES_MAX ||
+        (f->n_channels > 0 && f->half != half))
+        return false;
+    *width = (unsigned)w;
+    f->half = half;
+    f->n_planned = 1;
+    return true;
 }
 
 /* Sets the channel name from a text such as "[DeflectionError] "Deflection Error"": the part in
@@ -134,7 +155,7 @@ static wt_status read_channel_block(nanoscope_file *f, size_t section, wt_error 
         f->cantilever.sensitivity = (double)NAN;
     else if (c.quantity == WT_Q_DEFLECTION_VOLTAGE)
         f->cantilever.sensitivity = soft;
-    if (!find_grid(f, bytes, &c.width)) {
+    if (!find_grid(f, bytes, &c.width) && !find_stopped_ramp(f, section, bytes, &c.width)) {
         wt_fail(err, WT_E_CORRUPT, "the size of a block agrees with no number of curves");
         wt_error_found(err, "%zu bytes for curves of %zu samples", bytes, curve_samples(f));
         wt_error_place(err, "\\*" SECTION_BLOCK ", Data length");
@@ -178,7 +199,7 @@ static wt_status limit_curves(nanoscope_file *f, wt_log *log, wt_error *err)
     for (size_t i = 0; i < f->n_channels; i++) {
         const nanoscope_channel *c = &f->channels[i];
         const size_t forward = c->offset < f->length ? f->length - c->offset : 0;
-        const size_t whole_curves = forward / c->width / curve_samples(f);
+        const size_t whole_curves = forward / c->width / stored_samples(f);
         f->n_curves = whole_curves < f->n_curves ? whole_curves : f->n_curves;
     }
     if (f->n_curves == 0)
@@ -218,6 +239,10 @@ static void read_ramp_settings(nanoscope_file *f, size_t block)
     /* The velocities are in volts of the piezo per second. */
     f->time_in = size.value / forward;
     f->time_out = size.value / back;
+    if (f->half > 0) {
+        f->time_in *= (double)f->n_in / (double)f->half;
+        f->time_out *= (double)f->n_out / (double)f->half;
+    }
     f->time_hold = f->n_hold > 0 ? nanoscope_number(&f->header, force, "Hold Time") : 0;
     f->velocity_in = forward * sensitivity;
     f->velocity_out = back * sensitivity;
@@ -279,15 +304,39 @@ static size_t stored_index(const nanoscope_file *f, size_t i)
     const size_t n = curve_samples(f);
     if (f->sinusoid)
         i = (i + f->shift + n - f->n_in) % n;
-    return i < f->n_in ? f->n_in - 1 - i : i;
+    return i < f->n_in ? f->n_in - 1 - i : f->half > 0 ? f->half + i - f->n_in : i;
 }
 
 wt_status nanoscope_read_curve(const nanoscope_file *f, const nanoscope_channel *channel,
                                size_t curve, const unsigned char **stored, wt_error *err)
 {
-    const size_t n = channel->width * curve_samples(f);
+    const size_t n = channel->width * stored_samples(f);
     return window_bytes(&f->windows[channel - f->channels], channel->offset + curve * n, n, stored,
                         err);
+}
+
+/* Checks that the samples behind those of a stopped ramp repeat one number. */
+static wt_status check_stopped_ramp(const nanoscope_file *f, wt_log *log, wt_error *err)
+{
+    for (size_t i = 0; f->half > 0 && i < f->n_channels; i++) {
+        const nanoscope_channel *const c = &f->channels[i];
+        const unsigned char *stored = NULL;
+        const wt_status status = nanoscope_read_curve(f, c, 0, &stored, err);
+        if (status != WT_OK)
+            return status;
+        for (size_t k = 0; k < 2 * f->half; k++) {
+            const size_t end = k < f->half ? f->half - 1 : 2 * f->half - 1;
+            if (k % f->half >= (k < f->half ? f->n_in : f->n_out) &&
+                memcmp(stored + c->width * k, stored + c->width * end, c->width) != 0)
+                return fail_block(err, "the samples of a stopped ramp are not understood",
+                                  "one number behind the last sample of each way");
+        }
+    }
+    if (f->half > 0)
+        wt_log_add(log, WT_NOTE, f->name, NULL,
+                   "the ramp was stopped: %zu and %zu of %zu samples were measured", f->n_in,
+                   f->n_out, f->half);
+    return WT_OK;
 }
 
 double nanoscope_sample(const nanoscope_file *f, const nanoscope_channel *channel,
@@ -434,6 +483,8 @@ wt_status nanoscope_file_open(wt_input *input, wt_log *log, nanoscope_file *f, w
         status = windows_open(&f->windows, f->n_channels, input, err);
     if (status == WT_OK)
         status = limit_curves(f, log, err);
+    if (status == WT_OK)
+        status = check_stopped_ramp(f, log, err);
     if (status == WT_OK) {
         read_ramp_settings(f, nanoscope_section(&f->header, SECTION_BLOCK, 0));
         read_sinusoid(f);

@@ -11,7 +11,7 @@
 
 bool nanoscope_is_header(const unsigned char *bytes, size_t length)
 {
-    static const char *const first[] = {"\\*Force file list", "\\*File list"};
+    static const char *const first[] = {"\\*Force file list", "\\*File list", "\\*EC File list"};
     for (size_t i = 0; i < sizeof first / sizeof *first; i++)
         if (length >= strlen(first[i]) && memcmp(bytes, first[i], strlen(first[i])) == 0)
             return true;
@@ -68,9 +68,13 @@ wt_status nanoscope_header_read(const unsigned char *bytes, size_t length, nanos
     for (size_t i = 0; i < n; i++)
         lines += bytes[i] == '\n';
     header->lines = wt_alloc(lines, sizeof *header->lines);
-    /* all texts that are used are ASCII */
-    for (size_t i = 0; i < n; i++)
-        header->text[i] = (char)(bytes[i] == 0 || bytes[i] >= 0x80 ? '?' : bytes[i]);
+    /* all texts that are used are ASCII, and "~m" is a micrometre: Latin-1 micro, in UTF-8 behind
+     * C2 */
+    for (size_t i = 0, out = 0; i < n; i++)
+        if (bytes[i] != 0xc2 || bytes[i + 1] != 0xb5)
+            header->text[out++] = (char)(bytes[i] == 0xb5                    ? '~'
+                                         : bytes[i] == 0 || bytes[i] >= 0x80 ? '?'
+                                                                             : bytes[i]);
     for (char *line = header->text; line != NULL;) {
         char *next = strchr(line, '\n');
         if (next != NULL)

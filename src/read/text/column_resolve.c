@@ -31,19 +31,12 @@ static text_span strip_unit(text_span unit)
     return unit;
 }
 
-/* Returns the unit that the user states for a column, or NULL. */
-static const char *option_unit(const wt_read_options *options, const char *normalised)
+/* True for an angular frequency in 1/s: its name says that radians are meant. */
+static bool is_angular_per_second(wt_quantity quantity, const char *unit)
 {
-    char name[COLUMN_NAME_SIZE];
-    for (size_t i = 0; i < options->n_units; i++) {
-        const char *equal = strrchr(options->units[i], '=');
-        if (equal == NULL)
-            continue;
-        name_normalise((text_span){options->units[i], (size_t)(equal - options->units[i])}, name);
-        if (strcmp(name, normalised) == 0)
-            return equal + 1;
-    }
-    return NULL;
+    double factor = 0, offset = 0;
+    return quantity == WT_Q_ANGULAR_FREQUENCY && strstr(unit, "Hz") == NULL &&
+           wt_unit_to_si(unit, WT_Q_FREQUENCY, &factor, &offset, NULL) == WT_OK && factor == 1;
 }
 
 bool description_unit_to_si(const text_description *d, wt_quantity quantity, const char *unit,
@@ -53,7 +46,10 @@ bool description_unit_to_si(const text_description *d, wt_quantity quantity, con
         if (strcmp(d->aliases[i].found, unit) == 0 &&
             wt_unit_to_si(d->aliases[i].means, quantity, factor, offset, NULL) == WT_OK)
             return true;
-    return wt_unit_to_si(unit, quantity, factor, offset, NULL) == WT_OK;
+    *factor = 1;
+    *offset = 0;
+    return is_angular_per_second(quantity, unit) ||
+           wt_unit_to_si(unit, quantity, factor, offset, NULL) == WT_OK;
 }
 
 static bool rule_unit_to_si(const text_description *d, const column_rule *rule, const char *unit,
@@ -91,6 +87,11 @@ typedef struct column_resolver {
     bool uses_cells; /* true if cells above or below the names state conditions of the columns */
 } column_resolver;
 
+static bool spans_equal(text_span a, text_span b)
+{
+    return a.length == b.length && memcmp(a.text, b.text, a.length) == 0;
+}
+
 static size_t find_cell(const column_resolver *r, const char *name)
 {
     if (name != NULL)
@@ -98,6 +99,30 @@ static size_t find_cell(const column_resolver *r, const char *name)
             if (strcmp(r->normalised[i], name) == 0)
                 return i;
     return SIZE_MAX;
+}
+
+/* Returns the unit that the user states for a column, or NULL. Names that differ in case alone,
+ * such as t and T, must be given exactly. */
+static const char *option_unit(const column_resolver *r, size_t cell)
+{
+    const text_cells *const names = &r->names->names;
+    const char *unit = NULL;
+    for (size_t i = 0; i < r->options->n_units; i++) {
+        const char *const text = r->options->units[i], *const equal = strrchr(text, '=');
+        char name[COLUMN_NAME_SIZE];
+        if (equal == NULL)
+            continue;
+        const text_span given = {text, (size_t)(equal - text)};
+        size_t exact = 0;
+        while (exact < names->n && !spans_equal(names->cells[exact], given))
+            exact++;
+        name_normalise(given, name);
+        if (exact < names->n && spans_equal(names->cells[exact], names->cells[cell]))
+            return equal + 1;
+        if (unit == NULL && exact == names->n && strcmp(name, r->normalised[cell]) == 0)
+            unit = equal + 1;
+    }
+    return unit;
 }
 
 /* Returns the first cell with one of the names; SIZE_MAX if there is none. */
@@ -129,8 +154,7 @@ static bool is_repeated_modulus(const names_row *names, const text_column *first
 {
     const text_span one = names->names.cells[first->cell], other = names->names.cells[cell];
     const wt_quantity_set moduli = TENSION_MODULI | SHEAR_MODULI;
-    return (moduli & WT_Q_BIT(first->rule->quantity)) != 0 && one.length == other.length &&
-           memcmp(one.text, other.text, one.length) == 0;
+    return (moduli & WT_Q_BIT(first->rule->quantity)) != 0 && spans_equal(one, other);
 }
 
 typedef enum deformation_match {
@@ -218,7 +242,7 @@ static bool is_other_unit(const column_resolver *r, const column_rule *rule, con
  * unit. */
 static text_column resolve_column(const column_resolver *r, size_t cell, const name_match *known)
 {
-    const char *const given = option_unit(r->options, r->normalised[cell]);
+    const char *const given = option_unit(r, cell);
     text_column column = begin_column(r, cell, known, given);
     for (size_t k = known->first; k < known->first + known->n; k++) {
         const column_rule *rule = &r->d->rules[r->d->names[k].rule];
@@ -246,6 +270,9 @@ static text_column resolve_column(const column_resolver *r, size_t cell, const n
             snprintf(column.unit, sizeof column.unit, "%s", unit);
         column.rule = rule;
         column.assumed = answer == DEFORMATION_STATED ? rule->assumed : NULL;
+        if (unit != NULL && is_angular_per_second(rule->quantity, unit))
+            column.assumed = "the angular frequency is in 1/s: taken as rad/s; if cycles are "
+                             "meant, give the column as frequency with --columns";
         column.problem = COLUMN_GOOD;
         column.factor = rule->negate ? -factor : factor;
         column.offset = rule->negate ? -offset : offset;

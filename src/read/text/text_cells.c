@@ -240,6 +240,23 @@ static bool is_declared_missing(text_span cell, const text_description *d)
     return false;
 }
 
+/* Parses a time such as 1:05:30.5, hours, minutes and seconds, to seconds. */
+static bool parse_clock_time(text_span cell, char decimal, double *seconds)
+{
+    double parts[3];
+    const char *at = cell.text, *const end = at + cell.length;
+    for (size_t i = 0; i < COUNT_OF(parts); i++) {
+        const char *const colon = i < 2 ? memchr(at, ':', (size_t)(end - at)) : end;
+        if (colon == NULL || colon == at || *at < '0' || *at > '9' ||
+            !wt_number_parse(at, (size_t)(colon - at), i < 2 ? '.' : decimal, &parts[i]) ||
+            (i < 2 && floor(parts[i]) != parts[i]) || (i > 0 && parts[i] >= 60))
+            return false;
+        at = colon + (i < 2);
+    }
+    *seconds = 3600 * parts[0] + 60 * parts[1] + parts[2];
+    return *seconds < no_value;
+}
+
 cell_kind cell_parse(text_span cell, char decimal, const text_description *description,
                      double *value)
 {
@@ -252,6 +269,8 @@ cell_kind cell_parse(text_span cell, char decimal, const text_description *descr
         *value = (double)NAN;
         return CELL_MISSING;
     }
+    if (cell.length > 0 && parse_clock_time(cell, decimal, value))
+        return CELL_NUMBER;
     static const char *const none[] = {"-",
                                        "--",
                                        "---",
