@@ -333,9 +333,11 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     size_t begins[SEGMENTS], n = 0, at = 0;
     unsigned char place[8];
     wt_status status = find_curve(s, place, &at, err);
+    if (status == WT_END)
+        return status;
+    curve->index = s->number++; /* also of a curve that cannot be read */
     if (status != WT_OK)
         return status;
-    curve->index = s->number++;
     curve->grid_y = (long)le32(place);
     curve->grid_x = (long)le32(place + 4);
     curve->x = s->file.step_x * (double)curve->grid_x;

@@ -291,6 +291,8 @@ static wt_status add_grid_image(const image_builder *m, const text_column *const
     wt_status status = find_column_axis(m, of[0], &x);
     if (status == WT_OK)
         status = find_column_axis(m, of[1], &y);
+    if (status == WT_OK && x.n * y.n == 1) /* one point is no surface */
+        status = text_fail_empty(m->file, "height map or profile", m->err);
     if (status != WT_OK)
         return status;
     /* scattered points would give a grid line and column for each point */
