@@ -94,9 +94,6 @@ typedef enum flow_optional_input_id {
     X(ANISOTROPY, anisotropy, "What the direction of sliding does",                                \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(GIVEN_ANISOTROPY), 0, FLOW_OPTIONAL_NONE,         \
       B(ANISOTROPY), flow_step_anisotropy)                                                         \
-    X(FRICTION_MAP, friction_map, "Friction at several temperatures and pressures",                \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_MAP), 0, FLOW_OPTIONAL_NONE,            \
-      B(FRICTION_MAP), flow_step_friction_map)                                                     \
     X(FRICTION_DECADES, friction_decades, "Friction by decades of the wavenumber",                 \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_DECADES), 0, FLOW_OPTIONAL_NONE,        \
       B(FRICTION_DECADES), flow_step_friction_decades)                                             \
