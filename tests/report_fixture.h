@@ -373,7 +373,7 @@ static inline void fixture_validation(wt_case *read)
 {
     wt_case *growing = NULL;
     fixture_held(read, WT_SOURCE_DIR "/fixtures/record/steps.csv",
-                 "validation validation_choices validation_sources");
+                 "validation validation_sources");
     fixture_check(wt_case_read(WT_SOURCE_DIR "/fixtures/growth/case.xml", &growing, NULL));
     fixture_held(growing, WT_SOURCE_DIR "/fixtures/growth/record.csv",
                  "validation_running_in validation_course");

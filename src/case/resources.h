@@ -97,7 +97,6 @@
     X(VALIDATION, "validation", &validation_schema, "")                                            \
     X(VALIDATION_RUNNING_IN, "validation_running_in", &validation_running_in_schema, "")           \
     X(VALIDATION_COURSE, "validation_course", &validation_course_schema, "")                       \
-    X(VALIDATION_CHOICES, "validation_choices", &validation_choices_schema, "")                    \
     X(VALIDATION_SOURCES, "validation_sources", &validation_sources_schema, "")                    \
     X(ERROR_BUDGET, "error_budget", &error_budget_schema, "")                                      \
     X(WORK_PRECISION, "work_precision", &work_precision_schema, "")
@@ -130,8 +129,7 @@ __extension__ typedef unsigned __int128 flow_resource_set;
 /* Comparison of the case with its records. */
 #define FLOW_VALIDATIONS                                                                           \
     (FLOW_BIT(FLOW_VALIDATION) | FLOW_BIT(FLOW_VALIDATION_RUNNING_IN) |                            \
-     FLOW_BIT(FLOW_VALIDATION_COURSE) | FLOW_BIT(FLOW_VALIDATION_CHOICES) |                        \
-     FLOW_BIT(FLOW_VALIDATION_SOURCES))
+     FLOW_BIT(FLOW_VALIDATION_COURSE) | FLOW_BIT(FLOW_VALIDATION_SOURCES))
 
 typedef struct flow_resource_row {
     const char *label, *missing;

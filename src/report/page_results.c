@@ -133,8 +133,6 @@ static const struct result_part {
     ROWS(validation_running_in, "Running-in against the layer, by the records"),
     KEYS(validation_sources, "What would narrow measured over predicted most"),
     ROWS(validation_sources, "Where the error of measured over predicted comes from"),
-    KEYS(validation_choices, "Choices of the model, by the record"),
-    ROWS(validation_choices, "What the record says of each choice of the model"),
     KEYS(transverse_isotropy, "What the directions of the material do"),
     KEYS(softening, "What softening with strain does"),
     KEYS(flash, "What the flash temperature does"),

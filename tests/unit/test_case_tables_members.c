@@ -17,7 +17,7 @@
     X(shift_factors) X(master_curve) X(relaxation_spectrum) X(material_draws) \
     X(dwell_dma) X(power_spectrum) X(place_errors) X(angular_spectrum) X(surfaces) X(height_map) X(height_profile) X(scan_spectra) X(prony) X(series_draws) X(prony_reduced) X(roughness) X(energy_density) \
     X(failures) X(methods) X(map_channels) X(dwell_points) X(dwell_moduli) X(record) X(record_cycles) X(wear) \
-    X(identification) X(validation) X(validation_running_in) X(validation_course) X(validation_choices) X(validation_sources) \
+    X(identification) X(validation) X(validation_running_in) X(validation_course) X(validation_sources) \
     X(anisotropy) X(friction_decades) X(flash) X(collection) X(collected_modulus) \
     X(collected_friction) X(collected_force) X(shared_constants) X(shared_members) X(ratio_pairs) X(collected_constants) X(shared_pairs) \
    

@@ -1177,7 +1177,6 @@ static void see_validation(const char *path, double shear, double wear, bool wit
     wt_record_tables measured = {0};
     wt_validation_job job = wt_validation_job_defaults();
     wt_validation_tables tables = {0};
-    wt_table *what_if = NULL;
     wt_error err = WT_ERROR_INIT;
     common.formats = formats;
     common.replicates = 40;
@@ -1190,25 +1189,19 @@ static void see_validation(const char *path, double shear, double wear, bool wit
         (wt_estimate){shear > 0 ? shear : (double)NAN, 0.1 * fmax(shear, 0), 0, "Pa"};
     layer.specific_wear_rate = (wt_estimate){1e-12, 1e-13, 0, "m^2/N"};
     layer.critical_energy.value = 2e10;
-    if (wt_record_compute(&records, &common, &measured, &err) != WT_OK ||
-        wt_model_sensitivity_compute(&sliding, &layer, with_layer ? &observation : NULL, &common,
-                                     &what_if, &err) != WT_OK)
+    if (wt_record_compute(&records, &common, &measured, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     job.sliding = &sliding;
     job.layer = &layer;
     job.layer_observation = with_layer ? &observation : NULL;
     job.record = measured.record;
     job.wear = measured.wear;
-    job.what_if = what_if;
     if (wt_validation_compute(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     see(tables.validation);
     see(tables.sources);
-    if (tables.choices != NULL)
-        see(tables.choices);
     wt_validation_tables_clear(&tables);
     wt_record_tables_clear(&measured);
-    wt_table_free(what_if);
 }
 
 /* The running-in of a case against a layer that grows, or against no layer that is known. */

@@ -107,8 +107,8 @@ typedef enum flow_optional_input_id {
       B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_OPTIONAL_THICKNESS, B(WHAT_IF),              \
       flow_step_what_if)                                                                           \
     X(VALIDATION, validation, "Measured friction against predicted friction",                      \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(RECORD) | B(WHAT_IF), 0, FLOW_OPTIONAL_LAYER,     \
-      B(VALIDATION) | B(VALIDATION_CHOICES) | B(VALIDATION_SOURCES), flow_step_validation)         \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(RECORD), 0, FLOW_OPTIONAL_LAYER,                  \
+      B(VALIDATION) | B(VALIDATION_SOURCES), flow_step_validation)                                 \
     X(VALIDATION_RUNNING_IN, validation_running_in, "Measured running-in against the layer",       \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
           B(RECORD) | B(RECORD_CYCLES),                                                            \

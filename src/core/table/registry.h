@@ -164,8 +164,6 @@
       "Running-in with the layer against records", "validate")                                     \
     X(validation_course, VALIDATION_COURSE, "validation_course",                                   \
       "Friction in running-in, measured and predicted", "validate")                                \
-    X(validation_choices, VALIDATION_CHOICES, "validation_choices",                                \
-      "What the record says of the choices of the model", "validate")                              \
     X(validation_sources, VALIDATION_SOURCES, "validation_sources",                                \
       "Where the error of measured over predicted comes from", "validate")                         \
     X(error_budget, ERROR_BUDGET, "error_budget", "Error budget", "accuracy")                      \
