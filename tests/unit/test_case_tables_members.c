@@ -10,7 +10,7 @@
 /* clang-format off */
 #define ROWS(X) \
     X(indentation) X(curves) X(overrides) X(force_displacement) X(force_indentation) X(modulus_depth) X(modulus_budget) \
-    X(payne_sweep) X(payne) X(ramp) X(glass_transition) X(moduli_at) X(spot) X(spot_map) \
+    X(payne_sweep) X(payne) X(ramp) X(glass_transition) X(moduli_at) X(spot) \
     X(modulus_groups) X(modulus_rate) X(dma_comparison) X(comparison) X(track_layer) X(friction) X(transverse_isotropy) \
     X(softening) X(contact_area) X(layer) \
     X(error_budget) X(work_precision) X(cost) X(notes) X(data_quality) X(limits) X(answer) X(map_curves) X(map_segments) \

@@ -199,7 +199,6 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"ramp", "title 'peak of the loss modulus'",
          "loss_modulus_peak_temperature loss_modulus_peak"},
         {"ramp", "title 'peak of tan δ'", "loss_factor_peak_temperature loss_factor_peak"},
-        {"spot_map", "boxxyerror", "x y before"},
         {"height_map", "with image", "matrix"},
         {"height_profile", "with lines ls 21", "x height"},
         {"measured_spectrum", "title 'measured'", "wavenumber density density_low density_high"},
