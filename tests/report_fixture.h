@@ -237,25 +237,6 @@ static inline void fixture_softening(void)
     fixture_check(wt_result_add(fixture_case, table, NULL));
 }
 
-/* A dent of 3 x 3 cells. */
-static inline void fixture_spot(void)
-{
-    wt_table *table = NULL;
-    table_writer t = table_begin(&spot_map_schema, NULL);
-    for (int i = 0; i < 9; i++) {
-        const double before = 1e-9 * (i % 2), change = i == 4 ? -5e-9 : 0;
-        table_row(&t);
-        spot_map_put(&t, SPOT_MAP_X, 1e-8 * (i % 3 - 1));
-        spot_map_put(&t, SPOT_MAP_Y, 1e-8 * (i / 3 - 1));
-        spot_map_put(&t, SPOT_MAP_BEFORE, before);
-        spot_map_put(&t, SPOT_MAP_AFTER, before + change);
-        spot_map_put(&t, SPOT_MAP_CHANGE, change);
-    }
-    spot_map_set_value(&t, SPOT_MAP_KEY_CONTACT_RADIUS, 1e-8, 0, 0);
-    fixture_check(table_end(&t, &table));
-    fixture_check(wt_result_add(fixture_case, table, NULL));
-}
-
 /* Two places of a surface, and what lies beyond their points. */
 static inline void fixture_surface(void)
 {
@@ -372,8 +353,7 @@ static inline void fixture_held(wt_case *read, const char *record, const char *n
 static inline void fixture_validation(wt_case *read)
 {
     wt_case *growing = NULL;
-    fixture_held(read, WT_SOURCE_DIR "/fixtures/record/steps.csv",
-                 "validation validation_choices validation_sources");
+    fixture_held(read, WT_SOURCE_DIR "/fixtures/record/steps.csv", "validation validation_sources");
     fixture_check(wt_case_read(WT_SOURCE_DIR "/fixtures/growth/case.xml", &growing, NULL));
     fixture_held(growing, WT_SOURCE_DIR "/fixtures/growth/record.csv",
                  "validation_running_in validation_course");
@@ -521,7 +501,6 @@ static inline const wt_result *fixture_produced(void)
         fixture_validation(read);
         fixture_softening();
         fixture_flash();
-        fixture_spot();
         fixture_surface();
         wt_case_free(read);
         (void)atexit(fixture_free);

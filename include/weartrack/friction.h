@@ -190,10 +190,6 @@ typedef struct wt_sliding {
     const wt_strain_softening *strain_softening; /* borrowed; NULL = none */
     double strain_factor;                        /* as in wt_friction_options; default 1 */
     wt_anisotropy anisotropy;                    /* of the roughness; default none */
-    const double *temperatures; /* [n_temperatures] K, of the friction map, borrowed */
-    size_t n_temperatures;
-    const double *pressures; /* [n_pressures] Pa, of the friction map, borrowed */
-    size_t n_pressures;
     bool decades;   /* requests friction by decades of the wavenumber */
     wt_flash flash; /* as in wt_friction_options; `temperature` is then the ambient temperature */
 } wt_sliding;
@@ -267,12 +263,6 @@ WT_API wt_status wt_transverse_isotropy_compute(const wt_sliding *sliding, const
  * without the anisotropy of `sliding`. WT_E_ARG without anisotropy. */
 WT_API wt_status wt_anisotropic_friction_compute(const wt_sliding *sliding, const wt_job *work,
                                                  wt_table **table, wt_error *err) WT_NODISCARD;
-/* Creates the table "friction_map": friction at every velocity and temperature at the nominal
- * pressure, then at every velocity and pressure at the nominal temperature. One kernel at the
- * reference temperature of the rubber serves all: mu(v, T, p) is mu(v a_T, reference, p b_T).
- * WT_E_ARG without temperatures and pressures. The map has no layer. */
-WT_API wt_status wt_friction_map_compute(const wt_sliding *sliding, const wt_job *work,
-                                         wt_table **table, wt_error *err) WT_NODISCARD;
 /* Creates the table "friction_decades": contributions of each decade of the wavenumber to
  * hysteresis friction and to shearing of bare rubber, at the slowest, the reference and the fastest
  * velocity. */

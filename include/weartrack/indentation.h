@@ -706,21 +706,14 @@ typedef struct wt_spot_job {
     double largest_effect; /* largest acceptable effect of roughness on the contact area; default
                               0.1 */
     const char *image;     /* part of the name of the image; NULL = first height image */
-    const char *after;     /* file with the image after the indentation; NULL = none */
-    wt_read_options read;  /* for both files; initialise with wt_read_defaults() */
-    bool map;              /* also computes the table spot_map */
+    wt_read_options read;  /* initialise with wt_read_defaults() */
 } wt_spot_job;
 WT_API wt_spot_job wt_spot_job_defaults(void);
 WT_API const wt_params *wt_spot_job_params(void);
-typedef struct wt_spot_tables {
-    wt_table *spot, *spot_map; /* spot_map: NULL unless requested */
-} wt_spot_tables;
-WT_API void wt_spot_tables_clear(wt_spot_tables *tables);
-/* Evaluates the image `path` before the indentation: roughness over the contact relative to the
- * depth, and the remaining imprint. WT_E_NOT_FOUND if the file has no such height image, WT_E_RANGE
- * if sides or pixels of the images differ by more than a factor of four. */
+/* Creates the table "spot" of the image `path` before the indentation: roughness over the contact
+ * relative to the depth. WT_E_NOT_FOUND if the file has no such height image. */
 WT_API wt_status wt_spot_compute(const wt_spot_job *job, const char *path, const wt_job *work,
-                                 wt_spot_tables *tables, wt_error *err) WT_NODISCARD;
+                                 wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* ---- deflection sensitivity: curves on a hard surface --------------------------------------- */
 

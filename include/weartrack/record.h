@@ -170,9 +170,7 @@ typedef struct wt_validation_job {
     const wt_table *record;                        /* table "record" */
     const wt_table *cycles; /* table "record_cycles", for the running-in only */
     const wt_table *wear;   /* table "wear", or NULL */
-    const wt_table
-        *what_if;  /* table "what_if" of the same inputs, or NULL: no likelihood of choices */
-    double margin; /* irrelevant deviation of measured over predicted; default 0.2 */
+    double margin;          /* irrelevant deviation of measured over predicted; default 0.2 */
     double plausible_low,
         plausible_high;       /* plausible range of the shear stress [Pa]; default 1 MPa, 10 MPa */
     double running_in_margin; /* margin of times and changes of a running-in; default 1 */
@@ -183,14 +181,13 @@ wt_validation_job_defaults(void); /* Sets the margins and the following members.
 WT_API const wt_params *wt_validation_job_params(void);
 
 typedef struct wt_validation_tables {
-    wt_table *validation, *choices, *sources; /* choices NULL without what_if or shear stress */
+    wt_table *validation, *sources;
 } wt_validation_tables;
 WT_API void wt_validation_tables_clear(wt_validation_tables *tables);
 
 /* Compares measured with predicted friction at every step of the records, with both errors: the
  * verdict "explains", "does not" or "inconclusive" by the test in the key `test`; the shear stress
- * and largest wavenumber that the record requires; the error sources; the likelihood of each model
- * choice. */
+ * and largest wavenumber that the record requires; the error sources. */
 WT_API wt_status wt_validation_compute(const wt_validation_job *job, const wt_job *work,
                                        wt_validation_tables *tables, wt_error *err) WT_NODISCARD;
 

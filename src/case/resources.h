@@ -38,9 +38,6 @@
       c->has_layer &&isnan(c->layer.specific_wear_rate.value))                                     \
     X(GIVEN_ANISOTROPY, "anisotropic roughness", "no anisotropy (<anisotropy> in <sliding>)",      \
       c->sliding.anisotropy.amplitude[0] != 0 || c->sliding.anisotropy.amplitude[1] != 0)          \
-    X(REQUESTED_MAP, "temperatures and pressures of a map",                                        \
-      "no map asked for (<temperatures> or <pressures> in <sliding>)",                             \
-      c->sliding.n_temperatures > 0 || c->sliding.n_pressures > 0)                                 \
     X(REQUESTED_DECADES, "decades of the wavenumber",                                              \
       "no decades asked for (<decades> in <sliding>)", c->sliding.decades)                         \
     X(REQUESTED_IDENTIFICATION, "what is seen of the layer",                                       \
@@ -94,14 +91,12 @@
     X(TRANSVERSE_ISOTROPY, "transverse_isotropy", &transverse_isotropy_schema, "")                 \
     X(SOFTENING_EFFECT, "softening", &softening_schema, "")                                        \
     X(ANISOTROPY, "anisotropy", &anisotropy_schema, "")                                            \
-    X(FRICTION_MAP, "friction_map", &friction_map_schema, "")                                      \
     X(FRICTION_DECADES, "friction_decades", &friction_decades_schema, "")                          \
     X(FLASH_EFFECT, "flash_temperature", &flash_schema, "")                                        \
     X(WHAT_IF, "what_if", &what_if_schema, "")                                                     \
     X(VALIDATION, "validation", &validation_schema, "")                                            \
     X(VALIDATION_RUNNING_IN, "validation_running_in", &validation_running_in_schema, "")           \
     X(VALIDATION_COURSE, "validation_course", &validation_course_schema, "")                       \
-    X(VALIDATION_CHOICES, "validation_choices", &validation_choices_schema, "")                    \
     X(VALIDATION_SOURCES, "validation_sources", &validation_sources_schema, "")                    \
     X(ERROR_BUDGET, "error_budget", &error_budget_schema, "")                                      \
     X(WORK_PRECISION, "work_precision", &work_precision_schema, "")
@@ -134,8 +129,7 @@ __extension__ typedef unsigned __int128 flow_resource_set;
 /* Comparison of the case with its records. */
 #define FLOW_VALIDATIONS                                                                           \
     (FLOW_BIT(FLOW_VALIDATION) | FLOW_BIT(FLOW_VALIDATION_RUNNING_IN) |                            \
-     FLOW_BIT(FLOW_VALIDATION_COURSE) | FLOW_BIT(FLOW_VALIDATION_CHOICES) |                        \
-     FLOW_BIT(FLOW_VALIDATION_SOURCES))
+     FLOW_BIT(FLOW_VALIDATION_COURSE) | FLOW_BIT(FLOW_VALIDATION_SOURCES))
 
 typedef struct flow_resource_row {
     const char *label, *missing;

@@ -3,7 +3,7 @@
 #include "cmd/sliding_options.h"
 
 /* The tables that follow that of friction, each where it has something to say. */
-enum { AREA, TRANSVERSE_ISOTROPY, SOFTENING, FLASH, ANISOTROPY, MAP, DECADES, N_FURTHER };
+enum { AREA, TRANSVERSE_ISOTROPY, SOFTENING, FLASH, ANISOTROPY, DECADES, N_FURTHER };
 
 static bool is_table_requested(const wt_sliding *s, size_t k)
 {
@@ -16,8 +16,6 @@ static bool is_table_requested(const wt_sliding *s, size_t k)
         return s->flash.on;
     case ANISOTROPY:
         return s->anisotropy.amplitude[0] != 0 || s->anisotropy.amplitude[1] != 0;
-    case MAP:
-        return s->n_temperatures + s->n_pressures > 0;
     case DECADES:
         return s->decades;
     default:
@@ -36,7 +34,6 @@ static wt_status compute_further_tables(cmd_sliding *s, wt_table *further[N_FURT
         [SOFTENING] = {"softening", wt_softened_friction_compute},
         [FLASH] = {"flash_temperature", wt_flash_temperature_compute},
         [ANISOTROPY] = {"anisotropy", wt_anisotropic_friction_compute},
-        [MAP] = {"friction_map", wt_friction_map_compute},
         [DECADES] = {"friction_decades", wt_friction_by_scale_compute}};
     wt_status status = WT_OK;
     for (size_t k = 0; status == WT_OK && k < N_FURTHER; k++) {
@@ -61,7 +58,7 @@ int cmd_friction(int argc, char **argv)
         .common = "output formats columns files-from provenance cost",
         .first = "material dma roughness pressure velocity sliding-temperature shear-stress "
                  "layer-thickness modulus-ratio strain-softening flash-temperature anisotropy "
-                 "temperatures pressures output",
+                 "output",
         .master = CMD_DMA_OPTIONS};
     wt_layer_observation layer = wt_layer_observation_defaults();
     cmd_sliding s;
@@ -87,9 +84,9 @@ int cmd_friction(int argc, char **argv)
             status = wt_model_sensitivity_compute(&s.conditions, NULL, observation, &s.session.work,
                                                   &what_if, &s.session.err);
         wt_table **const parts[] = {
-            &tables.friction,    &further[AREA],    &further[TRANSVERSE_ISOTROPY],
-            &further[SOFTENING], &further[FLASH],   &further[ANISOTROPY],
-            &further[MAP],       &further[DECADES], &what_if};
+            &tables.friction,    &further[AREA],  &further[TRANSVERSE_ISOTROPY],
+            &further[SOFTENING], &further[FLASH], &further[ANISOTROPY],
+            &further[DECADES],   &what_if};
         cmd_finish(&s.session, status, parts, COUNT_OF(parts));
     }
     return cmd_sliding_free(&s);

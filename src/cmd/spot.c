@@ -1,5 +1,5 @@
-/* weartrack spot: roughness of a spot relative to the depth, and remaining imprint of an
- * indentation. SPDX-License-Identifier: GPL-3.0-or-later */
+/* weartrack spot: roughness of a spot relative to the depth.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
 int cmd_spot(int argc, char **argv)
@@ -9,9 +9,7 @@ int cmd_spot(int argc, char **argv)
         .arguments = "--tip TIP --depth D [OPTION]... IMAGE",
         .description =
             "Of a height image of the spot before an indentation: the roughness over the "
-            "contact against the depth, and whether the spot is too rough for it. With an "
-            "image after it (--after): the imprint that stayed, its depth and volume with "
-            "their errors; drift between the images is found.",
+            "contact against the depth, and whether the spot is too rough for it.",
         .common = "output formats columns provenance cost",
         .n_files = 1};
     wt_indent_job indent = wt_indent_job_defaults();
@@ -21,8 +19,7 @@ int cmd_spot(int argc, char **argv)
         {wt_spot_job_params(), &job, NULL, 0},
         {wt_read_params(), &job.read, "units pixel-size height-unit format sheet", 0}};
     cmd_session s = cmd_session_defaults();
-    wt_spot_tables made = {0};
-    wt_table **const tables[] = {&made.spot, &made.spot_map};
+    wt_table *made = NULL, **const tables[] = {&made};
     if (cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) &&
         cmd_begin_reading(&s, job.read.format)) {
         job.tip = indent.tip;

@@ -3,9 +3,8 @@
 #include "cmd/cmd.h"
 
 /* Requested tables in their order. */
-static const char requested_tables[] =
-    "validation validation_running_in validation_course validation_choices "
-    "validation_sources wear";
+static const char requested_tables[] = "validation validation_running_in validation_course "
+                                       "validation_sources wear";
 
 static wt_status fail_missing_validation(cmd_session *s)
 {
@@ -51,8 +50,7 @@ int cmd_validate(int argc, char **argv)
             "Does the theory explain the friction that was measured? Records of a tribometer, "
             "or results of weartrack record, are compared with what a case predicts at their "
             "velocities, with and without the layer: explains, does not, or inconclusive; the "
-            "shear stress that the record asks for; where the error comes from; and which "
-            "choices of the model the record leaves.",
+            "shear stress that the record asks for; and where the error comes from.",
         .common = "output formats columns provenance",
         .notes = "Without a RECORD those of the case (<record>) are taken."};
     cmd_session s = cmd_session_defaults();

@@ -238,18 +238,6 @@ static wt_status temperature_factors(const wt_rubber *rubber, const wt_rubber_dr
     return WT_OK;
 }
 
-wt_status flow_rubber_shift(const wt_rubber *rubber, double temperature, rubber_shift *shift,
-                            wt_error *err)
-{
-    bool held = false;
-    *shift = (rubber_shift){.a = 1, .b = 1};
-    const wt_status status = temperature_factors(rubber, NULL, 1, WT_NO_REPLICATE, &temperature,
-                                                 &shift->a, &shift->b, &held, err);
-    if (status == WT_OK)
-        write_extrapolation_note(rubber, temperature, held, shift->statement);
-    return status;
-}
-
 wt_status wt_rubber_material(const wt_rubber *rubber, double temperature, uint64_t seed,
                              size_t replicate, wt_material **material, char statement[256],
                              wt_error *err)

@@ -17,14 +17,6 @@ wt_shift_law flow_rubber_shift_law(const wt_rubber *rubber, uint64_t seed, size_
 /* Returns true if the shift law reaches the temperature [K] (NaN: the reference). Otherwise the
  * error states the reason. */
 bool flow_rubber_can_shift(const wt_rubber *rubber, double temperature, wt_error *reason);
-/* Factors from the reference temperature to another one (NaN: the reference): E(w) =
- * E_reference(w a_T) / b_T. The statement is a warning, or "" if there is none. */
-typedef struct rubber_shift {
-    double a, b;
-    char statement[256];
-} rubber_shift;
-wt_status flow_rubber_shift(const wt_rubber *rubber, double temperature, rubber_shift *shift,
-                            wt_error *err) WT_NODISCARD;
 /* Parameters of a fractional Zener material, and the material as a rubber after a check of its
  * law. */
 wt_zener flow_zener_defaults(void);

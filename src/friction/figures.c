@@ -1,4 +1,5 @@
-/* Figures of the sliding contact: power spectrum, friction, contact area, length scales.
+/* Figures of the sliding contact: power spectrum, friction, contact area, length scales,
+ * direction of sliding.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -151,6 +152,73 @@ static void draw_transverse_isotropy(figure_drawing *d)
     text_add(&d->script, "unset multiplot\n");
 }
 
+/* ---- decades --------------------------------------------------------------------------------- */
+
+/* The table has at most three velocities, one block each. */
+enum { MAX_VELOCITIES = 3 };
+
+static size_t list_velocities(const table_view *table, double velocity[MAX_VELOCITIES])
+{
+    size_t n = 0;
+    for (size_t row = 0; row < table->n_rows; row++) {
+        const double v = friction_decades_get(table, row, FRICTION_DECADES_VELOCITY);
+        if ((n == 0 || v != velocity[n - 1]) && n < MAX_VELOCITIES)
+            velocity[n++] = v;
+    }
+    return n;
+}
+
+static void draw_decades(figure_drawing *d)
+{
+    static const unsigned columns[] = {FRICTION_DECADES_FROM, FRICTION_DECADES_TO,
+                                       FRICTION_DECADES_HYSTERESIS, FRICTION_DECADES_VELOCITY};
+    const schema_field *field = d->table->schema->columns;
+    double velocity[MAX_VELOCITIES];
+    value_span x = EMPTY_SPAN, y = EMPTY_SPAN;
+    const size_t n = list_velocities(d->table, velocity);
+    const int section = drawing_section(d, d->table, "decades", NULL, columns, COUNT_OF(columns),
+                                        COUNT_OF(columns));
+    if (section < 0)
+        return;
+    span_add_section(&x, d, section, 0, true);
+    span_add_section(&x, d, section, 1, true);
+    span_add(&y, 0, false);
+    span_add_section(&y, d, section, 2, false);
+    axis_log(d, "x", "Wavenumber q", &field[FRICTION_DECADES_FROM], x);
+    axis_linear(d, "y", "Hysteresis friction by the decade", &field[FRICTION_DECADES_HYSTERESIS],
+                y);
+    for (size_t k = 0; k < n; k++) {
+        char title[48];
+        wt_format_si(velocity[k], "m/s", 2, title, sizeof title);
+        /* bars within a decade: from the first velocity on the left to the last on the right */
+        plot_item(
+            d, section,
+            "(column(-1) == %zu ? sqrt($1*$2)*x_unit : NaN):($3/2):"
+            "($1*($2/$1)**%.3f*x_unit):($1*($2/$1)**%.3f*x_unit):(0):3 with boxxyerror ls %zu "
+            "fs solid 0.8 noborder",
+            k, ((double)k + 0.1) / (double)n, ((double)k + 0.9) / (double)n, 21 + k);
+        plot_title(d, title);
+    }
+    plot_end(d);
+}
+
+static void caption_decades(figure_drawing *d)
+{
+    text_format(&d->caption, " The most: %s.",
+                friction_decades_key_text(d->table, FRICTION_DECADES_KEY_STRONGEST));
+}
+
+/* ---- direction of sliding -------------------------------------------------------------------- */
+
+static void caption_anisotropy(figure_drawing *d)
+{
+    text_format(&d->caption,
+                " Power spectrum over its mean at an angle phi from the velocity: 1 + "
+                "%s. %s.",
+                anisotropy_key_text(d->table, ANISOTROPY_KEY_TEXTURE),
+                anisotropy_key_text(d->table, ANISOTROPY_KEY_EFFECT));
+}
+
 const figure_description figures_friction[] = {
     {.name = "power_spectrum",
      .in_depth = true,
@@ -266,5 +334,31 @@ const figure_description figures_friction[] = {
          "Hysteresis part of the friction coefficient against sliding velocity with the "
          "temperatures that sliding makes, and with rubber as warm as its surroundings.",
      .caption = caption_flash},
+    {.name = "friction_decades",
+     .title = "Which decades of the wavenumber make the friction",
+     .table = &friction_decades_schema,
+     .empty_reason = "no hysteresis friction of a decade is a number",
+     .caption_text =
+         "What the roughness of each decade of the wavenumber makes of the hysteresis friction "
+         "coefficient, at the slowest, the reference and the fastest velocity. The first and "
+         "the last decade may be cut by the ends of the power spectrum.",
+     .draw = draw_decades,
+     .caption = caption_decades},
+    {.name = "anisotropy",
+     .title = "What the direction of sliding does",
+     .table = &anisotropy_schema,
+     .data_title = "hysteresis",
+     .x = {ANISOTROPY_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{ANISOTROPY_HYSTERESIS, AXIS_FROM_ZERO, "Hysteresis friction coefficient"}},
+     .curves = {CURVE(ANISOTROPY_HYSTERESIS, LINE, .style = 21, .title = "against the velocity"),
+                CURVE(ANISOTROPY_SIDE, LINE, .style = 22, .title = "to the side"),
+                CURVE(ANISOTROPY_HYSTERESIS_WITHOUT, LINE, .style = 24,
+                      .title = "the same roughness in all directions")},
+     .empty_reason = "no hysteresis friction is a number",
+     .caption_text =
+         "Hysteresis part of the friction coefficient against sliding velocity on roughness "
+         "with a preferred direction, the force to its side over the load, and the friction "
+         "on roughness that is the same in all directions.",
+     .caption = caption_anisotropy},
     {.name = NULL},
 };

@@ -52,15 +52,6 @@ static const wt_param rows[] = {
     FRICTION_GAMMA(wt_sliding),
     FRICTION_STRAIN_FACTOR(wt_sliding),
     FRICTION_ANISOTROPY(wt_sliding),
-    {PARAM_LIST_OF("temperatures", wt_sliding, temperatures, n_temperatures, WT_Q_TEMPERATURE,
-                   ABOVE(0)),
-     .value = "T", .unset = "",
-     .help = "also a map of the friction at these temperatures of the rubber, such as "
-             "-20degC:60degC:lin:9 or a list; needs a WLF law"},
-    {PARAM_LIST_OF("pressures", wt_sliding, pressures, n_pressures, WT_Q_PRESSURE, ABOVE(0)),
-     .value = "P", .unset = "",
-     .help = "also a map of the friction at these nominal pressures, such as 0.1:1MPa:log:9 or a "
-             "list"},
     {PARAM_FLAG_OF("decades", wt_sliding, decades),
      .help = "also what each decade of the wavenumber makes of the friction"},
     FLASH_ROWS(wt_sliding, flash.),

@@ -268,48 +268,6 @@
     X(ENERGY_DENSITY_POWER, AS(energy_density), "power dissipated per volume", SI(POWER_DENSITY))
 #define ENERGY_DENSITY_KEYS(X) X(ENERGY_DENSITY_KEY_VELOCITY, "velocity", SI(VELOCITY))
 
-#define FRICTION_MAP_COLUMNS(X)                                                                    \
-    X(FRICTION_MAP_AGAINST, AS(against),                                                           \
-      "what this row belongs to: the temperatures, at the nominal pressure, or the pressures, at " \
-      "the nominal temperature",                                                                   \
-      TEXT)                                                                                        \
-    X(FRICTION_MAP_TEMPERATURE, AS(temperature), "temperature of the rubber", SI(TEMPERATURE))     \
-    X(FRICTION_MAP_PRESSURE, AS(pressure), "nominal pressure", SI(PRESSURE))                       \
-    X(FRICTION_MAP_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY))                       \
-    X(FRICTION_MAP_REDUCED_VELOCITY, AS(reduced_velocity),                                         \
-      "sliding velocity times the shift factor, at the reference temperature of the material",     \
-      SI(VELOCITY))                                                                                \
-    X(FRICTION_MAP_SHIFT_FACTOR, AS(shift_factor), "horizontal shift factor a_T", NUMBER)          \
-    X(FRICTION_MAP_TOTAL, "friction",                                                              \
-      "friction coefficient, hysteresis and shearing of the real contact", NUMBER, SHOWS(total),   \
-      NUMERICAL_ERROR(FRICTION_MAP_TOTAL))                                                         \
-    X(FRICTION_MAP_TOTAL_NUMERICAL_ERROR, "friction_numerical_error", "its numerical error",       \
-      NUMBER)                                                                                      \
-    X(FRICTION_MAP_HYSTERESIS, AS(hysteresis), "hysteresis friction", NUMBER,                      \
-      NUMERICAL_ERROR(FRICTION_MAP_HYSTERESIS))                                                    \
-    X(FRICTION_MAP_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error",                       \
-      "its numerical error", NUMBER)                                                               \
-    X(FRICTION_MAP_AREA_RATIO, AS(area_ratio), "real over nominal contact area", NUMBER,           \
-      NUMERICAL_ERROR(FRICTION_MAP_AREA_RATIO))                                                    \
-    X(FRICTION_MAP_AREA_RATIO_NUMERICAL_ERROR, "area_ratio_numerical_error",                       \
-      "its numerical error", NUMBER)                                                               \
-    X(FRICTION_MAP_EXTRAPOLATED_SHARE, AS(extrapolated_share),                                     \
-      "share of the hysteresis from frequencies not measured", NUMBER)
-
-#define FRICTION_MAP_KEYS(X)                                                                       \
-    X(FRICTION_MAP_KEY_PRESSURE, AS(pressure), SI(PRESSURE), LABEL("Nominal pressure"))            \
-    X(FRICTION_MAP_KEY_TEMPERATURE, AS(temperature), SI(TEMPERATURE),                              \
-      LABEL("Nominal temperature"))                                                                \
-    X(FRICTION_MAP_KEY_REFERENCE_TEMPERATURE, AS(reference_temperature), SI(TEMPERATURE),          \
-      LABEL("Reference temperature of the shift factors"))                                         \
-    X(FRICTION_MAP_KEY_SHEAR_STRESS, AS(shear_stress), SI(PRESSURE),                               \
-      LABEL("Shear stress of the real contact"))                                                   \
-    X(FRICTION_MAP_KEY_MATERIAL, AS(material), TEXT, LABEL("Material"))                            \
-    X(FRICTION_MAP_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement),           \
-      LABEL("Beyond what was measured"), OPTIONAL)                                                 \
-    X(FRICTION_MAP_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical),         \
-      LABEL("Numerical statement"), OPTIONAL)
-
 #define FRICTION_DECADES_COLUMNS(X)                                                                \
     X(FRICTION_DECADES_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY))                   \
     X(FRICTION_DECADES_FROM, AS(from), "first wavenumber of the decade", SI(WAVENUMBER))           \

@@ -1,5 +1,4 @@
-/* Job of a spot: roughness of a height image under the tip at its depth, and the residual imprint
- * in an image after the indentation.
+/* Job of a spot: roughness of a height image under the tip at its depth.
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "core/base/array.h"
@@ -26,16 +25,6 @@ typedef struct spot {
     char verdict[320];
 } spot;
 
-typedef struct imprint {
-    spot_shift shift;
-    double strain; /* largest change of the drift along the image, per length */
-    wt_interval depth, volume;
-    double deepest, deepest_x, deepest_y; /* from the first pixel [m] */
-    size_t places;
-    double *difference; /* at the pixels of the image before; NULL if not known; owned */
-    char verdict[320];
-} imprint;
-
 /* Adjacent positions over the image, each `radius` from the next and from the edges. */
 typedef struct spot_positions {
     size_t nx, ny;
@@ -45,12 +34,12 @@ typedef struct spot_positions {
 /* ---- image and positions --------------------------------------------------------------------- */
 
 /* Reads the height image that the job names from a file. Other images are freed. */
-static wt_status spot_image_read(const wt_spot_job *job, const char *path, const char *role,
-                                 const wt_job *work, wt_image *image, wt_error *err)
+static wt_status spot_image_read(const wt_spot_job *job, const char *path, const wt_job *work,
+                                 wt_image *image, wt_error *err)
 {
     const wt_file_set set = {.read = job->read};
     flow_file file = {.path = path, .name = path, .set = &set};
-    return flow_heights_read(&file, job->image, false, role, work, image, err);
+    return flow_heights_read(&file, job->image, false, "before", work, image, err);
 }
 
 static spot_positions spot_positions_create(const wt_height_map *f, double radius)
@@ -58,296 +47,6 @@ static spot_positions spot_positions_create(const wt_height_map *f, double radiu
     const double width = (double)(f->nx - 1) * f->dx, height = (double)(f->ny - 1) * f->dy;
     return (spot_positions){(size_t)fmax(0, floor(width / (2 * radius))),
                             (size_t)fmax(0, floor(height / (2 * radius))), radius};
-}
-
-/* ---- residual imprint ------------------------------------------------------------------------ */
-
-/* Smallest number of reference positions. Largest ratio of pixel sizes and of image sides. Steps
- * per contact radius of the search for the deepest change, and search distance in contact radii. */
-enum { MIN_REFERENCES = 8, MAX_SIZE_RATIO = 4, STEPS_PER_RADIUS = 4, SEARCH_RADII = 2 };
-
-/* Factor of the 97.5 % quantile for the largest of several deviates. The largest of 50 normal
- * deviates exceeds a further one by 4.43 in 2.5 % of cases, a single one by 1.96. At most 50
- * independent discs fit in the search distance of two radii. */
-static const double largest_of_many_factor = 4.43 / 1.96;
-
-/* Value at the spot minus the mean of the reference positions. Their scatter is its error. */
-static wt_interval subtract_reference_mean(double value, const double *others, size_t n)
-{
-    const moments m = sample_moments(others, n);
-    const double error = sqrt(m.variance * (1 + 1 / (double)n)),
-                 half_width = students_t_quantile((double)n - 1) * error;
-    return (wt_interval){value - m.mean, error, value - m.mean - half_width,
-                         value - m.mean + half_width};
-}
-
-/* Measures the depressions at reference positions. depth, volume: space for all positions. */
-static void measure_references(const wt_height_map *difference, const spot *s,
-                               const spot_positions *p, double *depth, double *volume, size_t *n)
-{
-    for (size_t k = 0; k < p->nx * p->ny; k++) {
-        const double x = p->radius * (2 * (double)(k % p->nx) + 1),
-                     y = p->radius * (2 * (double)(k / p->nx) + 1);
-        if (hypot(x - s->x, y - s->y) < 6 * s->contact + s->error)
-            continue;
-        const spot_depression other = spot_measure_depression(difference, x, y, s->contact);
-        if (isnan(other.depth) || isnan(other.volume))
-            continue;
-        depth[*n] = other.depth;
-        volume[(*n)++] = other.volume;
-    }
-}
-
-/* Finds the deepest change within the error of the position. */
-static void find_deepest(const wt_height_map *difference, const spot *s, imprint *to)
-{
-    enum { MAX_SEARCH_STEPS = 24 }; /* steps to each side; limits the run time */
-    const double search_radius = fmin(s->error, SEARCH_RADII * s->contact);
-    const int steps =
-        (int)fmin(MAX_SEARCH_STEPS, ceil(STEPS_PER_RADIUS * search_radius / s->contact));
-    for (int k = 0; k < (2 * steps + 1) * (2 * steps + 1); k++) {
-        const double x = s->x + search_radius * (k % (2 * steps + 1) - steps) / fmax(steps, 1),
-                     y = s->y + search_radius * (k / (2 * steps + 1) - steps) / fmax(steps, 1);
-        if (hypot(x - s->x, y - s->y) > search_radius * (1 + 1e-9))
-            continue;
-        const spot_depression depression = spot_measure_depression(difference, x, y, s->contact);
-        if (isnan(depression.depth) || depression.depth <= to->deepest)
-            continue;
-        to->deepest = depression.depth;
-        to->deepest_x = x;
-        to->deepest_y = y;
-    }
-}
-
-static void measure_imprint(const wt_height_map *difference, const spot *s, imprint *to)
-{
-    if (s->plane.n + s->plane.missing < SPOT_MIN_PIXELS)
-        return; /* there are far more positions than pixels */
-    const spot_positions p = spot_positions_create(difference, 2 * s->contact);
-    double *depth = wt_alloc(2 * (p.nx * p.ny + 1), sizeof *depth);
-    double *volume = depth + p.nx * p.ny + 1;
-    const spot_depression imprint_value =
-        spot_measure_depression(difference, s->x, s->y, s->contact);
-    measure_references(difference, s, &p, depth, volume, &to->places);
-    if (!isnan(imprint_value.depth) && !isnan(imprint_value.volume) &&
-        to->places >= MIN_REFERENCES) {
-        to->depth = subtract_reference_mean(imprint_value.depth, depth, to->places);
-        to->volume = subtract_reference_mean(imprint_value.volume, volume, to->places);
-        find_deepest(difference, s, to);
-        to->deepest -= imprint_value.depth - to->depth.value;
-    }
-    free(depth);
-}
-
-/* True if the change is significantly deeper than at the spot and than 0. Positions on the lines of
- * a depression look higher than they are. */
-static bool is_deeper_elsewhere(const imprint *to)
-{
-    return to->deepest - fmax(to->depth.value, 0) >
-           largest_of_many_factor * (to->depth.high - to->depth.value);
-}
-
-static void assess_imprint(const wt_image *before, const spot *s, imprint *to)
-{
-    char depth[32], error[32], high[32], around[32], deepest[32], x[32], y[32];
-    wt_format_si(to->depth.value, "m", 3, depth, sizeof depth);
-    wt_format_si(to->depth.standard_error, "m", 2, error, sizeof error);
-    wt_format_si(to->depth.high, "m", 2, high, sizeof high);
-    wt_format_si(4 * s->contact, "m", 3, around, sizeof around);
-    wt_format_si(to->deepest, "m", 3, deepest, sizeof deepest);
-    wt_format_si(to->deepest_x + before->x_min, "m", 4, x, sizeof x);
-    wt_format_si(to->deepest_y + before->y_min, "m", 4, y, sizeof y);
-    if (!to->shift.found && isnan(to->shift.overlap))
-        clocale_print(
-            to->verdict, sizeof to->verdict,
-            "inconclusive: there is no shift at which a quarter of the images has heights of "
-            "both; images of the same place would tell");
-    else if (!to->shift.found)
-        clocale_print(
-            to->verdict, sizeof to->verdict,
-            "inconclusive: the parts of the images do not agree how one lies beside the other "
-            "(overlap at the best shift %.0f %%); images of the same place that show more "
-            "around it would tell",
-            100 * to->shift.overlap);
-    else if (isnan(to->depth.value) && to->places < MIN_REFERENCES)
-        clocale_print(
-            to->verdict, sizeof to->verdict,
-            "inconclusive: %zu untouched places as large as the contact tell the error, %d are "
-            "needed; images that show more around it or a better known position would tell",
-            to->places, MIN_REFERENCES);
-    else if (isnan(to->depth.value))
-        clocale_print(
-            to->verdict, sizeof to->verdict,
-            "inconclusive: the images overlap in %.0f %%, and that does not hold %s about the "
-            "place, four contact radii; images that do would tell",
-            100 * to->shift.overlap, around);
-    else if (!(to->depth.standard_error > 0))
-        clocale_print(to->verdict, sizeof to->verdict,
-                      "inconclusive: both images have the same heights; an image taken after the "
-                      "indentation would tell");
-    else if (to->depth.low > 0)
-        clocale_print(to->verdict, sizeof to->verdict,
-                      "yes: %s deep over the contact, on average, standard error %s", depth, error);
-    else if (is_deeper_elsewhere(to))
-        clocale_print(
-            to->verdict, sizeof to->verdict,
-            "inconclusive: the change is deepest (%s) at x %s, y %s, within the error of the "
-            "position; that place instead would tell (--at-x, --at-y)",
-            deepest, x, y);
-    else if (to->depth.high < 0)
-        clocale_print(
-            to->verdict, sizeof to->verdict,
-            "inconclusive: the surface is higher after the indentation, or lower two to four "
-            "contact radii beside the place; a third image would tell whether it stays");
-    else
-        clocale_print(to->verdict, sizeof to->verdict,
-                      "none is seen%s: at most %s over the contact, on average",
-                      s->error > SEARCH_RADII * s->contact ? " within two contact radii" : "",
-                      high);
-}
-
-/* Checks the image sizes. Different pixel sizes are resampled; very different images are rejected.
- */
-static wt_status check_image_sizes(const wt_image *a, const wt_image *b, const char *path,
-                                   wt_error *err)
-{
-    const wt_height_map f = wt_image_height_map(a), g = wt_image_height_map(b);
-    const double ratios[] = {f.dx / g.dx, f.dy / g.dy, a->width / b->width, a->height / b->height};
-    bool good = true;
-    for (size_t i = 0; i < sizeof ratios / sizeof *ratios; i++)
-        good = good && ratios[i] >= 1.0 / MAX_SIZE_RATIO && ratios[i] <= MAX_SIZE_RATIO;
-    if (good)
-        return WT_OK;
-    char size[4][32];
-    const double sizes[] = {a->width, a->height, b->width, b->height};
-    for (size_t i = 0; i < 4; i++)
-        wt_format_si(sizes[i], "m", 4, size[i], sizeof size[i]);
-    const wt_status status = wt_fail(
-        err, WT_E_RANGE, "the image after the indentation is too different from the one before");
-    wt_error_file(err, path);
-    wt_error_expected(err, "sides and pixels within %d times of %zu x %zu pixels over %s x %s",
-                      MAX_SIZE_RATIO, a->n_columns, a->n_rows, size[0], size[1]);
-    wt_error_found(err, "%zu x %zu pixels over %s x %s", b->n_columns, b->n_rows, size[2], size[3]);
-    wt_error_advice(err, "take an image of the same area with as many pixels");
-    return status;
-}
-
-static double largest_strain(const double g[2][2])
-{
-    /* Largest singular value of the gradient. */
-    const double sum = hypot(g[0][0] + g[1][1], g[1][0] - g[0][1]),
-                 difference = hypot(g[0][0] - g[1][1], g[1][0] + g[0][1]);
-    return 0.5 * (sum + difference);
-}
-
-/* Compares two images with equal pixels. */
-static void compare_images(const wt_height_map *before, const wt_height_map *after, const spot *s,
-                           imprint *to)
-{
-    to->shift = spot_align(before, after, s->x, s->y, 3 * s->contact);
-    if (!to->shift.found)
-        return;
-    to->difference = wt_alloc(before->nx * before->ny, sizeof *to->difference);
-    spot_difference(before, after, &to->shift, to->difference);
-    wt_height_map changed = *before;
-    changed.z = to->difference;
-    to->strain = largest_strain((const double(*)[2])to->shift.gradient);
-    measure_imprint(&changed, s, to);
-}
-
-/* Returns an imprint of unknown values, for a job without an image after the indentation. */
-static imprint spot_empty_imprint(void)
-{
-    const double nan = (double)NAN;
-    const wt_interval unknown = {nan, nan, nan, nan};
-    return (imprint){.shift = {.overlap = nan},
-                     .strain = nan,
-                     .depth = unknown,
-                     .volume = unknown,
-                     .deepest = nan,
-                     .deepest_x = nan,
-                     .deepest_y = nan};
-}
-
-/* Measures the change at the spot in the image job->after. */
-static wt_status spot_imprint_find(const wt_spot_job *job, const wt_image *before, const spot *s,
-                                   const wt_job *work, imprint *to, wt_error *err)
-{
-    wt_image after = {.values = NULL};
-    wt_height_map resampled = {.z = NULL};
-    wt_status status = spot_image_read(job, job->after, "after", work, &after, err);
-    if (status == WT_OK)
-        status = check_image_sizes(before, &after, job->after, err);
-    if (status == WT_OK) {
-        const wt_height_map first = wt_image_height_map(before),
-                            second = wt_image_height_map(&after);
-        const bool same =
-            fabs(second.dx / first.dx - 1) < 1e-6 && fabs(second.dy / first.dy - 1) < 1e-6;
-        if (!same)
-            resampled = spot_resample(&second, first.dx, first.dy);
-        compare_images(&first, same ? &second : &resampled, s, to);
-        assess_imprint(before, s, to);
-    }
-    free((void *)resampled.z);
-    wt_image_clear(&after);
-    return status;
-}
-
-/* ---- map of the heights ---------------------------------------------------------------------- */
-
-/* Half width of the map in contact radii, so that imprint and undisturbed surface are visible. The
- * largest number of pixels suits a small figure. */
-enum { MAP_RADII = 5, MAX_MAP_PIXELS = 81 };
-
-/* Range of the pixels of an axis in the map. */
-typedef struct pixel_range {
-    size_t first, last, step;
-} pixel_range;
-
-static pixel_range select_pixels(double centre, double reach, double pixel, size_t n)
-{
-    const double low = fmax(0, ceil((centre - reach) / pixel)),
-                 high = fmin((double)(n - 1), floor((centre + reach) / pixel));
-    if (!(low <= high))
-        return (pixel_range){1, 0, 1};
-    const size_t first = (size_t)low, last = (size_t)high;
-    return (pixel_range){first, last, (last - first) / MAX_MAP_PIXELS + 1};
-}
-
-static double height_above_plane(const wt_height_map *f, const spot_plane *p, size_t i, size_t j,
-                                 double u, double v)
-{
-    return f->z[j * f->nx + i] - (p->height + p->slope_x * u + p->slope_y * v);
-}
-
-TABLE_ROW(spot_map, SPOT_MAP, double x, y, before, after, change;)
-
-/* Creates the table spot_map: the heights around the spot, and with `difference` those after it.
- * `difference` may be NULL. */
-static wt_status spot_map_create(const wt_height_map *before, const spot *s,
-                                 const double *difference, wt_table **table, wt_error *err)
-{
-    const double reach = MAP_RADII * s->contact, nan = (double)NAN;
-    const pixel_range x = select_pixels(s->x, reach, before->dx, before->nx),
-                      y = select_pixels(s->y, reach, before->dy, before->ny);
-    wt_height_map changed = *before;
-    spot_plane planes[2] = {spot_plane_fit(before, s->x, s->y, reach), {nan, nan, nan, nan, 0, 0}};
-    if (difference != NULL) {
-        changed.z = difference;
-        planes[1] = spot_plane_fit(&changed, s->x, s->y, reach);
-    }
-    table_writer t = table_begin(&spot_map_schema, err);
-    for (size_t j = y.first; j <= y.last; j += y.step)
-        for (size_t i = x.first; i <= x.last; i += x.step) {
-            const double u = (double)i * before->dx - s->x, v = (double)j * before->dy - s->y;
-            const double before_height = height_above_plane(before, &planes[0], i, j, u, v),
-                         change = difference != NULL
-                                      ? height_above_plane(&changed, &planes[1], i, j, u, v)
-                                      : nan;
-            TABLE_ADD(spot_map, &t, u, v, before_height, before_height + change, change);
-        }
-    spot_map_set_value(&t, SPOT_MAP_KEY_CONTACT_RADIUS, s->contact, 0, 0);
-    return table_end(&t, table);
 }
 
 /* ---- parameters ------------------------------------------------------------------------------ */
@@ -385,12 +84,6 @@ static const wt_param rows[] = {
     {PARAM_TEXT_OF("image", wt_spot_job, image), .value = "NAME",
      .unset = "the first image of heights", .flags = PARAM_NO_CASE,
      .help = "which image of a file: a part of its name, such as backward"},
-    {PARAM_TEXT_OF("after", wt_spot_job, after), .value = "FILE", .unset = "",
-     .flags = PARAM_NO_CASE, .help = "image of the spot after the indentation"},
-    {PARAM_FLAG_OF("map", wt_spot_job, map), .flags = PARAM_NO_CASE,
-     .help =
-         "the table spot_map, too: heights about the place before and after, of which weartrack "
-         "report makes a figure"},
 };
 PARAM_TABLE(wt_spot_job_params, wt_spot_job, rows, wt_spot_job_defaults, NO_PARTS)
 
@@ -518,79 +211,49 @@ static void find_roughness(const wt_spot_job *job, const wt_image *image, const 
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-TABLE_ROW(spot, SPOT, spot spot; imprint left; wt_interval roughness, ratio;
-          wt_estimate shift_x, shift_y;
-          double x, y, depth, tilt, limit, places, deepest_x, deepest_y;)
+TABLE_ROW(spot, SPOT, spot spot; wt_interval roughness, ratio; double x, y, depth, tilt, limit;)
 
 TABLE_KEYS(spot, SPOT, const char *tip, *image, *verdict; wt_estimate effect;)
 
 static wt_status add_spot_row(const wt_spot_job *job, const wt_image *image, const spot *s,
-                              const imprint *left, wt_table **table, wt_error *err)
+                              wt_table **table, wt_error *err)
 {
     const double nan = (double)NAN, depth = job->depth, rms = s->plane.rms;
     const wt_interval none = {nan, nan, nan, nan};
-    const bool has_roughness = !isnan(rms), found = left->shift.found;
-    const spot_shift *shift = &left->shift;
+    const bool has_roughness = !isnan(rms);
     char tip[256];
     table_writer t = table_begin(&spot_schema, err);
-    TABLE_ADD(
-        spot, &t, .spot = *s, .left = *left,
-        .roughness = has_roughness ? (wt_interval){rms, nan, s->low, s->high} : none,
-        .ratio =
-            has_roughness ? (wt_interval){rms / depth, nan, s->low / depth, s->high / depth} : none,
-        .shift_x = {found ? shift->x : nan, found ? shift->x_error : nan, 0, NULL},
-        .shift_y = {found ? shift->y : nan, found ? shift->y_error : nan, 0, NULL},
-        .x = s->x + image->x_min, .y = s->y + image->y_min, .depth = depth,
-        .tilt = has_roughness ? hypot(s->plane.slope_x, s->plane.slope_y) : nan,
-        .limit = roughness_limit(job, s), .places = job->after != NULL ? (double)left->places : nan,
-        .deepest_x = left->deepest_x + image->x_min, .deepest_y = left->deepest_y + image->y_min);
-    if (job->after != NULL)
-        spot_set_text(&t, SPOT_KEY_IMPRINT, left->verdict);
+    TABLE_ADD(spot, &t, .spot = *s,
+              .roughness = has_roughness ? (wt_interval){rms, nan, s->low, s->high} : none,
+              .ratio = has_roughness
+                           ? (wt_interval){rms / depth, nan, s->low / depth, s->high / depth}
+                           : none,
+              .x = s->x + image->x_min, .y = s->y + image->y_min, .depth = depth,
+              .tilt = has_roughness ? hypot(s->plane.slope_x, s->plane.slope_y) : nan,
+              .limit = roughness_limit(job, s));
     wt_tip_describe(&job->tip, tip, sizeof tip);
     TABLE_SET(spot, &t, tip, image->name, s->verdict, {job->largest_effect, 0, 0, NULL});
     return table_end(&t, table);
 }
 
-void wt_spot_tables_clear(wt_spot_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->spot);
-    wt_table_free(tables->spot_map);
-    *tables = (wt_spot_tables){0};
-}
-
 wt_status wt_spot_compute(const wt_spot_job *job, const char *path, const wt_job *work,
-                          wt_spot_tables *tables, wt_error *err)
+                          wt_table **table, wt_error *err)
 {
-    if (job == NULL || path == NULL || work == NULL || tables == NULL)
+    if (job == NULL || path == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no image of a spot");
     wt_image image = {.values = NULL};
-    wt_height_map field = {.z = NULL};
     spot s = {0};
-    imprint left = spot_empty_imprint();
-    wt_spot_tables result = {0};
     wt_status status = param_check(wt_spot_job_params(), job, err);
     if (status == WT_OK)
         status = wt_tip_check(&job->tip, err);
     if (status == WT_OK)
-        status = spot_image_read(job, path, "before", work, &image, err);
+        status = spot_image_read(job, path, work, &image, err);
     if (status == WT_OK) {
-        field = wt_image_height_map(&image);
+        const wt_height_map field = wt_image_height_map(&image);
         find_roughness(job, &image, &field, &s);
+        status = add_spot_row(job, &image, &s, table, err);
     }
-    if (status == WT_OK && job->after != NULL)
-        status = spot_imprint_find(job, &image, &s, work, &left, err);
-    if (status == WT_OK)
-        status = add_spot_row(job, &image, &s, &left, &result.spot, err);
-    if (status == WT_OK && job->map)
-        status = spot_map_create(&field, &s, left.difference, &result.spot_map, err);
     cost_report(work, (cost_summary){.items = 1});
-    if (status == WT_OK)
-        *tables = result;
-    else
-        wt_spot_tables_clear(&result);
-    free(left.difference);
     wt_image_clear(&image);
     return status;
 }

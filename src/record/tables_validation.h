@@ -41,15 +41,6 @@
 #define KEY_BOUNDS(X, ID, name, unit, heading)                                                     \
     X(ID##_LOW, name "_low", unit, LABEL(heading ", 95 % interval from"), OPTIONAL)                \
     X(ID##_HIGH, name "_high", unit, LABEL("to"), OPTIONAL)
-/* Ranges over all model choices, and over those that hold 95 % of the weight. */
-#define KEY_RANGE(X, ID, name, unit, heading)                                                      \
-    X(ID##_ALL_LOW, name "_all_low", unit, LABEL(heading ", over all choices of the model from"),  \
-      OPTIONAL)                                                                                    \
-    X(ID##_ALL_HIGH, name "_all_high", unit, LABEL("to"), OPTIONAL)                                \
-    X(ID##_KEPT_LOW, name "_kept_low", unit,                                                       \
-      LABEL(heading ", over those that the record leaves from"), OPTIONAL)                         \
-    X(ID##_KEPT_HIGH, name "_kept_high", unit, LABEL("to"), OPTIONAL)
-
 /* Whether the theory explains the record: as given, or with the shear stress that the record asks
  * for if this is plausible. */
 #define VALIDATION_OUTCOMES(X)                                                                     \
@@ -89,10 +80,6 @@
     KEY_BOUNDS(X, VALIDATION_KEY_CUTOFF, "largest_wavenumber_needed", SI(WAVENUMBER), "q1 needed") \
     X(VALIDATION_KEY_CUTOFF_NOTE, "largest_wavenumber_note", TEXT,                                 \
       LABEL("Largest wavenumber q1 needed"), OPTIONAL)                                             \
-    KEY_RANGE(X, VALIDATION_KEY_FRICTION, "friction", NUMBER, "Friction coefficient")              \
-    KEY_RANGE(X, VALIDATION_KEY_LAYERED, "friction_with_layer", NUMBER,                            \
-              "Friction coefficient with layer")                                                   \
-    KEY_RANGE(X, VALIDATION_KEY_THICKNESS, "thickness", SI(LENGTH), "Layer thickness")             \
     X(VALIDATION_KEY_WEAR_RATIO, "wear_ratio", UNIT("1"),                                          \
       LABEL("Specific wear rate, measured over used"), OPTIONAL)                                   \
     KEY_BOUNDS(X, VALIDATION_KEY_WEAR_RATIO, "wear_ratio", NUMBER, "Wear rate ratio")              \
@@ -106,34 +93,6 @@
     X(VALIDATION_KEY_STEPS, "n_steps", PLAIN, LABEL("Steps that were compared"))                   \
     X(VALIDATION_KEY_LEFT_OUT, "n_left_out", PLAIN, LABEL("Steps that were not"))                  \
     X(VALIDATION_KEY_REMARKS, "remarks", TEXT, LABEL("Assumed"), OPTIONAL)
-
-/* Each row is a row of the table "what_if" with the likelihood of the record. */
-#define VALIDATION_CHOICES_COLUMNS(X)                                                              \
-    X(VALIDATION_CHOICES_CHOICE, AS(choice), "the choice that is moved; the first row: none",      \
-      TEXT, LABEL("Choice"))                                                                       \
-    X(VALIDATION_CHOICES_TRIED, "alternative", "value in this row", TEXT, SHOWS(tried),            \
-      LABEL("Alternative"))                                                                        \
-    X(VALIDATION_CHOICES_RATIO, AS(ratio), "mean of measured over predicted", NUMBER,              \
-      LABEL("Measured over predicted"))                                                            \
-    X(VALIDATION_CHOICES_TREND, AS(trend), "change of the ratio with a decade of velocity",        \
-      NUMBER, LABEL("per decade"), SPARSE)                                                         \
-    X(VALIDATION_CHOICES_VERDICT, AS(verdict), "explains, does not, or inconclusive", TEXT,        \
-      LABEL("Verdict"))                                                                            \
-    X(VALIDATION_CHOICES_LIKELIHOOD, AS(log_likelihood),                                           \
-      "natural logarithm of the likelihood of the record", NUMBER, LABEL("ln likelihood"))         \
-    X(VALIDATION_CHOICES_WEIGHT, AS(weight),                                                       \
-      "share of the likelihood of all rows, each as likely as the others before, where the "       \
-      "theory may be off by the margin",                                                           \
-      NUMBER, LABEL("Weight"))                                                                     \
-    X(VALIDATION_CHOICES_KEPT, AS(kept),                                                           \
-      "1: it is of the fewest rows that hold 95 % of the "                                         \
-      "weight",                                                                                    \
-      YES_NO, LABEL("Left by the record"))                                                         \
-    X(VALIDATION_CHOICES_NOTE, AS(note), "why there is no number", TEXT,                           \
-      LABEL("Not compared because"))
-#define VALIDATION_CHOICES_KEYS(X)                                                                 \
-    X(VALIDATION_CHOICES_KEY_JUDGED, "judged", TEXT, LABEL("Likelihood of"))                       \
-    X(VALIDATION_CHOICES_KEY_NARROWS, "narrows", TEXT, LABEL("What the record leaves"))
 
 /* Prefix of a source that consists of the errors of the DMA and of the surface scans. */
 #define VALIDATION_MATERIAL_PREFIX "material"

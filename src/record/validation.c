@@ -1,5 +1,4 @@
-/* Validation job: measured over predicted friction, the required inputs, and the likelihood of the
- * model choices.
+/* Validation job: measured over predicted friction, and the required inputs.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/validation.h"
 #include "core/base/clocale.h"
@@ -198,7 +197,6 @@ void wt_validation_tables_clear(wt_validation_tables *tables)
     if (tables == NULL)
         return;
     wt_table_free(tables->validation);
-    wt_table_free(tables->choices);
     wt_table_free(tables->sources);
     *tables = (wt_validation_tables){0};
 }
@@ -330,22 +328,6 @@ static void set_ratio_interval(const validation *v, table_writer *t)
                              (double)NAN);
 }
 
-static void set_ranges(const choice_ranges *r, table_writer *t)
-{
-    static const struct {
-        case_quantity number;
-        validation_key all, kept;
-    } keys[] = {
-        {CASE_QUANTITY_FRICTION, VALIDATION_KEY_FRICTION_ALL_LOW, VALIDATION_KEY_FRICTION_KEPT_LOW},
-        {CASE_QUANTITY_WITH_LAYER, VALIDATION_KEY_LAYERED_ALL_LOW, VALIDATION_KEY_LAYERED_KEPT_LOW},
-        {CASE_QUANTITY_THICKNESS, VALIDATION_KEY_THICKNESS_ALL_LOW,
-         VALIDATION_KEY_THICKNESS_KEPT_LOW}};
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
-        for (unsigned end = 0; end < 4; end++) /* both limits of a range are adjacent */
-            set_bound(t, (validation_key)((end < 2 ? keys[i].all : keys[i].kept) + end % 2),
-                      (end < 2 ? r->all : r->kept)[keys[i].number][end % 2]);
-}
-
 /* Compares the measured wear rate with that of the layer. */
 static wt_status set_wear(const validation *v, table_writer *t, wt_error *err)
 {
@@ -391,8 +373,8 @@ static void set_predicted_layer_keys(const validation *v, table_writer *t)
                    flow_stated_estimate(v->layer_observation->ratio_slope));
 }
 
-static wt_status set_validation_keys(const validation *v, const choice_ranges *ranges,
-                                     const source_advice *advice, table_writer *t, wt_error *err)
+static wt_status set_validation_keys(const validation *v, const source_advice *advice,
+                                     table_writer *t, wt_error *err)
 {
     set_outcome(v, t);
     set_verdicts(v, t);
@@ -406,8 +388,6 @@ static wt_status set_validation_keys(const validation *v, const choice_ranges *r
         validation_set(t, VALIDATION_KEY_SHEAR, flow_stated_estimate(v->used.sliding.shear_stress));
     required_shear_set_keys(v, t);
     wt_status status = v->has_shear ? required_cutoff_set_keys(v, t, err) : WT_OK;
-    if (ranges != NULL)
-        set_ranges(ranges, t);
     if (status == WT_OK)
         status = set_wear(v, t, err);
     validation_set_print(t, VALIDATION_KEY_STEPS, "%zu", v->steps.n);
@@ -468,15 +448,8 @@ static wt_status begin_validation(validation *v, wt_error *err)
 static wt_status make_validation_tables(const validation *v, wt_validation_tables *tables,
                                         wt_error *err)
 {
-    choice_ranges ranges = {.narrows = ""};
     source_advice advice = {.narrows = ""};
-    table_view what_if = {0};
     wt_status status = error_sources_tabulate(v, &advice, &tables->sources, err);
-    if (status == WT_OK && v->job->what_if != NULL && v->has_shear) {
-        status = table_bind(v->job->what_if, &what_if_schema, "", &what_if, err);
-        if (status == WT_OK)
-            status = model_choices_tabulate(v, &what_if, &ranges, &tables->choices, err);
-    }
     if (status != WT_OK)
         return status;
     table_writer t = table_begin(&validation_schema, err);
@@ -488,8 +461,7 @@ static wt_status make_validation_tables(const validation *v, wt_validation_table
         }
         add_step(v, i, &t);
     }
-    const choice_ranges *const held = tables->choices != NULL ? &ranges : NULL;
-    t.status = t.status == WT_OK ? set_validation_keys(v, held, &advice, &t, err) : t.status;
+    t.status = t.status == WT_OK ? set_validation_keys(v, &advice, &t, err) : t.status;
     return table_end(&t, &tables->validation);
 }
 

@@ -153,14 +153,4 @@ const char *draw_source_name(flow_draw draw, const char **remedy);
 wt_status error_sources_tabulate(const validation *v, source_advice *advice, wt_table **table,
                                  wt_error *err) WT_NODISCARD;
 
-/* Ranges of the numbers in the table "validation_choices", over all rows and over those that the
- * record selects. */
-typedef struct choice_ranges {
-    double all[CASE_QUANTITIES][2], kept[CASE_QUANTITIES][2]; /* NaN if unknown */
-    char narrows[320];
-} choice_ranges;
-wt_status model_choices_tabulate(const validation *v, const table_view *what_if,
-                                 choice_ranges *ranges, wt_table **table,
-                                 wt_error *err) WT_NODISCARD;
-
 #endif

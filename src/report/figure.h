@@ -87,9 +87,9 @@ typedef enum page_section {
 
 /* Figures in the order of the page; each list ends with a row without a name. */
 extern const figure_description figures_indentation[], figures_surface[], figures_master[],
-    figures_dma[], figures_payne[], figures_friction[], figures_friction_maps[], figures_record[],
-    figures_validation[], figures_layer[], figures_what_if[], figures_accuracy[],
-    figures_collection[], figures_constants[];
+    figures_dma[], figures_payne[], figures_friction[], figures_record[], figures_validation[],
+    figures_layer[], figures_what_if[], figures_accuracy[], figures_collection[],
+    figures_constants[];
 const figure_description *figure_find(size_t i); /* NULL past the last one */
 page_section figure_section(size_t i);           /* PAGE_SECTIONS past the last one */
 

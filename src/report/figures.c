@@ -11,14 +11,19 @@ typedef struct figure_list {
     page_section section;
 } figure_list;
 
-static const figure_list lists[] = {
-    {figures_indentation, SECTION_INDENTATION}, {figures_surface, SECTION_SURFACE},
-    {figures_master, SECTION_MATERIAL},         {figures_dma, SECTION_INDENTATION},
-    {figures_payne, SECTION_MATERIAL},          {figures_friction, SECTION_FRICTION},
-    {figures_friction_maps, SECTION_FRICTION},  {figures_record, SECTION_FRICTION},
-    {figures_validation, SECTION_FRICTION},     {figures_layer, SECTION_LAYER},
-    {figures_what_if, SECTION_UNCERTAINTY},     {figures_collection, SECTION_COLLECTION},
-    {figures_constants, SECTION_COLLECTION},    {figures_accuracy, SECTION_UNCERTAINTY}};
+static const figure_list lists[] = {{figures_indentation, SECTION_INDENTATION},
+                                    {figures_surface, SECTION_SURFACE},
+                                    {figures_master, SECTION_MATERIAL},
+                                    {figures_dma, SECTION_INDENTATION},
+                                    {figures_payne, SECTION_MATERIAL},
+                                    {figures_friction, SECTION_FRICTION},
+                                    {figures_record, SECTION_FRICTION},
+                                    {figures_validation, SECTION_FRICTION},
+                                    {figures_layer, SECTION_LAYER},
+                                    {figures_what_if, SECTION_UNCERTAINTY},
+                                    {figures_collection, SECTION_COLLECTION},
+                                    {figures_constants, SECTION_COLLECTION},
+                                    {figures_accuracy, SECTION_UNCERTAINTY}};
 
 /* Returns the figure, and the list that has it. */
 static const figure_description *find_in_lists(size_t i, const figure_list **list)

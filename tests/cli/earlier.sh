@@ -36,16 +36,16 @@ done
 "$weartrack" validate -q "$fixtures/case/stated-road.xml" record.tsv -o validation.tsv
 
 # Results of versions before 0.9, which named tables, columns and keys otherwise.
-"$weartrack" table -q validation.tsv validation_choices >present.tsv
-sed -e 's/alternative/tried/' validation.tsv >former.tsv
+"$weartrack" table -q friction.tsv what_if >present.tsv
+sed -e 's/alternative/tried/' friction.tsv >former.tsv
 grep -q tried former.tsv
-"$weartrack" table -q former.tsv validation_choices >read.tsv
+"$weartrack" table -q former.tsv what_if >read.tsv
 cmp present.tsv read.tsv
 
 # The verdict "inconclusive" of these versions was "cannot say", in keys and in cells.
-sed 's/	does not	/	cannot say	/' validation.tsv >cell.tsv
+sed 's/	not computed	/	cannot say	/' validation.tsv >cell.tsv
 grep -q '	cannot say	' cell.tsv
-"$weartrack" table -q cell.tsv validation_choices >cells.tsv
+"$weartrack" table -q cell.tsv answer >cells.tsv
 grep -q '	inconclusive	' cells.tsv
 ! grep -q 'cannot say' cells.tsv
 

@@ -72,8 +72,6 @@ static const struct {
     {"heat-diffusivity", "2e-7m^2/s", "flash-temperature yes", NULL},
     {"anisotropy", "0.6", NULL, NULL},
     {"texture-angle", "30deg", "anisotropy 0.6", NULL},
-    {"temperatures", "10degC,30degC", NULL, NULL},
-    {"pressures", "0.1MPa,1MPa", NULL, NULL},
     {"layer-thickness", "2um", NULL, NULL},
     {"expected-thickness", "2um", NULL, NULL},
     {"modulus-ratio", "0.7", NULL, NULL},

@@ -82,7 +82,7 @@ static const struct {
 /* What the energy of a layer knows nothing of is an option of friction alone. */
 static bool is_of_friction(const char *name)
 {
-    static const char *const names[] = {"temperatures", "decades", "pressures"};
+    static const char *const names[] = {"decades"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(names[i], name) == 0)
             return true;

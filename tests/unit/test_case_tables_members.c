@@ -10,21 +10,21 @@
 /* clang-format off */
 #define ROWS(X) \
     X(indentation) X(curves) X(overrides) X(force_displacement) X(force_indentation) X(modulus_depth) X(modulus_budget) \
-    X(payne_sweep) X(payne) X(ramp) X(glass_transition) X(moduli_at) X(spot) X(spot_map) \
+    X(payne_sweep) X(payne) X(ramp) X(glass_transition) X(moduli_at) X(spot) \
     X(modulus_groups) X(modulus_rate) X(dma_comparison) X(comparison) X(track_layer) X(friction) X(transverse_isotropy) \
     X(softening) X(contact_area) X(layer) \
     X(error_budget) X(work_precision) X(cost) X(notes) X(data_quality) X(limits) X(answer) X(map_curves) X(map_segments) \
     X(shift_factors) X(master_curve) X(relaxation_spectrum) X(material_draws) \
     X(dwell_dma) X(power_spectrum) X(place_errors) X(angular_spectrum) X(surfaces) X(height_map) X(height_profile) X(scan_spectra) X(prony) X(series_draws) X(prony_reduced) X(roughness) X(energy_density) \
     X(failures) X(methods) X(map_channels) X(dwell_points) X(dwell_moduli) X(record) X(record_cycles) X(wear) \
-    X(identification) X(validation) X(validation_running_in) X(validation_course) X(validation_choices) X(validation_sources) \
-    X(anisotropy) X(friction_map) X(friction_decades) X(flash) X(collection) X(collected_modulus) \
+    X(identification) X(validation) X(validation_running_in) X(validation_course) X(validation_sources) \
+    X(anisotropy) X(friction_decades) X(flash) X(collection) X(collected_modulus) \
     X(collected_friction) X(collected_force) X(shared_constants) X(shared_members) X(ratio_pairs) X(collected_constants) X(shared_pairs) \
    
 #define KEYS(X) \
     X(modulus_depth) X(modulus_budget) X(glass_transition) X(spot) X(dma_comparison) \
     X(comparison) X(track_layer) X(friction) X(softening) X(layer) X(master_curve) X(prony) \
-    X(dwell_dma) X(cost) X(power_spectrum) X(angular_spectrum) X(surfaces) X(anisotropy) X(friction_map) X(friction_decades) X(flash) \
+    X(dwell_dma) X(cost) X(power_spectrum) X(angular_spectrum) X(surfaces) X(anisotropy) X(friction_decades) X(flash) \
     X(collection) X(collected_friction) X(shared_constants) X(ratio_pairs) X(shared_pairs)
 /* clang-format on */
 

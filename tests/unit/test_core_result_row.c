@@ -112,59 +112,12 @@ static void test_no_rows(void **state)
     wt_result_free(result);
 }
 
-/* A map alone has its largest and its smallest friction, with their conditions; the total where a
- * shear stress is known. */
-static void test_rows_of_a_map(void **state)
-{
-    (void)state;
-    static const double hysteresis[] = {0.3, 0.837, 0.0348, (double)NAN};
-    for (int total = 0; total < 2; total++) {
-        wt_result *result = wt_result_new();
-        wt_table *map = NULL;
-        result_rows rows;
-        table_writer w = table_begin(&friction_map_schema, NULL);
-        for (size_t i = 0; i < sizeof hysteresis / sizeof *hysteresis; i++) {
-            table_row(&w);
-            for (unsigned k = 0; k < friction_map_schema.n_columns; k++) {
-                const double none = (double)NAN,
-                             number = k == FRICTION_MAP_VELOCITY         ? 0.01 * (double)(i + 1)
-                                      : k == FRICTION_MAP_TEMPERATURE    ? 293.15
-                                      : k == FRICTION_MAP_HYSTERESIS     ? hysteresis[i]
-                                      : k == FRICTION_MAP_TOTAL && total ? 1 - hysteresis[i]
-                                                                         : none;
-                if (friction_map_schema.columns[k].kind == SCHEMA_TEXT)
-                    friction_map_put_text(&w, (friction_map_column)k, "temperature");
-                else
-                    friction_map_put(&w, (friction_map_column)k, number);
-            }
-        }
-        for (unsigned k = 0; k < friction_map_schema.n_keys; k++)
-            if (friction_map_schema.keys[k].kind == SCHEMA_TEXT)
-                friction_map_set_text(&w, (friction_map_key)k, "text");
-            else
-                friction_map_set_value(&w, (friction_map_key)k, 300, (double)NAN, 0);
-        assert_int_equal(table_end(&w, &map), WT_OK);
-        assert_int_equal(wt_result_add(result, map, NULL), WT_OK);
-        result_rows_compute(result, &rows);
-        assert_int_equal(rows.n, 2);
-        assert_string_equal(rows.rows[0].name,
-                            total ? "largest friction" : "largest friction by hysteresis");
-        assert_near(rows.rows[0].number.value, total ? 1 - 0.0348 : 0.837, 1e-12);
-        assert_near(rows.rows[1].number.value, total ? 1 - 0.837 : 0.0348, 1e-12);
-        assert_non_null(
-            strstr(rows.rows[0].note, total ? "30.0 mm/s, 20.0 degC" : "20.0 mm/s, 20.0 degC"));
-        result_rows_clear(&rows);
-        wt_result_free(result);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_intervals_of_every_width),
         cmocka_unit_test(test_forms),
         cmocka_unit_test(test_no_rows),
-        cmocka_unit_test(test_rows_of_a_map),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

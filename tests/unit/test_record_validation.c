@@ -14,7 +14,7 @@
 enum { STEPS = 13 };
 static double velocity[STEPS];
 static wt_layer_observation observation;
-static wt_table *record, *what_if;
+static wt_table *record;
 static size_t at_rest = SIZE_MAX; /* row of the record */
 static bool by_rotation;          /* which alone says so */
 static double warm; /* temperature of every second row, of the others none; 0: of none */
@@ -294,6 +294,8 @@ static void test_cutoff(void **state)
     assert_true(key_of(t.validation, "largest_wavenumber_needed_low") < 0.8 * surface.q1);
     assert_true(key_of(t.validation, "largest_wavenumber_needed_high") > 0.8 * surface.q1);
     assert_int_equal(wt_table_block(t.validation, STEPS - 1), 0); /* alike: one line of a figure */
+    check_ends(t.validation, "ratio");
+    check_ends(t.validation, "shear_stress_needed");
     wt_validation_tables_clear(&t);
 }
 
@@ -371,48 +373,6 @@ static void test_sources(void **state)
     assert_true(fabs(sum - 1) < 1e-9);
     assert_true(shear > 0.5 * 0.04 && shear < 0.04); /* more than half is shearing */
     wt_validation_tables_clear(&t);
-}
-
-/* The likeliest row is the one that the record was made with. */
-static void test_choices(void **state)
-{
-    (void)state;
-    set_up();
-    make_record(5e6, 0.1 * surface.q1, 0, 0.003, false);
-    const size_t draws = work.replicates;
-    work.replicates = 0;
-    assert_int_equal(wt_model_sensitivity_compute(&sliding, NULL, NULL, &work, &what_if, NULL),
-                     WT_OK);
-    work.replicates = draws;
-    wt_validation_job job = job_of(false);
-    job.what_if = what_if;
-    wt_validation_tables t = made(&job);
-    size_t best = 0;
-    double sum = 0;
-    assert_int_equal(wt_table_n_rows(t.choices), wt_table_n_rows(what_if));
-    for (size_t i = 0; i < wt_table_n_rows(t.choices); i++) {
-        sum += number_cell(t.choices, i, "weight");
-        if (number_cell(t.choices, i, "weight") > number_cell(t.choices, best, "weight"))
-            best = i;
-    }
-    assert_true(fabs(sum - 1) < 1e-9);
-    assert_string_equal(text_cell(t.choices, best, "choice"), "largest wavenumber q1");
-    assert_string_equal(text_cell(t.choices, best, "alternative"), "2e5 rad/m");
-    assert_true(fabs(number_cell(t.choices, best, "ratio") - 1) < 1e-6);
-    assert_true(key_of(t.validation, "friction_kept_low") >=
-                key_of(t.validation, "friction_all_low"));
-    assert_true(key_of(t.validation, "friction_kept_high") <=
-                key_of(t.validation, "friction_all_high"));
-    check_ends(t.validation, "friction_all");
-    check_ends(t.validation, "friction_kept");
-    check_ends(t.validation, "ratio");
-    check_ends(t.validation, "shear_stress_needed");
-    wt_estimate used;
-    assert_true(wt_table_estimate(t.validation, "shear_stress", &used));
-    assert_true(used.standard_error == sliding.shear_stress.standard_error);
-    wt_validation_tables_clear(&t);
-    wt_table_free(what_if);
-    what_if = NULL;
 }
 
 /* Without a shear stress there is no verdict, and the shear stress is told all the same. */
@@ -569,23 +529,14 @@ static int tear_down(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_needed),
-        cmocka_unit_test(test_endless_layer),
-        cmocka_unit_test(test_layer_shear),
-        cmocka_unit_test(test_slope),
-        cmocka_unit_test(test_layer_said),
-        cmocka_unit_test(test_few_replicates),
-        cmocka_unit_test(test_cutoff),
-        cmocka_unit_test(test_cutoff_of_spectrum),
-        cmocka_unit_test(test_verdicts),
-        cmocka_unit_test(test_sources),
-        cmocka_unit_test(test_choices),
-        cmocka_unit_test(test_no_shear),
-        cmocka_unit_test(test_below_hysteresis),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_rest),
-        cmocka_unit_test(test_temperatures),
-        cmocka_unit_test(test_no_replicates),
+        cmocka_unit_test(test_needed),       cmocka_unit_test(test_endless_layer),
+        cmocka_unit_test(test_layer_shear),  cmocka_unit_test(test_slope),
+        cmocka_unit_test(test_layer_said),   cmocka_unit_test(test_few_replicates),
+        cmocka_unit_test(test_cutoff),       cmocka_unit_test(test_cutoff_of_spectrum),
+        cmocka_unit_test(test_verdicts),     cmocka_unit_test(test_sources),
+        cmocka_unit_test(test_no_shear),     cmocka_unit_test(test_below_hysteresis),
+        cmocka_unit_test(test_threads),      cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_temperatures), cmocka_unit_test(test_no_replicates),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, tear_down);

@@ -125,10 +125,6 @@ static void test_whole_tables(void **state)
         next_is(&s, (chosen){.table = whole[i][1]});
         end_sections(&s);
     }
-    sections spot = begin_sections("spot_map");
-    for (size_t i = 0; i < 3; i++)
-        next_is(&spot, (chosen){.table = "spot_map"});
-    end_sections(&spot);
     sections ramp = begin_sections("ramp"), payne = begin_sections("payne");
     next_is(&ramp, (chosen){.table = "ramp"});
     for (size_t i = 0; i < 2; i++)

@@ -94,9 +94,6 @@ typedef enum flow_optional_input_id {
     X(ANISOTROPY, anisotropy, "What the direction of sliding does",                                \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(GIVEN_ANISOTROPY), 0, FLOW_OPTIONAL_NONE,         \
       B(ANISOTROPY), flow_step_anisotropy)                                                         \
-    X(FRICTION_MAP, friction_map, "Friction at several temperatures and pressures",                \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_MAP), 0, FLOW_OPTIONAL_NONE,            \
-      B(FRICTION_MAP), flow_step_friction_map)                                                     \
     X(FRICTION_DECADES, friction_decades, "Friction by decades of the wavenumber",                 \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_DECADES), 0, FLOW_OPTIONAL_NONE,        \
       B(FRICTION_DECADES), flow_step_friction_decades)                                             \
@@ -110,8 +107,8 @@ typedef enum flow_optional_input_id {
       B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_OPTIONAL_THICKNESS, B(WHAT_IF),              \
       flow_step_what_if)                                                                           \
     X(VALIDATION, validation, "Measured friction against predicted friction",                      \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(RECORD) | B(WHAT_IF), 0, FLOW_OPTIONAL_LAYER,     \
-      B(VALIDATION) | B(VALIDATION_CHOICES) | B(VALIDATION_SOURCES), flow_step_validation)         \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(RECORD), 0, FLOW_OPTIONAL_LAYER,                  \
+      B(VALIDATION) | B(VALIDATION_SOURCES), flow_step_validation)                                 \
     X(VALIDATION_RUNNING_IN, validation_running_in, "Measured running-in against the layer",       \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
           B(RECORD) | B(RECORD_CYCLES),                                                            \

@@ -411,12 +411,6 @@ wt_status flow_step_anisotropy(flow_run *run, wt_error *err)
     return wt_anisotropic_friction_compute(&sliding, &run->job, &run->table[FLOW_ANISOTROPY], err);
 }
 
-wt_status flow_step_friction_map(flow_run *run, wt_error *err)
-{
-    const wt_sliding sliding = flow_run_sliding(run);
-    return wt_friction_map_compute(&sliding, &run->job, &run->table[FLOW_FRICTION_MAP], err);
-}
-
 wt_status flow_step_friction_decades(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);

@@ -20,11 +20,9 @@ wt_status flow_step_validation(flow_run *run, wt_error *err)
     job.layer_observation = run->level > 0 ? &layer : NULL;
     job.record = run->table[FLOW_RECORD];
     job.wear = run->table[FLOW_WEAR];
-    job.what_if = run->table[FLOW_WHAT_IF];
     if (status == WT_OK)
         status = wt_validation_compute(&job, &run->job, &tables, err);
     flow_run_store_table(run, FLOW_VALIDATION, &tables.validation);
-    flow_run_store_table(run, FLOW_VALIDATION_CHOICES, &tables.choices);
     flow_run_store_table(run, FLOW_VALIDATION_SOURCES, &tables.sources);
     return status;
 }

@@ -89,7 +89,6 @@
       "Deflection sensitivity of every curve", "sensitivity")                                      \
     X(thermal, THERMAL, "thermal", "Spring constant by thermal noise", "thermal")                  \
     X(spot, SPOT, "spot", "Roughness and imprint of a spot", "spot")                               \
-    X(spot_map, SPOT_MAP, "spot_map", "Heights about a spot", "spot")                              \
     X(modulus_groups, MODULUS_GROUPS, "modulus_groups", "Modulus of the groups", "compare")        \
     X(modulus_budget, MODULUS_BUDGET, "modulus_budget",                                            \
       "Error budget of the moduli of the groups", "compare")                                       \
@@ -150,8 +149,6 @@
       "What the directions of the material do", "friction")                                        \
     X(softening, SOFTENING, "softening", "What softening with strain does", "friction")            \
     X(anisotropy, ANISOTROPY, "anisotropy", "What the direction of sliding does", "friction")      \
-    X(friction_map, FRICTION_MAP, "friction_map",                                                  \
-      "Friction against velocity at several temperatures and pressures", "friction")               \
     X(friction_decades, FRICTION_DECADES, "friction_decades",                                      \
       "Friction by decades of the wavenumber", "friction")                                         \
     X(flash, FLASH, "flash_temperature", "What the flash temperature does", "friction")            \
@@ -166,8 +163,6 @@
       "Running-in with the layer against records", "validate")                                     \
     X(validation_course, VALIDATION_COURSE, "validation_course",                                   \
       "Friction in running-in, measured and predicted", "validate")                                \
-    X(validation_choices, VALIDATION_CHOICES, "validation_choices",                                \
-      "What the record says of the choices of the model", "validate")                              \
     X(validation_sources, VALIDATION_SOURCES, "validation_sources",                                \
       "Where the error of measured over predicted comes from", "validate")                         \
     X(error_budget, ERROR_BUDGET, "error_budget", "Error budget", "accuracy")                      \

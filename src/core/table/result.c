@@ -152,7 +152,6 @@ static const struct {
     {"plan", "because", "reason"},
     {"plan", "gives", "produces"},
     {"prony_reduced", "better", "preferred_model"},
-    {"validation_choices", "tried", "alternative"},
     {"what_if", "tried", "alternative"},
     {NULL, "anisotropy_chance", "anisotropy_p"},
     {NULL, "baseline_chance", "baseline_p"},

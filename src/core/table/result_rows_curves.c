@@ -234,8 +234,7 @@ static void add_thermal(rows_source *s, const table_view *v)
 
 static void add_spot(rows_source *s, const table_view *v)
 {
-    const char *verdict = spot_key_text(v, SPOT_KEY_VERDICT),
-               *imprint = spot_key_text(v, SPOT_KEY_IMPRINT);
+    const char *verdict = spot_key_text(v, SPOT_KEY_VERDICT);
     if (v->n_rows == 0)
         return;
     rows_add_number(s, 0,
@@ -250,13 +249,6 @@ static void add_spot(rows_source *s, const table_view *v)
     rows_note(row, "limit %s", rows_short(spot_get(v, 0, SPOT_LIMIT), "1").value);
     if (verdict != NULL)
         rows_add_verdict(s, 0, verdict, "too rough");
-    if (imprint == NULL)
-        return;
-    rows_add_number(s, 0,
-                    rows_number(spot_get(v, 0, SPOT_IMPRINT), spot_get(v, 0, SPOT_IMPRINT_LOW),
-                                spot_get(v, 0, SPOT_IMPRINT_HIGH), "m"),
-                    "imprint that stayed");
-    rows_add_verdict(s, 0, imprint, "imprint");
 }
 
 static void add_track_layer(rows_source *s, const table_view *v)

@@ -120,52 +120,11 @@ static void add_error_budget(rows_source *s, const table_view *v)
     }
 }
 
-static void append_condition(result_row *row, double value, const char *unit)
-{
-    if (!isnan(value))
-        clocale_append(row->note, sizeof row->note, "%s%s", row->note[0] != '\0' ? ", " : "",
-                       rows_short(value, unit).value);
-}
-
-static double map_friction(const table_view *v, size_t row)
-{
-    const double total = friction_map_get(v, row, FRICTION_MAP_TOTAL);
-    return isnan(total) ? friction_map_get(v, row, FRICTION_MAP_HYSTERESIS) : total;
-}
-
-/* Largest and smallest friction of a map, with their conditions. */
-static void add_friction_map(rows_source *s, const table_view *v)
-{
-    size_t largest = v->n_rows, smallest = v->n_rows;
-    for (size_t i = 0; i < v->n_rows; i++) {
-        const double friction = map_friction(v, i);
-        if (isnan(friction))
-            continue;
-        largest = largest == v->n_rows || friction > map_friction(v, largest) ? i : largest;
-        smallest = smallest == v->n_rows || friction < map_friction(v, smallest) ? i : smallest;
-    }
-    const size_t rows[] = {largest, smallest};
-    for (size_t k = 0; k < 2 && largest < v->n_rows; k++) {
-        const size_t i = rows[k];
-        const double none = (double)NAN;
-        const bool known = !isnan(friction_map_get(v, i, FRICTION_MAP_TOTAL));
-        result_row *row =
-            rows_add_number(s, 0, rows_number(map_friction(v, i), none, none, "1"), "%s friction%s",
-                            k == 0 ? "largest" : "smallest", known ? "" : " by hysteresis");
-        append_condition(row, friction_map_get(v, i, FRICTION_MAP_VELOCITY), "m/s");
-        append_condition(row, friction_map_get(v, i, FRICTION_MAP_TEMPERATURE), "degC");
-        append_condition(row, friction_map_get(v, i, FRICTION_MAP_PRESSURE), "Pa");
-        clocale_append(row->note, sizeof row->note, "; no interval: a map has no standard errors");
-    }
-}
-
 void rows_of_sliding(rows_source *s)
 {
     table_view view;
     if (rows_bind(s, &friction_schema, &view))
         add_friction(s, &view);
-    else if (rows_bind(s, &friction_map_schema, &view))
-        add_friction_map(s, &view);
     if (rows_bind(s, &layer_schema, &view))
         add_layer(s, &view);
     if (rows_bind(s, &identification_schema, &view))
@@ -175,6 +134,13 @@ void rows_of_sliding(rows_source *s)
 }
 
 /* ---- records --------------------------------------------------------------------------------- */
+
+static void append_condition(result_row *row, double value, const char *unit)
+{
+    if (!isnan(value))
+        clocale_append(row->note, sizeof row->note, "%s%s", row->note[0] != '\0' ? ", " : "",
+                       rows_short(value, unit).value);
+}
 
 static void add_record(rows_source *s, const table_view *v)
 {

@@ -1,5 +1,4 @@
-/* Friction over temperature and pressure, by decades and to the side: against the friction job at
- * each temperature and pressure, and sums.
+/* Friction by decades of the wavenumber and to the side: against the friction job, and sums.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
 #include "sliding.h"
@@ -9,10 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { VELOCITIES = 5, TEMPERATURES = 3, PRESSURES = 3 };
+enum { VELOCITIES = 5 };
 static const double velocity[VELOCITIES] = {0.01, 0.03, 0.1, 0.3, 1};
-static const double temperatures[TEMPERATURES] = {273.15, 293.15, 323.15};
-static const double pressures[PRESSURES] = {0.1e6, 0.4e6, 1e6};
 static double shifted[3] = {263.15, 293.15, 333.15}, log_b[3] = {-0.08, 0, 0.05};
 
 /* Shifted both ways. */
@@ -29,15 +26,6 @@ static void set_up(void)
     work.replicates = 0;
 }
 
-static wt_table *make_map(void)
-{
-    wt_table *table = NULL;
-    wt_error err = WT_ERROR_INIT;
-    if (wt_friction_map_compute(&sliding, &work, &table, &err) != WT_OK)
-        fail_msg("%s %s", err.message, err.found);
-    return table;
-}
-
 /* What the friction job says at a temperature and a pressure. */
 static wt_table *make_friction(double temperature, double pressure)
 {
@@ -47,107 +35,6 @@ static wt_table *make_friction(double temperature, double pressure)
     there.pressure.value = pressure;
     assert_int_equal(wt_sliding_friction_compute(&there, NULL, &work, &tables, NULL), WT_OK);
     return tables.friction;
-}
-
-static void check_line(const wt_table *map, size_t first, const char *against, double temperature,
-                       double pressure)
-{
-    static const char *const columns[] = {"friction", "hysteresis", "area_ratio"};
-    wt_table *friction = make_friction(temperature, pressure);
-    for (size_t i = 0; i < VELOCITIES; i++) {
-        const size_t row = first + i;
-        assert_string_equal(text_cell(map, row, "against"), against);
-        assert_near(number_cell(map, row, "temperature"), temperature, 0);
-        assert_near(number_cell(map, row, "pressure"), pressure, 0);
-        assert_near(number_cell(map, row, "velocity"), velocity[i], 0);
-        const double a = wt_shift_law_log_a(&rubber.law, temperature);
-        assert_near(number_cell(map, row, "shift_factor"), pow(10, a), 1e-13);
-        assert_near(number_cell(map, row, "reduced_velocity"), velocity[i] * pow(10, a), 1e-13);
-        for (size_t k = 0; k < 3; k++) {
-            char error[64];
-            snprintf(error, sizeof error, "%s_numerical_error", columns[k]);
-            const double stated = number_cell(map, row, error) + number_cell(friction, i, error);
-            assert_true(stated > 0);
-            assert_near_abs(number_cell(map, row, columns[k]), number_cell(friction, i, columns[k]),
-                            stated);
-        }
-        assert_near_abs(number_cell(map, row, "extrapolated_share"),
-                        number_cell(friction, i, "extrapolated_share"), 2e-5);
-    }
-    wt_table_free(friction);
-}
-
-static void check_map(void)
-{
-    wt_table *map = make_map();
-    assert_int_equal(wt_table_n_rows(map), (TEMPERATURES + PRESSURES) * VELOCITIES);
-    for (size_t k = 0; k < TEMPERATURES; k++)
-        check_line(map, k * VELOCITIES, "temperature", temperatures[k], 0.4e6);
-    for (size_t k = 0; k < PRESSURES; k++)
-        check_line(map, (TEMPERATURES + k) * VELOCITIES, "pressure", 303.15, pressures[k]);
-    wt_table_free(map);
-}
-
-/* One preparation at the reference temperature gives what each temperature gives. */
-static void map_is_friction(void **state)
-{
-    (void)state;
-    set_up();
-    sliding.temperature.value = 303.15;
-    sliding.temperatures = temperatures;
-    sliding.n_temperatures = TEMPERATURES;
-    sliding.pressures = pressures;
-    sliding.n_pressures = PRESSURES;
-    check_map();
-    sliding.anisotropy.amplitude[0] = 0.6;
-    sliding.anisotropy.angle[0] = 0.5;
-    sliding.gamma = 0.5;
-    check_map();
-    rubber.kind = WT_RUBBER_ZENER;
-    rubber.zener = (wt_zener){.e0 = 5e6, .eg = 2e9, .tau = 1e-6, .alpha = 0.4};
-    check_map();
-}
-
-static void map_says_what_it_is(void **state)
-{
-    (void)state;
-    set_up();
-    sliding.temperatures = temperatures;
-    sliding.n_temperatures = TEMPERATURES;
-    wt_table *map = make_map();
-    assert_near(strtod(wt_table_key(map, "pressure"), NULL), 0.4e6, 0);
-    assert_near(strtod(wt_table_key(map, "reference_temperature"), NULL), 293.15, 0);
-    assert_null(wt_table_key(map, "material_statement"));
-    wt_table_free(map);
-    rubber.temperature_max = 300;
-    map = make_map();
-    assert_non_null(strstr(wt_table_key(map, "material_statement"), "outside the isotherms"));
-    wt_table_free(map);
-    rubber.temperature_min = 280;
-    map = make_map();
-    assert_non_null(strstr(wt_table_key(map, "material_statement"), "at 2 of 3 temperatures"));
-    wt_table_free(map);
-}
-
-static void map_that_cannot_be(void **state)
-{
-    (void)state;
-    wt_table *map = NULL;
-    wt_error err = WT_ERROR_INIT;
-    set_up();
-    assert_int_equal(wt_friction_map_compute(&sliding, &work, &map, &err), WT_E_ARG);
-    static const double cold[] = {150, 293.15};
-    sliding.temperatures = cold;
-    sliding.n_temperatures = 2;
-    assert_int_equal(wt_friction_map_compute(&sliding, &work, &map, &err), WT_E_RANGE);
-    assert_non_null(strstr(err.found, "-123.15"));
-    rubber.law.kind = WT_LAW_NONE;
-    assert_int_equal(wt_friction_map_compute(&sliding, &work, &map, &err), WT_E_MISSING);
-    sliding.anisotropy.amplitude[0] = 0.9;
-    sliding.anisotropy.amplitude[1] = -0.9;
-    assert_int_equal(wt_friction_map_compute(&sliding, &work, &map, &err), WT_E_RANGE);
-    assert_non_null(strstr(err.message, "negative"));
-    assert_null(map);
 }
 
 /* ---- decades --------------------------------------------------------------------------------- */
@@ -265,9 +152,6 @@ static void sides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(map_is_friction),
-        cmocka_unit_test(map_says_what_it_is),
-        cmocka_unit_test(map_that_cannot_be),
         cmocka_unit_test(decades_add_up),
         cmocka_unit_test(decades_have_the_shearing),
         cmocka_unit_test(decades_end_at_decades),
