@@ -227,7 +227,6 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"friction", "title 'shearing'", "velocity adhesion"},
         {"friction", "title 'total with layer'", "velocity friction_with_layer"},
         {"contact_area", "lines lw 1.8", "magnification area_ratio velocity"},
-        {"contact_area", "lines lw 1.8 dt (6,3)", "magnification isotropic_area_ratio velocity"},
         {"friction_scales", "lines lw 1.8", "magnification hysteresis velocity"},
         {"transverse_isotropy", "title 'isotropic'", "velocity hysteresis"},
         {"friction_collapse", "($1*x_unit)", "velocity hysteresis temperature"},
