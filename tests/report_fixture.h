@@ -400,7 +400,6 @@ static inline void fixture_accuracy(wt_case *read)
     }
     fixture_of_case("transverse", "transverse_isotropy");
     fixture_of_case("texture", "anisotropy");
-    fixture_of_case("texture", "friction_map");
     fixture_of_case("texture", "friction_decades");
     fixture_of_case("layer", "identification");
 }
@@ -418,7 +417,8 @@ static inline wt_result *fixture_labelled(const char *sample, const char *condit
 {
     static const char *const names[] = {
         "answer", "comparison",        "modulus_rate",     "modulus_budget",    "friction",
-        "layer",  "force_indentation", "indentation/bulk", "indentation/track", "identification"};
+        "layer",  "force_indentation", "indentation/bulk", "indentation/track", "identification",
+        "ramp"};
     const fixture_change no_change = {.table = "answer"},
                          no_pair = {.table = "identification", .edit = fixture_no_pair};
     wt_result *labelled = wt_result_new();
@@ -475,6 +475,7 @@ static inline void fixture_collection(void)
     fixture_check(wt_result_add(fixture_case, tables.collection, NULL));
     fixture_check(wt_result_add(fixture_case, tables.collected_modulus, NULL));
     fixture_check(wt_result_add(fixture_case, tables.collected_friction, NULL));
+    fixture_check(wt_result_add(fixture_case, tables.collected_ramp, NULL));
     fixture_check(wt_result_add(fixture_case, tables.collected_force, NULL));
     fixture_check(wt_result_add(fixture_case, tables.ratio_pairs, NULL));
     fixture_check(wt_result_add(fixture_case, tables.shared_constants, NULL));

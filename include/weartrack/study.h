@@ -142,8 +142,9 @@ WT_API const wt_params *wt_collect_job_params(void);
 
 /* Tables of these names. NULL: no case has data for it, or there is no pair. */
 typedef struct wt_collection_tables {
-    wt_table *collection, *collected_modulus, *collected_friction, *collected_force, *ratio_pairs,
-        *shared_constants, *shared_members, *collected_constants, *shared_pairs;
+    wt_table *collection, *collected_modulus, *collected_friction, *collected_ramp,
+        *collected_force, *ratio_pairs, *shared_constants, *shared_members, *collected_constants,
+        *shared_pairs;
 } wt_collection_tables;
 WT_API void wt_collection_tables_clear(wt_collection_tables *tables);
 /* Compares cases. Modulus ratios of pairs count as independent. For shared constants, errors from

@@ -15,11 +15,13 @@ static size_t read_collected_cases(cmd_session *s, wt_collected_result *cases, w
             path, path, &s->work, (wt_tables_role){"result", "result", "what weartrack run wrote"},
             &result, &s->err);
         if (read == WT_OK && wt_result_find(result, "answer") == NULL &&
-            wt_result_find(result, "force_indentation") == NULL) {
+            wt_result_find(result, "force_indentation") == NULL &&
+            wt_result_find(result, "ramp") == NULL) {
             read = wt_fail(&s->err, WT_E_NOT_FOUND,
                            "this is no result of a case, and no curve of it has a modulus");
             wt_error_file(&s->err, path);
-            wt_error_advice(&s->err, "give what weartrack run wrote; beside it, weartrack indent "
+            wt_error_advice(&s->err, "give what weartrack run wrote or, for moduli against "
+                                     "temperature, weartrack ramp; beside it, weartrack indent "
                                      "with --curves median; a hard particle tells a modulus only "
                                      "under a stiff cantilever");
         }
@@ -49,9 +51,11 @@ int cmd_collect(int argc, char **argv)
             "have in common: wear rate, shear stress, rate dependence, critical energy. RESULT "
             "may be an output "
             "of weartrack indent, too, such as that of a particle of the filler, whose curve "
-            "stands beside.",
+            "stands beside, or of weartrack ramp, whose moduli stand in one picture with those of "
+            "others.",
         .common = "output files-from provenance",
-        .notes = "The tables collection, collected_modulus, collected_friction, collected_force, "
+        .notes = "The tables collection, collected_modulus, collected_friction, collected_ramp, "
+                 "collected_force, "
                  "ratio_pairs, shared_constants, shared_members, collected_constants and "
                  "shared_pairs follow one another; weartrack "
                  "report draws them.",
@@ -72,10 +76,11 @@ int cmd_collect(int argc, char **argv)
         cmd_end(&s, WT_OK);
     } else
         status = wt_collection_compute(cases, n, &job, &tables, &s.err);
-    wt_table **const made_tables[] = {
-        &tables.collection,      &tables.collected_modulus,   &tables.collected_friction,
-        &tables.collected_force, &tables.ratio_pairs,         &tables.shared_constants,
-        &tables.shared_members,  &tables.collected_constants, &tables.shared_pairs};
+    wt_table **const made_tables[] = {&tables.collection,          &tables.collected_modulus,
+                                      &tables.collected_friction,  &tables.collected_ramp,
+                                      &tables.collected_force,     &tables.ratio_pairs,
+                                      &tables.shared_constants,    &tables.shared_members,
+                                      &tables.collected_constants, &tables.shared_pairs};
     if (n > 0 || status != WT_OK)
         cmd_finish(&s, status, made_tables, COUNT_OF(made_tables));
     for (size_t i = 0; i < n; i++)

@@ -105,6 +105,14 @@ static void caption_flash(figure_drawing *d)
         text_format(&d->caption, " Without one: %s.", none);
 }
 
+static void caption_contact_area(figure_drawing *d)
+{
+    value_span isotropic = EMPTY_SPAN;
+    span_add_column(&isotropic, d->table, CONTACT_AREA_ISOTROPIC, true);
+    if (!span_is_empty(&isotropic))
+        text_add(&d->caption, " Solid: transversely isotropic rubber. Dashed: the isotropic one.");
+}
+
 /* ---- directions ------------------------------------------------------------------------------ */
 
 static void draw_transverse_isotropy(figure_drawing *d)
@@ -258,11 +266,13 @@ const figure_description figures_friction[] = {
         .x = {CONTACT_AREA_MAGNIFICATION, AXIS_LOG, "Magnification ζ = q/q₀"},
         .y = {{CONTACT_AREA_AREA_RATIO, AXIS_LOG, "Contact area A/A₀"}},
         .colour = {CONTACT_AREA_VELOCITY, AXIS_LOG, "Sliding velocity"},
-        .curves = {CURVE(CONTACT_AREA_AREA_RATIO, LINE, .style = 21)},
+        .curves = {CURVE(CONTACT_AREA_AREA_RATIO, LINE, .style = 21),
+                   CURVE(CONTACT_AREA_ISOTROPIC, LINE, .style = 24, .dashed = true)},
         .empty_reason = "no number to draw",
         .caption_text =
             "Share of the nominal contact area that is in contact when roughness up to the "
             "magnification is seen; one line for each sliding velocity.",
+        .caption = caption_contact_area,
     },
     {
         .name = "friction_scales",

@@ -16,41 +16,60 @@
 #define CONTACT_POINTS_PER_DECADE 20
 
 TABLE_ROW(contact_area, CONTACT_AREA, double velocity, magnification, wavenumber;
-          wt_friction_node node;)
+          wt_friction_node node; double isotropic;)
 
-static void add_area_block(const sliding_contact *c, double velocity, const double *q, size_t n,
-                           wt_friction_node *nodes, table_writer *t, cost_summary *cost)
+/* nodes: [2 n] The second half is of the isotropic rubber, if there is such a contact. */
+static void add_area_block(const sliding_contact *c, const sliding_contact *isotropic,
+                           double velocity, const double *q, size_t n, wt_friction_node *nodes,
+                           table_writer *t, cost_summary *cost)
 {
     if (t->status == WT_OK)
         t->status = wt_friction_profile(c->workspace, c->pressure, velocity, q, n, nodes, t->err);
+    if (t->status == WT_OK && isotropic != NULL)
+        t->status = wt_friction_profile(isotropic->workspace, c->pressure, velocity, q, n,
+                                        nodes + n, t->err);
     table_block(t);
     for (size_t i = 0; t->status == WT_OK && i < n; i++) {
-        TABLE_ADD(contact_area, t, velocity, q[i] / c->roughness->q0, q[i], nodes[i]);
+        TABLE_ADD(contact_area, t, velocity, q[i] / c->roughness->q0, q[i], nodes[i],
+                  isotropic != NULL ? nodes[n + i].area_ratio : (double)NAN);
         cost->items++;
         cost->error_estimated =
             fmax(cost->error_estimated, nodes[i].numerical_error / nodes[i].area_ratio);
     }
 }
 
-static void add_area_blocks(const wt_sliding *sliding, const sliding_contact *c, table_writer *t,
-                            cost_summary *cost)
+static void add_area_blocks(const wt_sliding *sliding, const sliding_contact *c,
+                            const sliding_contact *isotropic, table_writer *t, cost_summary *cost)
 {
     const double first = sliding->velocity[0], last = sliding->velocity[sliding->n_velocity - 1],
                  middle = flow_reference_velocity(sliding);
     const double decades = log10(c->roughness->q1 / c->roughness->q0);
     const size_t n = 2 + (size_t)ceil(decades * CONTACT_POINTS_PER_DECADE);
     double *q = wt_alloc(n, sizeof *q);
-    wt_friction_node *nodes = wt_alloc(n, sizeof *nodes);
+    wt_friction_node *nodes = wt_alloc(2 * n, sizeof *nodes);
     for (size_t i = 0; i < n; i++)
         q[i] = c->roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
     q[n - 1] = c->roughness->q1;
-    add_area_block(c, first, q, n, nodes, t, cost);
+    add_area_block(c, isotropic, first, q, n, nodes, t, cost);
     if (middle > first && middle < last)
-        add_area_block(c, middle, q, n, nodes, t, cost);
+        add_area_block(c, isotropic, middle, q, n, nodes, t, cost);
     if (last > first)
-        add_area_block(c, last, q, n, nodes, t, cost);
+        add_area_block(c, isotropic, last, q, n, nodes, t, cost);
     free(q);
     free(nodes);
+}
+
+/* The same rubber without its factors along the directions. */
+static wt_status create_isotropic_contact(const wt_sliding *sliding, const wt_job *work,
+                                          sliding_contact *contact, wt_error *err)
+{
+    wt_rubber rubber = *sliding->rubber;
+    wt_sliding isotropic = *sliding;
+    wt_job own = *work;
+    rubber.is_transverse = false;
+    isotropic.rubber = &rubber;
+    own.drawn = NULL; /* the cache is for another material */
+    return sliding_contact_create_stated(&isotropic, &own, contact, err);
 }
 
 wt_status wt_contact_area_compute(const wt_sliding *sliding, const wt_job *work, wt_table **table,
@@ -58,18 +77,24 @@ wt_status wt_contact_area_compute(const wt_sliding *sliding, const wt_job *work,
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no contact area to make");
-    sliding_contact c = {0};
+    sliding_contact c = {0}, isotropic = {0};
     wt_status status = flow_sliding_check(sliding, work, err);
-    if (status == WT_OK)
-        status = sliding_contact_create_stated(sliding, work, &c, err);
     if (status != WT_OK)
         return status;
-    table_writer t = table_begin(&contact_area_schema, err);
-    cost_summary cost = {.tolerance_asked = work->tolerance};
-    add_area_blocks(sliding, &c, &t, &cost);
-    cost_report(work, cost);
+    const bool transverse = sliding->rubber->is_transverse;
+    status = sliding_contact_create_stated(sliding, work, &c, err);
+    if (status == WT_OK && transverse)
+        status = create_isotropic_contact(sliding, work, &isotropic, err);
+    if (status == WT_OK) {
+        table_writer t = table_begin(&contact_area_schema, err);
+        cost_summary cost = {.tolerance_asked = work->tolerance};
+        add_area_blocks(sliding, &c, transverse ? &isotropic : NULL, &t, &cost);
+        cost_report(work, cost);
+        status = table_end(&t, table);
+    }
+    sliding_contact_clear(&isotropic);
     sliding_contact_clear(&c);
-    return table_end(&t, table);
+    return status;
 }
 
 /* ---- decades -------------------------------------------------------------------------------- */

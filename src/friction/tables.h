@@ -206,7 +206,10 @@
     X(CONTACT_AREA_AREA_RATIO, IN(node, area_ratio),                                               \
       "contact area seen at this magnification over the nominal area", NUMBER)                     \
     X(CONTACT_AREA_HYSTERESIS, IN(node, hysteresis), "hysteresis friction up to this wavenumber",  \
-      NUMBER)
+      NUMBER)                                                                                      \
+    X(CONTACT_AREA_ISOTROPIC, "isotropic_area_ratio",                                              \
+      "contact area of the isotropic rubber, where the material is transversely isotropic",        \
+      NUMBER, SPARSE, SHOWS(isotropic))
 #define CONTACT_AREA_KEYS(X)
 
 #define CRITICAL_ENERGY_ORIGINS(X)                                                                 \

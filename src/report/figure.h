@@ -43,6 +43,7 @@ typedef struct figure_curve {
     const char *title; /* title in the key; with groups, the name of the group; NULL = none */
     bool with_errors;  /* the data include its standard error and interval */
     int band;          /* style of a band of one standard error, 0 = none */
+    bool dashed;       /* a line whose colour has a meaning; else the style says it */
     bool above_zero;   /* drawn only where it is positive */
     size_t points;     /* about this number of points is drawn; 0 = all */
     size_t panel;      /* panel of its y axis */

@@ -265,8 +265,9 @@ static void plot_curve(figure_drawing *d, size_t group, const figure_curve *curv
     if (curve->points > 0)
         text_format(&item, " every %zu", drawing_stride(d, d->data[group], curve->points));
     if (is_coloured(d) && curve->form == CURVE_LINE)
-        text_format(&item, ":($%zu*cb_unit) with lines lw 1.8 lc palette",
-                    section_column(d, d->figure->colour.column) + 1);
+        text_format(&item, ":($%zu*cb_unit) with lines lw 1.8%s lc palette",
+                    section_column(d, d->figure->colour.column) + 1,
+                    curve->dashed ? " dt (6,3)" : "");
     else
         text_format(&item, " with %s ls %d", with[curve->form],
                     curve->style + (curve->form == CURVE_FIT ? 0 : drawing_group_style(d, group)));

@@ -11,6 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+TABLE_ROW(collected_ramp, COLLECTED_RAMP, const char *sample;
+          double temperature, angular_frequency, storage_modulus, loss_modulus;)
+TABLE_KEYS(collected_ramp, COLLECTED_RAMP, wt_deformation deformation; const char *left_out;)
 TABLE_ROW(collected_force, COLLECTED_FORCE, const char *sample, *condition, *place;
           double indentation, force;)
 
@@ -128,6 +131,116 @@ static wt_status collect_force(const collected_case *cases, size_t n,
     return end_or_drop(&w, table);
 }
 
+/* ---- moduli against temperature -------------------------------------------------------------- */
+
+/* Temperature sweeps of a case, or of an output of weartrack ramp, which has the name of its file.
+ */
+typedef struct sample_ramps {
+    char sample[256];
+    table_view ramp;
+} sample_ramps;
+
+static bool has_ramp_moduli(const table_view *ramp, size_t row)
+{
+    return ramp_get(ramp, row, RAMP_STORAGE_MODULUS) > 0 &&
+           ramp_get(ramp, row, RAMP_LOSS_MODULUS) > 0;
+}
+
+/* The cases of one sample may state its sweeps again: the first has them. */
+static wt_status list_ramps(const collected_case *cases, size_t n,
+                            const wt_collected_result *paired, size_t n_paired, sample_ramps *ramps,
+                            size_t *n_ramps, wt_error *err)
+{
+    *n_ramps = 0;
+    for (size_t i = 0; i < n + n_paired; i++) {
+        const bool is_case = i < n;
+        const char *const file = is_case ? cases[i].file : paired[i - n].file;
+        const collected_case of = {.result = is_case ? cases[i].result : paired[i - n].result,
+                                   .file = file};
+        sample_ramps *const r = &ramps[*n_ramps];
+        const wt_status status = collected_bind(&of, &ramp_schema, "", &r->ramp, err);
+        if (status != WT_OK)
+            return status;
+        (void)snprintf(r->sample, sizeof r->sample, "%s",
+                       is_case ? cases[i].sample : wt_path_base(file));
+        char *const dot = is_case ? NULL : strrchr(r->sample, '.');
+        if (dot != NULL && dot > r->sample)
+            *dot = '\0';
+        const bool again = is_case && *n_ramps > 0 && strcmp(r[-1].sample, r->sample) == 0;
+        *n_ramps += r->ramp.n_rows > 0 && !again;
+    }
+    return WT_OK;
+}
+
+/* Geometric mean of the frequencies of all rows that have both moduli; NaN without one. */
+static double mean_ramp_frequency(const sample_ramps *ramps, size_t n)
+{
+    double sum = 0, rows = 0;
+    for (size_t i = 0; i < n; i++)
+        for (size_t row = 0; row < ramps[i].ramp.n_rows; row++)
+            if (has_ramp_moduli(&ramps[i].ramp, row)) {
+                sum += log(ramp_get(&ramps[i].ramp, row, RAMP_ANGULAR_FREQUENCY));
+                rows++;
+            }
+    return exp(sum / rows);
+}
+
+/* Adds the sweeps of a sample at the one of its frequencies that is nearest to the given one. */
+static void add_ramps(table_writer *w, const sample_ramps *of, double frequency)
+{
+    const table_view *const ramp = &of->ramp;
+    double nearest = (double)INFINITY;
+    size_t before = SIZE_MAX;
+    for (size_t row = 0; row < ramp->n_rows; row++) {
+        const double own = ramp_get(ramp, row, RAMP_ANGULAR_FREQUENCY);
+        if (has_ramp_moduli(ramp, row) &&
+            !(fabs(log(own / frequency)) >= fabs(log(nearest / frequency))))
+            nearest = own;
+    }
+    for (size_t row = 0; row < ramp->n_rows; row++) {
+        if (!has_ramp_moduli(ramp, row) || ramp_get(ramp, row, RAMP_ANGULAR_FREQUENCY) != nearest)
+            continue;
+        if (wt_table_block(ramp->table, row) != before)
+            table_block(w);
+        before = wt_table_block(ramp->table, row);
+        TABLE_ADD(collected_ramp, w, of->sample, ramp_get(ramp, row, RAMP_TEMPERATURE), nearest,
+                  ramp_get(ramp, row, RAMP_STORAGE_MODULUS),
+                  ramp_get(ramp, row, RAMP_LOSS_MODULUS));
+    }
+}
+
+/* Creates the table "collected_ramp"; NULL if no result has both moduli of a temperature sweep.
+ * Moduli of tension and of shear are not set beside each other: those that are not of the kind of
+ * the first are left out. */
+static wt_status collect_ramps(const collected_case *cases, size_t n,
+                               const wt_collected_result *paired, size_t n_paired, wt_table **table,
+                               wt_error *err)
+{
+    sample_ramps *const ramps = wt_alloc(n + n_paired, sizeof *ramps);
+    size_t n_ramps = 0;
+    wt_status status = list_ramps(cases, n, paired, n_paired, ramps, &n_ramps, err);
+    if (status == WT_OK) {
+        const double frequency = mean_ramp_frequency(ramps, n_ramps);
+        table_writer w = table_begin(&collected_ramp_schema, err);
+        char left_out[512] = "";
+        int first = WT_TENSION;
+        for (size_t i = 0; i < n_ramps; i++) {
+            const int own = ramp_key_enum(&ramps[i].ramp, RAMP_KEY_DEFORMATION);
+            const size_t used = strlen(left_out);
+            first = i == 0 ? own : first;
+            if (own == first)
+                add_ramps(&w, &ramps[i], frequency);
+            else
+                (void)snprintf(left_out + used, sizeof left_out - used, "%s%s",
+                               used > 0 ? ", " : "", ramps[i].sample);
+        }
+        TABLE_SET(collected_ramp, &w, first == WT_SHEAR ? WT_SHEAR : WT_TENSION, left_out);
+        status = end_or_drop(&w, table);
+    }
+    free(ramps);
+    return status;
+}
+
 /* ---- parameters ------------------------------------------------------------------------------ */
 
 wt_collect_job wt_collect_job_defaults(void)
@@ -151,6 +264,7 @@ void wt_collection_tables_clear(wt_collection_tables *tables)
     wt_table_free(tables->collection);
     wt_table_free(tables->collected_modulus);
     wt_table_free(tables->collected_friction);
+    wt_table_free(tables->collected_ramp);
     wt_table_free(tables->collected_force);
     wt_table_free(tables->ratio_pairs);
     wt_table_free(tables->shared_constants);
@@ -166,7 +280,7 @@ TABLE_KEYS(collection, COLLECTION, double cases, samples, conditions;)
 TABLE_ROW(collected_modulus, COLLECTED_MODULUS, const char *sample, *condition, *place; double rate;
           wt_interval modulus;)
 TABLE_ROW(collected_friction, COLLECTED_FRICTION, const char *sample, *condition;
-          double velocity, friction, standard_error, with_layer;)
+          double velocity, friction, standard_error, with_layer, area_ratio;)
 TABLE_KEYS(collected_friction, COLLECTED_FRICTION, friction_part part;)
 
 /* ---- one case -------------------------------------------------------------------------------- */
@@ -331,11 +445,20 @@ static wt_status list_friction(const collected_case *cases, size_t n, wt_table *
                       friction_get(t, row,
                                    total ? FRICTION_TOTAL_STANDARD_ERROR
                                          : FRICTION_HYSTERESIS_STANDARD_ERROR),
-                      total ? friction_get(t, row, FRICTION_WITH_LAYER) : (double)NAN);
+                      total ? friction_get(t, row, FRICTION_WITH_LAYER) : (double)NAN,
+                      friction_get(t, row, FRICTION_AREA_RATIO));
         }
     }
     TABLE_SET(collected_friction, &w, total ? WHOLE_FRICTION : HYSTERESIS_ALONE);
     return table_end(&w, table);
+}
+
+static bool has_ramp(const wt_collected_result *paired, size_t n)
+{
+    bool found = false;
+    for (size_t i = 0; i < n && !found; i++)
+        found = wt_result_find(paired[i].result, ramp_schema.name) != NULL;
+    return found;
 }
 
 /* Reads the cases, sorted by sample. Results that are not cases go to the second array. */
@@ -353,6 +476,8 @@ static wt_status read_cases(const wt_collected_result *from, size_t n, collected
             return status;
         ++*n_cases;
     }
+    if (*n_cases == 0 && has_ramp(paired, n))
+        return WT_OK;
     if (*n_cases == 0) {
         const wt_status status = wt_fail(err, WT_E_EMPTY, "there is no case");
         wt_error_expected(err, "a result of weartrack run, beside which those of curves stand");
@@ -376,6 +501,8 @@ wt_status wt_collection_compute(const wt_collected_result *from, size_t n,
     if (status == WT_OK)
         status = read_cases(from, n, cases, &n_cases, paired, err);
     if (status == WT_OK)
+        status = collect_ramps(cases, n_cases, paired, n - n_cases, &tables->collected_ramp, err);
+    if (status == WT_OK && n_cases > 0)
         status = list_cases(cases, n_cases, &tables->collection, err);
     if (status == WT_OK)
         status = list_moduli(cases, n_cases, &tables->collected_modulus, err);

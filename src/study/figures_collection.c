@@ -144,6 +144,42 @@ static void draw_friction(figure_drawing *d)
     draw_grid(d, &g);
 }
 
+static void draw_area(figure_drawing *d)
+{
+    panel_grid g = {.panel = COLLECTED_FRICTION_CONDITION,
+                    .group = COLLECTED_FRICTION_SAMPLE,
+                    .data = {COLLECTED_FRICTION_VELOCITY, COLLECTED_FRICTION_AREA_RATIO},
+                    .n_data = 2};
+    draw_grid(d, &g);
+}
+
+/* The upper panel shows the storage modulus, the lower panel the loss modulus. */
+static void draw_ramps(figure_drawing *d)
+{
+    if (!drawing_build_data(d))
+        return;
+    const char letter =
+        modulus_letter(collected_ramp_key_enum(d->table, COLLECTED_RAMP_KEY_DEFORMATION));
+    d->height = 1.6;
+    text_format(&d->script, "set tmargin %zu\nset multiplot layout 2,1\n",
+                1 + (d->n_groups + 1) / 2);
+    for (size_t panel = 0; panel < FIGURE_PANELS; panel++) {
+        char label[64];
+        (void)snprintf(label, sizeof label, "%s modulus %c%s", panel == 0 ? "Storage" : "Loss",
+                       letter, panel == 0 ? "′" : "″");
+        drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+        drawing_axis(d, "y", &d->figure->y[panel], label, d->y[panel]);
+        for (size_t k = 0; k < d->n_groups; k++) {
+            plot_item(d, d->data[k], "($1+x_offset):($%zu*y_unit) with linespoints ls %zu",
+                      panel + 2, k + 1);
+            plot_title(d, d->groups[k]);
+        }
+        plot_end(d);
+        text_add(&d->script, "unset key\n");
+    }
+    text_add(&d->script, "unset multiplot\n");
+}
+
 static void draw_force(figure_drawing *d)
 {
     panel_grid g = {.panel = COLLECTED_FORCE_SAMPLE,
@@ -280,6 +316,34 @@ const figure_description figures_collection[] = {
          "condition.",
      .draw = draw_friction,
      .caption = caption_collected_friction},
+    {.name = "collected_area",
+     .title = "Contact area of all samples against velocity",
+     .table = &collected_friction_schema,
+     .by_group = true,
+     .group = COLLECTED_FRICTION_SAMPLE,
+     .x = {COLLECTED_FRICTION_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{COLLECTED_FRICTION_AREA_RATIO, AXIS_FROM_ZERO, "Contact area A/A₀"}},
+     .curves = {CURVE(COLLECTED_FRICTION_AREA_RATIO, OWN)},
+     .empty_reason = "no case has a contact area",
+     .caption_text =
+         "Real over nominal contact area of every sample without the modified layer, a panel for "
+         "each condition.",
+     .draw = draw_area},
+    {.name = "collected_ramp",
+     .title = "Moduli of all samples against temperature",
+     .table = &collected_ramp_schema,
+     .by_group = true,
+     .group = COLLECTED_RAMP_SAMPLE,
+     .x = {COLLECTED_RAMP_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .y = {{COLLECTED_RAMP_STORAGE_MODULUS, AXIS_LOG, "Storage modulus"},
+           {COLLECTED_RAMP_LOSS_MODULUS, AXIS_LOG, "Loss modulus"}},
+     .curves = {CURVE(COLLECTED_RAMP_STORAGE_MODULUS, OWN),
+                CURVE(COLLECTED_RAMP_LOSS_MODULUS, OWN, .panel = 1)},
+     .empty_reason = "no modulus above zero at any temperature",
+     .caption_text =
+         "Storage and loss modulus of every sample against temperature, at frequencies as near to "
+         "each other as their sweeps have them.",
+     .draw = draw_ramps},
     {.name = "collected_force",
      .title = "Force against indentation, of bulk, wear tracks and what stands beside",
      .table = &collected_force_schema,

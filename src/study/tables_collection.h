@@ -63,8 +63,23 @@
     X(COLLECTED_FRICTION_FRICTION_STANDARD_ERROR, "friction_standard_error", "its standard error", \
       NUMBER, SHOWS(standard_error))                                                               \
     X(COLLECTED_FRICTION_WITH_LAYER, AS(with_layer),                                               \
-      "friction coefficient with the modified layer", NUMBER, SPARSE)
+      "friction coefficient with the modified layer", NUMBER, SPARSE)                              \
+    X(COLLECTED_FRICTION_AREA_RATIO, AS(area_ratio), "real over nominal contact area", NUMBER)
 #define COLLECTED_FRICTION_KEYS(X) X(COLLECTED_FRICTION_KEY_PART, AS(part), ENUM(friction_part))
+
+/* Each block is a temperature sweep. */
+#define COLLECTED_RAMP_COLUMNS(X)                                                                  \
+    X(COLLECTED_RAMP_SAMPLE, AS(sample), "rubber", TEXT)                                           \
+    X(COLLECTED_RAMP_TEMPERATURE, AS(temperature), "temperature", SI(TEMPERATURE))                 \
+    X(COLLECTED_RAMP_ANGULAR_FREQUENCY, AS(angular_frequency),                                     \
+      "angular frequency, of all that the sample has the nearest to their geometric mean over "    \
+      "the samples",                                                                               \
+      SI(ANGULAR_FREQUENCY))                                                                       \
+    X(COLLECTED_RAMP_STORAGE_MODULUS, AS(storage_modulus), "storage modulus", SI(STORAGE_MODULUS)) \
+    X(COLLECTED_RAMP_LOSS_MODULUS, AS(loss_modulus), "loss modulus", SI(LOSS_MODULUS))
+#define COLLECTED_RAMP_KEYS(X)                                                                     \
+    X(COLLECTED_RAMP_KEY_DEFORMATION, AS(deformation), ENUM(deformation))                          \
+    X(COLLECTED_RAMP_KEY_LEFT_OUT, AS(left_out), TEXT, OPTIONAL)
 
 /* Each block is a group of a case, or a paired group of a sample. */
 #define COLLECTED_FORCE_COLUMNS(X)                                                                 \

@@ -286,6 +286,16 @@ static void answer_save_overrides(const wt_view *view, const view_request *reque
     free(name);
 }
 
+/* Writes a data file that was dropped on the page. It never replaces a file. */
+static wt_status answer_add(wt_view *view, const view_request *request, const char *body,
+                            size_t length, wt_error *err)
+{
+    const wt_status status = case_folder_add(&view->folder, request->name, body, length, err);
+    if (status == WT_OK)
+        view_give_file(view, wt_path_join(view->folder.path, request->name));
+    return status;
+}
+
 /* ---- programs -------------------------------------------------------------------------------- */
 
 /* Starts `weartrack run CASE`, or `report RESULT` if there is a result without its case. */
@@ -321,13 +331,13 @@ static wt_status start_new_case(wt_view *view, wt_error *err)
     }
     if (status != WT_OK)
         return status;
-    const size_t n = view->n_given > 0 ? view->n_given : 1;
+    const size_t n = view->by_files ? view->n_given : 1;
     const char **arguments = wt_alloc(FIRST_FILE + n, sizeof *arguments);
     arguments[0] = "new-case";
     arguments[1] = "-o";
     arguments[2] = view->case_name;
     arguments[FIRST_FILE] = ".";
-    for (size_t i = 0; i < view->n_given; i++)
+    for (size_t i = 0; view->by_files && i < n; i++)
         arguments[FIRST_FILE + i] = view->given[i];
     status = view_program_start(view->program, view->folder.path, arguments, FIRST_FILE + n, err);
     free(arguments);
@@ -413,6 +423,9 @@ void view_answer(void *user, const view_request *request, const char *body, size
         break;
     case VIEW_CURVE:
         status = answer_curve(view, request, body, length, &reply->text, &err);
+        break;
+    case VIEW_ADD:
+        status = answer_add(view, request, body, length, &err);
         break;
     case VIEW_NEW_CASE:
         status = start_new_case(view, &err);

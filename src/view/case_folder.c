@@ -107,10 +107,31 @@ static wt_status write_descriptor(int file, const char *bytes, size_t length)
     return fsync(file) == 0 ? WT_OK : WT_E_IO;
 }
 
+enum { NEW_FILE_MODE = 0666, PERMISSIONS = 0777 };
+
+wt_status case_folder_add(const case_folder *folder, const char *name, const char *bytes,
+                          size_t length, wt_error *err)
+{
+    if (!case_folder_is_name(name))
+        return fail_on_file(name, "that is no plain file name", err);
+    /* O_EXCL also refuses a symbolic link. */
+    const int file = openat(folder->descriptor, name,
+                            O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, NEW_FILE_MODE);
+    if (file < 0)
+        return fail_on_file(
+            name, errno == EEXIST ? "the folder has a file of this name" : strerror(errno), err);
+    const wt_status status = write_descriptor(file, bytes, length);
+    if (status != WT_OK) {
+        fail_on_file(name, strerror(errno), err);
+        (void)unlinkat(folder->descriptor, name, 0);
+    }
+    close(file);
+    return status;
+}
+
 wt_status case_folder_write(const case_folder *folder, const char *name, const char *bytes,
                             size_t length, wt_error *err)
 {
-    enum { NEW_FILE_MODE = 0666, PERMISSIONS = 0777 };
     struct stat before;
     if (!case_folder_is_name(name))
         return fail_on_file(name, "that is no plain file name", err);

@@ -19,6 +19,9 @@ bool case_folder_is_name(const char *name);
 /* Reads a file of at most `limit` bytes. *exists is false, and the text empty, if there is none. */
 wt_status case_folder_read(const case_folder *folder, const char *name, size_t limit, bool *exists,
                            text_buffer *text, wt_error *err) WT_NODISCARD;
+/* Writes a new file. It fails if there is anything of this name. */
+wt_status case_folder_add(const case_folder *folder, const char *name, const char *bytes,
+                          size_t length, wt_error *err) WT_NODISCARD;
 /* Replaces a file, which is complete at every moment. */
 wt_status case_folder_write(const case_folder *folder, const char *name, const char *bytes,
                             size_t length, wt_error *err) WT_NODISCARD;

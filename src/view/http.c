@@ -118,7 +118,8 @@ static enum MHD_Result handle(void *user, struct MHD_Connection *connection, con
         return c->status == HTTP_OK ? MHD_YES : refuse(connection, c->status);
     }
     if (*upload_size > 0) {
-        if (c->body.length + *upload_size > VIEW_BODY_LIMIT)
+        if (c->body.length + *upload_size >
+            (c->request.action == VIEW_ADD ? VIEW_FILE_LIMIT : VIEW_BODY_LIMIT))
             c->status = HTTP_BODY_TOO_LARGE;
         else
             text_bytes(&c->body, upload, *upload_size);

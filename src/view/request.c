@@ -33,6 +33,7 @@ static const struct {
     [VIEW_CURVE] = {"curve", true},
     [VIEW_CASE] = {"case", true},
     [VIEW_OVERRIDES] = {"overrides", true},
+    [VIEW_ADD] = {"add", true},
     [VIEW_NEW_CASE] = {"new-case", true},
     [VIEW_RUN] = {"run", true},
     [VIEW_STOP] = {"stop", true},

@@ -7,7 +7,12 @@
 #include <stddef.h>
 
 /* Limits of a request [bytes]. */
-enum { VIEW_TARGET_LIMIT = 4096, VIEW_BODY_LIMIT = 4 << 20, VIEW_TOKEN_LENGTH = 32 };
+enum {
+    VIEW_TARGET_LIMIT = 4096,
+    VIEW_BODY_LIMIT = 4 << 20,
+    VIEW_FILE_LIMIT = 64 << 20, /* of a data file that is added */
+    VIEW_TOKEN_LENGTH = 32
+};
 
 typedef enum view_action {
     VIEW_FILE,      /* a file of the page */
@@ -21,6 +26,7 @@ typedef enum view_action {
     VIEW_CURVE,     /* fits one curve as the text of a case requests */
     VIEW_CASE,      /* writes the case */
     VIEW_OVERRIDES, /* writes the manual overrides */
+    VIEW_ADD,       /* writes a new data file */
     VIEW_NEW_CASE,  /* starts weartrack new-case */
     VIEW_RUN,       /* starts weartrack run */
     VIEW_STOP,      /* ends the started program */
@@ -37,7 +43,7 @@ typedef struct view_head {
 
 typedef struct view_request {
     view_action action;
-    char name[256]; /* of an embedded file, or names of tables separated by blanks */
+    char name[256]; /* of an embedded or a new file, or names of tables separated by blanks */
     char group[64], file[1024];
     size_t number;        /* of a file or a curve */
     double contact_point; /* [m]; NaN: fitted */

@@ -72,10 +72,10 @@ static void list_files(wt_view *view, const wt_case *c)
     view->n_files = 0;
     if (c != NULL)
         add_case_files(view, c);
+    if (view->n_files == 0 && !view->by_files)
+        add_folder_files(view);
     for (size_t i = 0; i < view->n_given; i++)
         add_file(view, view->given[i]);
-    if (view->n_files == 0)
-        add_folder_files(view);
 }
 
 /* ---- overrides ------------------------------------------------------------------------------- */

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "view/view.h"
 
+#include "core/base/array.h"
 #include "core/base/param.h"
 #include "core/base/shared_params.h"
 #include "job/inputs.h"
@@ -80,6 +81,12 @@ static wt_status check_name(const char *name, wt_error *err)
     return status;
 }
 
+void view_give_file(wt_view *view, char *path)
+{
+    view->given = array_grow(view->given, view->n_given, sizeof *view->given);
+    view->given[view->n_given++] = path;
+}
+
 /* Adds a data file by its absolute path, because the programs run in the folder of the case. */
 static wt_status add_data_file(wt_view *view, const char *path, wt_error *err)
 {
@@ -89,7 +96,8 @@ static wt_status add_data_file(wt_view *view, const char *path, wt_error *err)
         wt_error_file(err, path);
         return status;
     }
-    view->given[view->n_given++] = absolute;
+    view->by_files = true;
+    view_give_file(view, absolute);
     return WT_OK;
 }
 
@@ -123,7 +131,6 @@ static wt_status open_paths(wt_view *view, wt_error *err)
     struct stat state;
     const wt_view_options *o = &view->options;
     const char *first = o->n_paths > 0 ? o->paths[0] : ".";
-    view->given = wt_alloc(o->n_paths + 1, sizeof *view->given);
     if (o->n_paths <= 1 && stat(first, &state) == 0 && S_ISDIR(state.st_mode)) {
         const wt_status status = case_folder_open(first, &view->folder, err);
         if (status == WT_OK)

@@ -28,7 +28,8 @@ struct wt_view {
     char *report_name;           /* folder of the report in the folder */
     char **given;                /* [n_given] absolute paths of data files */
     size_t n_given;
-    char **files; /* [n_files] paths of the files of the last state, by number */
+    bool by_files; /* the call names data files; else they are those of the folder */
+    char **files;  /* [n_files] paths of the files of the last state, by number */
     size_t n_files;
     char token[VIEW_TOKEN_LENGTH + 1], address[96];
     http_server *server;
@@ -46,6 +47,8 @@ struct wt_view {
 /* Answers an admitted request (http_answer). */
 void view_answer(void *user, const view_request *request, const char *body, size_t length,
                  view_reply *reply);
+/* Adds a data file to those of the case to be written; takes ownership of the path. */
+void view_give_file(wt_view *view, char *path);
 /* Appends case, overrides, files and results as JSON. */
 wt_status view_append_state(wt_view *view, text_buffer *to, wt_error *err) WT_NODISCARD;
 /* Reads the result again if its file has changed; view->result is NULL if there is none. */

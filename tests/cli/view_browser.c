@@ -3,6 +3,7 @@
  * FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
@@ -464,15 +465,42 @@ static void test_saved_plot(void)
     wait_for("document.documentElement.dataset.saved", "svg 85mm true true false");
 }
 
-/* A folder of data: the page writes a case, names what is missing, runs it and shows the answer. */
+/* Drops a file of the work folder on the panel Start, as from the desktop. */
+static void drop_file(const char *name)
+{
+    static const char *const types[] = {"dragEnter", "dragOver", "drop"};
+    char path[PATH_MAX], parameters[PATH_MAX + 256];
+    check(realpath(name, path) != NULL, name);
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
+        (void)snprintf(parameters, sizeof parameters,
+                       "\"type\":\"%s\",\"x\":300,\"y\":300,\"data\":{\"items\":[],\"files\":"
+                       "[\"%s\"],\"dragOperationsMask\":1}",
+                       types[i], path);
+        call("Input.dispatchDragEvent", parameters);
+        (void)usleep(300000); /* the page has to accept the drag before the drop */
+    }
+}
+
+/* A folder of data: the page takes one more file, writes a case, names what is missing, runs it and
+ * shows the answer. */
 static void test_new_case(const char *program)
 {
     char address[256];
-    shell("mkdir new && cp bulk-1.jpk-force-map track-1.jpk-force-map dma.txt new");
+    shell("mkdir new && cp bulk-1.jpk-force-map dma.txt new && mkdir outside && "
+          "cp track-1.jpk-force-map outside");
     check(chdir("new") == 0, "new");
     start_server(program, address, sizeof address);
     open_page(address);
     wait_for("document.documentElement.dataset.shown", "start");
+    wait_for("document.querySelectorAll('#start details').length", "2");
+    drop_file("../outside/track-1.jpk-force-map");
+    wait_for("document.querySelectorAll('#start details').length", "3");
+    shell("cmp track-1.jpk-force-map ../outside/track-1.jpk-force-map");
+    check(strcmp(data("error"), "undefined") == 0, "a dropped file");
+    drop_file("../outside/track-1.jpk-force-map"); /* none is replaced */
+    wait_for("document.querySelector('#fault').textContent.includes('has a file of this name')",
+             "true");
+    (void)js("delete document.documentElement.dataset.error");
     click("#start button.main");
     wait_for("document.documentElement.dataset.missing", "1");
     (void)js(

@@ -235,6 +235,61 @@ static void test_refusals(const char *case_text)
     close(silent);
 }
 
+/* A file is added once, under a plain name in the folder of the case; nothing is replaced. */
+static void test_added_files(void)
+{
+    enum { HUGE = 65 << 20 };
+    char head[1024];
+    struct stat state;
+    check(symlink("behind.txt", "link.txt") == 0, "link");
+    expect(200, "POST", "add?name=new%20one.txt", "of a\tfile\n", "{}");
+    char *text = read_file("new one.txt");
+    check(strcmp(text, "of a\tfile\n") == 0, "bytes of an added file");
+    free(text);
+    expect(200, "GET", "state", "", "/new one.txt");
+    expect(422, "POST", "add?name=new%20one.txt", "other", "has a file of this name");
+    expect(422, "POST", "add?name=case.xml", "<case version=\"1\"/>", "has a file of this name");
+    expect(422, "POST", "add?name=link.txt", "x", "has a file of this name");
+    check(stat("behind.txt", &state) != 0, "a link is not followed");
+    static const char *const names[] = {"..%2Foutside.txt",
+                                        "%2Ftmp%2Foutside.txt",
+                                        "..",
+                                        ".hidden",
+                                        "-o",
+                                        "folder%2Ffile.txt",
+                                        "",
+                                        "."};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char target[128];
+        (void)snprintf(target, sizeof target, "add?name=%s", names[i]);
+        expect(422, "POST", target, "x", "no plain file name");
+    }
+    expect(400, "POST", "add?name=a%00b", "x", "");
+    expect(400, "POST", "add?name=a%0Ab", "x", "");
+    expect(422, "POST", "add", "x", "no plain file name");
+    expect(405, "GET", "add?name=got.txt", "", "");
+    check(stat("../outside.txt", &state) != 0 && stat("got.txt", &state) != 0,
+          "nothing is written");
+    (void)snprintf(head, sizeof head,
+                   "POST /%s/add?name=evil.txt HTTP/1.1\r\nHost: 127.0.0.1:%u\r\n"
+                   "Origin: http://evil.example\r\n",
+                   token, port);
+    check(send_request(head, "x", 1) == 403, "a file from another origin");
+    (void)snprintf(head, sizeof head,
+                   "POST /%.*s/add?name=evil.txt HTTP/1.1\r\nHost: 127.0.0.1:%u\r\n", 31, token,
+                   port);
+    check(send_request(head, "x", 1) == 403, "a file with a part of the token");
+    char *huge = malloc(HUGE);
+    check(huge != NULL, "memory");
+    memset(huge, 'x', HUGE);
+    (void)snprintf(head, sizeof head,
+                   "POST /%s/add?name=evil.txt HTTP/1.1\r\nHost: 127.0.0.1:%u\r\n", token, port);
+    check(send_request(head, huge, HUGE) != 200, "a file that is too large");
+    free(huge);
+    check(stat("evil.txt", &state) != 0, "no file of a refused request");
+    check(unlink("link.txt") == 0 && unlink("new one.txt") == 0, "added files");
+}
+
 /* The fit of one curve by the server, by its trial and by `run` have the same digits. */
 static void test_digits(const char *case_text)
 {
@@ -347,6 +402,7 @@ int main(int argc, char **argv)
     expect(200, "GET", "state", "", "road-1.gsf"); /* numbers the files */
     expect(200, "GET", "info?number=0", "", "gsf");
     test_refusals(case_text);
+    test_added_files();
     test_digits(case_text);
     test_link();
     test_latency(case_text);

@@ -349,10 +349,12 @@ static void test_collection(void **state)
     assert_int_equal(wt_run_case(read, &options, NULL, &fixture_case, NULL, NULL), WT_OK);
     wt_case_free(read);
     fixture_of_case("layer", "identification");
+    fixture_ramp();
     fixture_collect(&tables);
     see(tables.collection);
     see(tables.collected_modulus);
     see(tables.collected_friction);
+    see(tables.collected_ramp);
     see(tables.collected_force);
     see(tables.ratio_pairs);
     see(tables.shared_constants);
@@ -364,9 +366,12 @@ static void test_collection(void **state)
     job.constant_margin = 1e-9; /* which nothing meets */
     wt_result *labelled = fixture_labelled("HC", "mild", 0.6, 0.02);
     see(wt_result_find(labelled, "answer"));
+    fixture_check(wt_table_set_key((wt_table *)wt_result_find(labelled, "ramp"), "deformation",
+                                   "shear", NULL));
     const wt_collected_result cases[] = {{labelled, "a.h5"}, {fixture_case, "b.h5"}};
     assert_int_equal(wt_collection_compute(cases, 2, &job, &tables, NULL), WT_OK);
     assert_null(tables.ratio_pairs);
+    see(tables.collected_ramp);
     see(tables.shared_constants);
     wt_collection_tables_clear(&tables);
     wt_result_free(labelled);

@@ -584,8 +584,14 @@ static void long_name(wt_table *copy, size_t row)
     fixture_text(copy, "member", "a_name_of_a_result_that_has_no_room_below_a_panel.h5, bulk");
 }
 
-/* A case of one velocity is a point, no line of one; long names keep the end that tells them apart.
- */
+static void half_area(wt_table *copy, size_t row)
+{
+    (void)row;
+    fixture_put(copy, "isotropic_area_ratio", 0.5);
+}
+
+/* A case of one velocity is a point, no line of one; long names keep the end that tells them apart;
+ * the isotropic rubber beside one with directions is dashed, in the colour of its velocity. */
 static void test_cases_beside_one_another(void **state)
 {
     static const struct {
@@ -598,7 +604,11 @@ static void test_cases_beside_one_another(void **state)
                  {"shared_members",
                   "out/plots/shared_constants.gp",
                   "...below_a_panel.h5, bulk",
-                  {.table = "shared_members", .edit = long_name}}};
+                  {.table = "shared_members", .edit = long_name}},
+                 {"contact_area",
+                  "out/plots/contact_area.gp",
+                  ":($3*y_unit):($4*cb_unit) with lines lw 1.8 dt (6,3) lc palette",
+                  {.table = "contact_area", .edit = half_area}}};
     (void)state;
     NEED_GNUPLOT();
     for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {

@@ -147,6 +147,7 @@ static void test_groups(void **state)
         {"modulus_depth", "group", {"bulk", "track"}},
         {"modulus_rate", "group", {"bulk", "track"}},
         {"track_layer", "curve", {"bulk", "track", "thinnest layer", "layer of the theory"}},
+        {"collected_ramp", "sample", {"HC", FIXTURE_EVIL}},
         {"transverse_isotropy", "factors", {"none", "loss", "storage", "both"}}};
     for (size_t i = 0; i < sizeof by_group / sizeof *by_group; i++) {
         sections s = begin_sections(by_group[i].figure);
@@ -159,7 +160,7 @@ static void test_groups(void **state)
                                                                                       "severe"};
     sections rates = begin_sections("collected_modulus"),
              rubbers = begin_sections("collected_friction"),
-             forces = begin_sections("collected_force"),
+             areas = begin_sections("collected_area"), forces = begin_sections("collected_force"),
              constants = begin_sections("shared_constants");
     for (size_t k = 0; k < 2; k++)
         for (size_t i = 0; i < 3; i++)
@@ -167,10 +168,12 @@ static void test_groups(void **state)
                                      {"sample", "place"},
                                      {samples[k], i == 0 ? "bulk" : conditions[i - 1]}});
     for (size_t k = 0; k < 2; k++)
-        for (size_t i = 0; i < 2; i++)
-            next_is(&rubbers, (chosen){"collected_friction",
-                                       {"condition", "sample"},
-                                       {conditions[k], samples[i]}});
+        for (size_t i = 0; i < 2; i++) {
+            const chosen rubber = {
+                "collected_friction", {"condition", "sample"}, {conditions[k], samples[i]}};
+            next_is(&rubbers, rubber);
+            next_is(&areas, rubber);
+        }
     for (size_t k = 0; k < 2; k++)
         for (size_t i = 0; i < 3; i++)
             next_is(&forces, (chosen){"collected_force",
@@ -186,6 +189,7 @@ static void test_groups(void **state)
                                      {"modulus over a decade of rate", k < 2 ? samples[k] : ""}});
     end_sections(&rates);
     end_sections(&rubbers);
+    end_sections(&areas);
     end_sections(&forces);
     end_sections(&constants);
     sections groups = begin_sections("modulus_groups"), map = begin_sections("modulus_map"),

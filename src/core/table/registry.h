@@ -102,6 +102,8 @@
       "Modulus against indentation rate, of all cases", "collect")                                 \
     X(collected_friction, COLLECTED_FRICTION, "collected_friction",                                \
       "Friction against velocity, of all cases", "collect")                                        \
+    X(collected_ramp, COLLECTED_RAMP, "collected_ramp",                                            \
+      "Moduli against temperature, of all samples", "collect")                                     \
     X(collected_force, COLLECTED_FORCE, "collected_force",                                         \
       "Force against indentation, of all cases", "collect")                                        \
     X(shared_constants, SHARED_CONSTANTS, "shared_constants",                                      \

@@ -3,7 +3,7 @@
 'use strict';
 (() => {
   const {element, call} = View;
-  let files, conditioning, form, source, status, create, missing, missingTitle, more;
+  let files, added, conditioning, form, source, status, create, missing, missingTitle, more;
 
   const info = async (number, host) => {
     const {tables} = await call('info', {number});
@@ -31,6 +31,26 @@
           ' – not read'), element('p', {class: 'problem'}, problem.message));
       });
   };
+
+  /* Files of the desktop are written beside the case; the server replaces none. */
+  const LIMIT = 64 * 2 ** 20;
+  const addFiles = View.guard(async (chosen) => {
+    const faults = [], done = [];
+    for (const file of chosen)
+      try {
+        if (file.size > LIMIT) throw new Error(`${file.name}: larger than 64 MiB; copy it into the folder of the case.`);
+        await call('add', {name: file.name}, await file.arrayBuffer().catch(() => {
+          throw new Error(`${file.name}: it cannot be read; drop files, no folder.`);
+        }));
+        done.push(file.name);
+      } catch (problem) {
+        faults.push(problem.message);
+      }
+    if (done.length > 0) await View.load(false);
+    added.textContent = done.length === 0 ? '' : `Added ${done.join(', ')}.` +
+      (View.state().caseText === null ? '' : ' A case uses the files that its text names.');
+    if (faults.length > 0) throw new Error(faults.join('\n'));
+  });
 
   /* Values that most cases need, with their units checked while typing. */
   const fields = [['indentation/tip', 'Tip'], ['indentation/fit-depth', 'Largest indentation of the fit'],
@@ -123,6 +143,13 @@
         element('button', {class: 'main', onclick: View.guard(() => View.create())},
           'Write a case for these files'));
       files = element('div', {});
+      added = element('span', {class: 'soft', role: 'status'});
+      const picker = element('input', {type: 'file', multiple: true, onchange: () => addFiles(picker.files)});
+      addEventListener('dragover', (event) => event.preventDefault());
+      addEventListener('drop', (event) => {
+        event.preventDefault(); /* the browser would leave this page */
+        if (!host.hidden) addFiles([...event.dataTransfer.files]);
+      });
       conditioning = element('div', {});
       form = element('div', {class: 'form card'});
       missing = element('div', {class: 'form card'});
@@ -133,6 +160,7 @@
         onchange: () => View.replace(source.value)});
       host.append(create, element('div', {class: 'halves'},
         element('div', {}, element('h2', {}, 'Files'), files,
+          element('p', {class: 'tools'}, element('label', {}, 'Drop files here, or ', picker), added),
           element('h2', {}, 'What conditioning found'), conditioning),
         element('div', {}, missingTitle, missing, element('h2', {}, 'Values'), form, more,
           element('h2', {}, 'Case file'), source, status)));

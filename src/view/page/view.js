@@ -17,7 +17,7 @@ const View = (() => {
 
   /* ---- server -------------------------------------------------------------------------------- */
 
-  const posts = new Set(['check', 'trial', 'curve', 'case', 'overrides', 'new-case', 'run', 'stop', 'alive',
+  const posts = new Set(['check', 'trial', 'curve', 'case', 'overrides', 'add', 'new-case', 'run', 'stop', 'alive',
     'leave']);
   const address = (action, parameters) => {
     const query = new URLSearchParams(parameters || {}).toString();
