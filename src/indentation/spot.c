@@ -1,7 +1,5 @@
 /* Job of a spot: roughness of a height image under the tip at its depth, and the residual imprint
- * in an image after the indentation.
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * in an image after the indentation. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "core/base/number.h"
@@ -9,6 +7,7 @@
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "indentation/numerics/height_image.h"
+#include "job/conditioning.h"
 #include "job/cost.h"
 #include "job/inputs.h"
 #include "weartrack/indentation.h"
@@ -276,6 +275,11 @@ static wt_status spot_imprint_find(const wt_spot_job *job, const wt_image *befor
     wt_image after = {.values = NULL};
     wt_height_map resampled = {.z = NULL};
     wt_status status = spot_image_read(job, job->after, "after", work, &after, err);
+    const size_t n = before->n_rows * before->n_columns;
+    if (status == WT_OK && n == after.n_rows * after.n_columns &&
+        flow_hash_samples(0, before->values, n) == flow_hash_samples(0, after.values, n))
+        wt_log_action(work->log, WT_WARNING, WT_COPIED, 1, "--after", job->after, NULL,
+                      "the same samples as the image before it: a copy, which tells no change");
     if (status == WT_OK)
         status = check_image_sizes(before, &after, job->after, err);
     if (status == WT_OK) {

@@ -296,35 +296,62 @@ uint64_t flow_hash_samples(uint64_t before, const double *x, size_t n)
     return splitmix64(hash);
 }
 
-const flow_file *flow_find_original(const flow_file *file, uint64_t samples)
+/* Returns the earlier file with the same samples; NULL if there is none, or if `file` counts as it
+ * stands. */
+static const flow_file *find_original(const flow_file *file, uint64_t samples)
 {
-    const flow_file *const first = sample_set_add(file->seen, samples, file);
+    const flow_file *const first =
+        file->seen != NULL ? sample_set_add(file->seen, samples, file) : file;
     const bool counts_again = first == file || file->set->read.conditioning != WT_CONDITIONING_MEND;
     return counts_again ? NULL : first;
 }
 
-void flow_log_copy(flow_file *file, const flow_file *original, size_t n, size_t n_all,
-                   const wt_job *work)
+static void log_copy(flow_file *file, const flow_file *original, const wt_job *work)
 {
-    file->is_copy = n == n_all;
-    if (file->is_copy)
-        wt_log_action(work->log, WT_WARNING, WT_COPIED, n, WT_KEEP_OPTION, file->name, NULL,
-                      "the same samples as %s: a copy, left out; both count as one measurement",
-                      original->name);
-    else
-        wt_log_action(work->log, WT_WARNING, WT_COPIED, n, WT_KEEP_OPTION, file->name, NULL,
-                      "%zu of %zu curves have the same samples as curves of other files, such as "
-                      "%s: copies, left out; both count as one measurement",
-                      n, n_all, original->name);
+    file->is_copy = true;
+    wt_log_action(work->log, WT_WARNING, WT_COPIED, 1, WT_KEEP_OPTION, file->name, NULL,
+                  "the same samples as %s: a copy, left out; both count as one measurement",
+                  original->name);
 }
 
 wt_status flow_check_copy(flow_file *file, uint64_t samples, const wt_job *work)
 {
-    const flow_file *const original = flow_find_original(file, samples);
+    const flow_file *const original = find_original(file, samples);
     if (original == NULL)
         return WT_OK;
-    flow_log_copy(file, original, 1, 1, work);
+    log_copy(file, original, work);
     return WT_END;
+}
+
+uint64_t condition_hash_curve(const flow_file *file, const wt_force_curve *curve)
+{
+    uint64_t hash = 0;
+    for (size_t i = 0; file->seen != NULL && i < curve->n_segments; i++) {
+        const wt_segment *const segment = &curve->segments[i];
+        for (size_t c = 0; c < segment->n_channels; c++)
+            hash = flow_hash_samples(hash ^ (uint64_t)segment->channels[c].quantity,
+                                     segment->channels[c].values, segment->n_points);
+    }
+    return hash;
+}
+
+bool flow_is_copied_curve(flow_file *file, uint64_t samples, copied_curves *copies)
+{
+    const flow_file *const original = samples != 0 ? find_original(file, samples) : NULL;
+    if (original != NULL && copies->n++ == 0)
+        copies->original = original;
+    return original != NULL;
+}
+
+void flow_log_copies(flow_file *file, const copied_curves *copies, size_t n_all, const wt_job *work)
+{
+    if (copies->n > 0 && copies->n == n_all)
+        log_copy(file, copies->original, work);
+    else if (copies->n > 0)
+        wt_log_action(work->log, WT_WARNING, WT_COPIED, copies->n, WT_KEEP_OPTION, file->name, NULL,
+                      "%zu of %zu curves have the same samples as curves of other files, such as "
+                      "%s: copies, left out; both count as one measurement",
+                      copies->n, n_all, copies->original->name);
 }
 
 uint64_t condition_hash_record(const wt_record *record)
