@@ -197,9 +197,25 @@ static double usual_magnitude(const double *x, size_t n)
     return usual;
 }
 
+/* True if a magnitude is above `factor` times the usual one. Counting tells it without sorting. */
+static bool exceeds_usual(const double *x, size_t n, double factor)
+{
+    double largest = 0;
+    size_t m = 0, n_below = 0;
+    for (size_t i = 0; i < n; i++) {
+        largest = fmax(largest, fabs(x[i]));
+        m += isnan(x[i]) ? 0 : 1;
+    }
+    for (size_t i = 0; i < n; i++)
+        n_below += factor * fabs(x[i]) < largest ? 1 : 0;
+    return m >= LEAST_SAMPLES && n_below > (size_t)(usual_share * (double)(m - 1));
+}
+
 static void leave_out_outliers(double *x, size_t n, const char *what, const char *file, wt_log *log)
 {
-    const double most = x != NULL ? outlier_factor * usual_magnitude(x, n) : (double)NAN;
+    if (x == NULL || !exceeds_usual(x, n, outlier_factor))
+        return;
+    const double most = outlier_factor * usual_magnitude(x, n);
     size_t count = 0, first = 0;
     double value = 0;
     for (size_t i = 0, to; most > 0 && i < n; i = to) {
@@ -234,7 +250,7 @@ static void remove_load_near_zero(double *load, size_t n)
             count++;
         }
     const double most = count > 1 ? scatter_deviations * sqrt(squares / (double)count) : 0;
-    const double usual = usual_magnitude(load, n);
+    const double usual = most > 0 ? usual_magnitude(load, n) : 0;
     for (size_t i = 0; most < usual && i < n; i++)
         if (load[i] > 0 && load[i] < most)
             load[i] = 0;
