@@ -203,7 +203,7 @@ static bool exceeds_usual(const double *x, size_t n, double factor)
     double largest = 0;
     size_t m = 0, n_below = 0;
     for (size_t i = 0; i < n; i++) {
-        largest = fmax(largest, fabs(x[i]));
+        largest = fabs(x[i]) > largest ? fabs(x[i]) : largest;
         m += isnan(x[i]) ? 0 : 1;
     }
     for (size_t i = 0; i < n; i++)
@@ -370,10 +370,10 @@ void flow_log_copies(flow_file *file, const copied_curves *copies, size_t n_all,
                       copies->n, n_all, copies->original->name);
 }
 
-uint64_t condition_hash_record(const wt_record *record)
+uint64_t condition_hash_record(const flow_file *file, const wt_record *record)
 {
     uint64_t hash = 0;
-    for (size_t c = 0; c < WT_RECORD_CHANNELS; c++)
+    for (size_t c = 0; file->seen != NULL && c < WT_RECORD_CHANNELS; c++)
         if (record->channel[c] != NULL)
             hash = flow_hash_samples(hash ^ c, record->channel[c], record->n);
     return hash;

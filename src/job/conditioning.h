@@ -26,8 +26,8 @@ bool flow_is_copied_curve(flow_file *file, uint64_t samples, copied_curves *copi
 /* Warns of the copies among the n_all curves of a file, if there are any. */
 void flow_log_copies(flow_file *file, const copied_curves *copies, size_t n_all,
                      const wt_job *work);
-/* Hash of all channels of a record. */
-uint64_t condition_hash_record(const wt_record *record);
+/* Hash of all channels of a record; 0 if the list of its file has no other file. */
+uint64_t condition_hash_record(const flow_file *file, const wt_record *record);
 /* Leaves out samples of friction and load that are far from all others (they become NaN), sets a
  * load within the scatter of the unloaded sensor to 0, and subtracts the zero of the friction force
  * that is seen before loading. */
