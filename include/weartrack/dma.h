@@ -171,6 +171,7 @@ typedef struct wt_master_options {
     bool skip_fitted_moduli; /* skips the fitted moduli at the points (NaN) only */
     wt_shift_quantity shift_by; /* default MODULI */
     wt_reference_choice reference_at;
+    bool keep_isotherms; /* also those that seem to have another unit, or an E'' of their own */
 } wt_master_options;
 WT_API wt_master_options wt_master_options_defaults(void);
 WT_API const wt_params *wt_master_options_params(void);

@@ -138,6 +138,8 @@ static wt_status fit_master_curve(const wt_master_job *job, const wt_job *work, 
     wt_shift_law law;
     wt_master_options options = job->fit;
     options.skip_fitted_moduli = options.skip_fitted_moduli || !needs_master_curve(work);
+    options.keep_isotherms =
+        job->n_sets > 0 && job->sets[0].read.conditioning == WT_CONDITIONING_KEEP;
     wt_status status = prepare_sweep(job, work, &law, sweep, err);
     if (status != WT_OK)
         return status;

@@ -9,6 +9,7 @@
 #include "core/table/table_rows.h"
 #include "indentation/indent.h"
 #include "indentation/law/tip.h"
+#include "job/conditioning.h"
 #include "job/cost.h"
 #include "job/inputs.h"
 
@@ -264,7 +265,9 @@ typedef struct dwell_task {
     wt_indent_workspace *workspace;
     table_writer rows, points, moduli;
     size_t n_dwells;
-    dwell_curve curve; /* latest curve */
+    size_t n_held;        /* curves of the file with a dwell */
+    copied_curves copies; /* among them */
+    dwell_curve curve;    /* latest curve */
 } dwell_task;
 
 /* Returns NaN for a tensile force and for a depth outside the range of the contact law. */
@@ -386,8 +389,8 @@ static void add_modulation_row(dwell_task *task, const flow_file *file, const wt
 }
 
 /* Fits the held segments after the approach, up to the retract or another motion. */
-static wt_status read_dwell_curve(dwell_task *task, const flow_file *file,
-                                  const wt_force_curve *curve, wt_error *err)
+static wt_status read_dwell_curve(dwell_task *task, flow_file *file, const wt_force_curve *curve,
+                                  wt_error *err)
 {
     const wt_segment *const approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
     const wt_segment *const end = curve->segments + curve->n_segments;
@@ -403,6 +406,10 @@ static wt_status read_dwell_curve(dwell_task *task, const flow_file *file,
                                                  task->workspace, &fit, err);
     if (status != WT_OK)
         return status;
+    task->n_held++;
+    if (fit.modulus.value > 0 &&
+        flow_is_copied_curve(file, condition_hash_curve(file, curve), &task->copies))
+        return WT_OK;
     task->n_dwells++;
     if (!isfinite(fit.contact_point.value) || !(fit.modulus.value > 0)) {
         begin_dwell_row(task, file, curve, first, "", fit.reason);
@@ -431,6 +438,8 @@ static wt_status read_dwell_file(void *user, flow_file *file, size_t i, wt_error
     options.want = WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(WT_Q_FORCE) |
                    WT_Q_BIT(WT_Q_TIME);
     options.sensor_height_only = true;
+    task->n_held = 0;
+    task->copies = (copied_curves){0};
     if (status == WT_OK)
         status = wt_force_open(task->work->formats, input, &options, task->work->log, &source, err);
     while (status == WT_OK) {
@@ -441,6 +450,7 @@ static wt_status read_dwell_file(void *user, flow_file *file, size_t i, wt_error
     wt_force_curve_clear(&curve);
     wt_force_close(source);
     wt_input_close(input);
+    flow_log_copies(file, &task->copies, task->n_held, task->work);
     return status == WT_END ? WT_OK : status;
 }
 

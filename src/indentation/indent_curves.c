@@ -165,33 +165,6 @@ static void write_row(indent_task *task, const queued_curve *it, const wt_indent
         indent_depths_add(&task->depths, &deep, task->spot);
 }
 
-/* Equal constant forces are no sign of a copy; two measured curves with a modulus are never equal
- * to the last bit. */
-static uint64_t hash_curve(const queued_curve *it)
-{
-    uint64_t hash = 0;
-    for (size_t i = 0; it->fit.modulus.value > 0 && i < it->curve.n_segments; i++) {
-        const wt_segment *const segment = &it->curve.segments[i];
-        for (size_t c = 0; c < segment->n_channels; c++)
-            hash = flow_hash_samples(hash ^ (uint64_t)segment->channels[c].quantity,
-                                     segment->channels[c].values, segment->n_points);
-    }
-    return hash;
-}
-
-/* True if an earlier file has the samples of the curve. Curves of one file are not compared. */
-static bool is_copied_curve(indent_task *task, const queued_curve *it)
-{
-    if (it->status != WT_OK || it->hash == 0 || task->job->only != NULL)
-        return false;
-    const flow_file *const original = flow_find_original(task->file, it->hash);
-    if (original == NULL)
-        return false;
-    if (task->n_copies++ == 0)
-        task->original = original;
-    return true;
-}
-
 static wt_status write_item(indent_task *task, queued_curve *it, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -201,7 +174,9 @@ static wt_status write_item(indent_task *task, queued_curve *it, wt_error *err)
         mark_unreadable(&it->fit, &it->error);
         status = record_curve_failure(task, it->curve.index, &it->error, err);
     }
-    if (status != WT_OK || is_copied_curve(task, it))
+    const bool is_copied = it->status == WT_OK && task->job->only == NULL &&
+                           flow_is_copied_curve(task->file, it->hash, &task->copies);
+    if (status != WT_OK || is_copied)
         return status;
     const bool has_file_tip = task->file_contact != task->contact,
                has_fitted_contact = isnan(it->choice.contact_point);
@@ -262,7 +237,10 @@ static void fit_item(const indent_task *task, queued_curve *it, wt_indent_worksp
     const wt_indent_options options = indent_curve_options(task, &it->choice);
     it->status = wt_indent_fit_force_curve(task->file_contact, &options, &it->curve, workspace,
                                            &it->fit, &it->error);
-    it->hash = it->status == WT_OK && task->n_files > 1 ? hash_curve(it) : 0;
+    /* Equal constant forces are no sign of a copy; two measured curves with a modulus are never
+     * equal to the last bit. */
+    const bool has_modulus = it->status == WT_OK && it->fit.modulus.value > 0;
+    it->hash = has_modulus ? condition_hash_curve(task->file, &it->curve) : 0;
     if (it->status == WT_OK)
         manual_overrides_apply_fit(&it->choice, &it->fit);
 }
@@ -308,7 +286,7 @@ static wt_status read_curve_file(indent_task *task, wt_error *err)
             task->items[i].state = ITEM_FREE;
         task->n_expected = count;
         task->n_read = task->n_written = task->n_busy = task->n_samples = 0;
-        task->n_copies = 0;
+        task->copies = (copied_curves){0};
         task->status = WT_OK;
         task->err = err;
         task->paired_err = &failure;
@@ -322,8 +300,8 @@ static wt_status read_curve_file(indent_task *task, wt_error *err)
     }
     if (status == WT_OK)
         status = flush_failures(task, err);
-    if (status == WT_OK && task->n_copies > 0)
-        flow_log_copy(task->file, task->original, task->n_copies, task->n_read, task->work);
+    if (status == WT_OK)
+        flow_log_copies(task->file, &task->copies, task->n_read, task->work);
     wt_force_close(task->source);
     task->source = NULL;
     wt_input_close(task->paired_input);

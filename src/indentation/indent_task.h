@@ -7,6 +7,7 @@
 #include "indentation/curve_selection.h"
 #include "indentation/indent.h"
 #include "indentation/manual_overrides.h"
+#include "job/conditioning.h"
 
 #include <pthread.h>
 
@@ -65,9 +66,7 @@ typedef struct indent_task {
     table_writer rows;
     size_t n_curves, n_failed;
     size_t n_accepted, n_wide, n_doubtful; /* n_accepted includes wide and doubtful curves */
-    /* Curves of the file that are copies of curves of the file `original`. */
-    size_t n_copies;
-    const flow_file *original;
+    copied_curves copies;                  /* among the curves of the file */
     /* Equal failures of one file make one row. */
     wt_error failure;
     size_t n_equal, first_equal;

@@ -107,7 +107,7 @@ static wt_status measure_slopes(const sensitivity_task *task, const wt_force_cur
 
 /* Reads all curves of a file with one signal. *no_signal is true if the first curve lacks it; then
  * no curve is read. */
-static wt_status read_sensitivity_curves(sensitivity_task *task, const flow_file *file, long unit,
+static wt_status read_sensitivity_curves(sensitivity_task *task, flow_file *file, long unit,
                                          wt_input *input, wt_quantity signal, bool *no_signal,
                                          wt_error *err)
 {
@@ -115,6 +115,8 @@ static wt_status read_sensitivity_curves(sensitivity_task *task, const flow_file
     wt_force_source *source = NULL;
     wt_force_curve curve = {0};
     bool first = true;
+    copied_curves copies = {0};
+    size_t n_read = 0;
     options.want = WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(signal);
     options.sensor_height_only = true;
     options.segments = WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
@@ -131,11 +133,16 @@ static wt_status read_sensitivity_curves(sensitivity_task *task, const flow_file
             if (*no_signal)
                 break;
         }
+        n_read++;
         task->items = array_grow(task->items, task->n, sizeof *task->items);
-        task->items[task->n] = (curve_slopes){.file = file, .unit = unit};
-        status = measure_slopes(task, &curve, signal, &task->items[task->n], err);
-        task->n++;
+        curve_slopes *const it = &task->items[task->n];
+        *it = (curve_slopes){.file = file, .unit = unit};
+        status = measure_slopes(task, &curve, signal, it, err);
+        const bool has_slope = it->direction[0].found || it->direction[1].found;
+        if (!has_slope || !flow_is_copied_curve(file, condition_hash_curve(file, &curve), &copies))
+            task->n++;
     }
+    flow_log_copies(file, &copies, n_read, task->work);
     wt_force_curve_clear(&curve);
     wt_force_close(source);
     return status == WT_END ? WT_OK : status;

@@ -3,6 +3,7 @@
 #include "core/base/clocale.h"
 #include "core/base/param.h"
 #include "core/math/students_t.h"
+#include "job/conditioning.h"
 #include "job/cost.h"
 #include "job/inputs.h"
 #include "weartrack/indentation.h"
@@ -271,6 +272,12 @@ static wt_status measure_cantilever(const wt_thermal_job *job, const wt_job *wor
     const wt_read_options read = flow_read_options(file);
     if (status == WT_OK)
         status = wt_noise_read(work->formats, input, &read, work->log, &l->spectrum, err);
+    if (status == WT_OK)
+        status = flow_check_copy(
+            file,
+            flow_hash_samples(flow_hash_samples(0, l->spectrum.frequency, l->spectrum.n),
+                              l->spectrum.density, l->spectrum.n),
+            work);
     if (status == WT_OK)
         status = find_sensitivity(work, l, file, err);
     if (status == WT_OK)

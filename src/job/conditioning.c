@@ -197,9 +197,25 @@ static double usual_magnitude(const double *x, size_t n)
     return usual;
 }
 
+/* True if a magnitude is above `factor` times the usual one. Counting tells it without sorting. */
+static bool exceeds_usual(const double *x, size_t n, double factor)
+{
+    double largest = 0;
+    size_t m = 0, n_below = 0;
+    for (size_t i = 0; i < n; i++) {
+        largest = fabs(x[i]) > largest ? fabs(x[i]) : largest;
+        m += isnan(x[i]) ? 0 : 1;
+    }
+    for (size_t i = 0; i < n; i++)
+        n_below += factor * fabs(x[i]) < largest ? 1 : 0;
+    return m >= LEAST_SAMPLES && n_below > (size_t)(usual_share * (double)(m - 1));
+}
+
 static void leave_out_outliers(double *x, size_t n, const char *what, const char *file, wt_log *log)
 {
-    const double most = x != NULL ? outlier_factor * usual_magnitude(x, n) : (double)NAN;
+    if (x == NULL || !exceeds_usual(x, n, outlier_factor))
+        return;
+    const double most = outlier_factor * usual_magnitude(x, n);
     size_t count = 0, first = 0;
     double value = 0;
     for (size_t i = 0, to; most > 0 && i < n; i = to) {
@@ -234,7 +250,7 @@ static void remove_load_near_zero(double *load, size_t n)
             count++;
         }
     const double most = count > 1 ? scatter_deviations * sqrt(squares / (double)count) : 0;
-    const double usual = usual_magnitude(load, n);
+    const double usual = most > 0 ? usual_magnitude(load, n) : 0;
     for (size_t i = 0; most < usual && i < n; i++)
         if (load[i] > 0 && load[i] < most)
             load[i] = 0;
@@ -296,41 +312,68 @@ uint64_t flow_hash_samples(uint64_t before, const double *x, size_t n)
     return splitmix64(hash);
 }
 
-const flow_file *flow_find_original(const flow_file *file, uint64_t samples)
+/* Returns the earlier file with the same samples; NULL if there is none, or if `file` counts as it
+ * stands. */
+static const flow_file *find_original(const flow_file *file, uint64_t samples)
 {
-    const flow_file *const first = sample_set_add(file->seen, samples, file);
+    const flow_file *const first =
+        file->seen != NULL ? sample_set_add(file->seen, samples, file) : file;
     const bool counts_again = first == file || file->set->read.conditioning != WT_CONDITIONING_MEND;
     return counts_again ? NULL : first;
 }
 
-void flow_log_copy(flow_file *file, const flow_file *original, size_t n, size_t n_all,
-                   const wt_job *work)
+static void log_copy(flow_file *file, const flow_file *original, const wt_job *work)
 {
-    file->is_copy = n == n_all;
-    if (file->is_copy)
-        wt_log_action(work->log, WT_WARNING, WT_COPIED, n, WT_KEEP_OPTION, file->name, NULL,
-                      "the same samples as %s: a copy, left out; both count as one measurement",
-                      original->name);
-    else
-        wt_log_action(work->log, WT_WARNING, WT_COPIED, n, WT_KEEP_OPTION, file->name, NULL,
-                      "%zu of %zu curves have the same samples as curves of other files, such as "
-                      "%s: copies, left out; both count as one measurement",
-                      n, n_all, original->name);
+    file->is_copy = true;
+    wt_log_action(work->log, WT_WARNING, WT_COPIED, 1, WT_KEEP_OPTION, file->name, NULL,
+                  "the same samples as %s: a copy, left out; both count as one measurement",
+                  original->name);
 }
 
 wt_status flow_check_copy(flow_file *file, uint64_t samples, const wt_job *work)
 {
-    const flow_file *const original = flow_find_original(file, samples);
+    const flow_file *const original = find_original(file, samples);
     if (original == NULL)
         return WT_OK;
-    flow_log_copy(file, original, 1, 1, work);
+    log_copy(file, original, work);
     return WT_END;
 }
 
-uint64_t condition_hash_record(const wt_record *record)
+uint64_t condition_hash_curve(const flow_file *file, const wt_force_curve *curve)
 {
     uint64_t hash = 0;
-    for (size_t c = 0; c < WT_RECORD_CHANNELS; c++)
+    for (size_t i = 0; file->seen != NULL && i < curve->n_segments; i++) {
+        const wt_segment *const segment = &curve->segments[i];
+        for (size_t c = 0; c < segment->n_channels; c++)
+            hash = flow_hash_samples(hash ^ (uint64_t)segment->channels[c].quantity,
+                                     segment->channels[c].values, segment->n_points);
+    }
+    return hash;
+}
+
+bool flow_is_copied_curve(flow_file *file, uint64_t samples, copied_curves *copies)
+{
+    const flow_file *const original = samples != 0 ? find_original(file, samples) : NULL;
+    if (original != NULL && copies->n++ == 0)
+        copies->original = original;
+    return original != NULL;
+}
+
+void flow_log_copies(flow_file *file, const copied_curves *copies, size_t n_all, const wt_job *work)
+{
+    if (copies->n > 0 && copies->n == n_all)
+        log_copy(file, copies->original, work);
+    else if (copies->n > 0)
+        wt_log_action(work->log, WT_WARNING, WT_COPIED, copies->n, WT_KEEP_OPTION, file->name, NULL,
+                      "%zu of %zu curves have the same samples as curves of other files, such as "
+                      "%s: copies, left out; both count as one measurement",
+                      copies->n, n_all, copies->original->name);
+}
+
+uint64_t condition_hash_record(const flow_file *file, const wt_record *record)
+{
+    uint64_t hash = 0;
+    for (size_t c = 0; file->seen != NULL && c < WT_RECORD_CHANNELS; c++)
         if (record->channel[c] != NULL)
             hash = flow_hash_samples(hash ^ c, record->channel[c], record->n);
     return hash;

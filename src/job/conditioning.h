@@ -11,14 +11,23 @@ uint64_t flow_hash_samples(uint64_t before, const double *x, size_t n);
 /* Returns WT_END, with a warning, if a file has the samples of one before it, under another name or
  * with another header: flow_skip_file is then true. */
 wt_status flow_check_copy(flow_file *file, uint64_t samples, const wt_job *work);
-/* The two parts of it, for a file of many curves. The first returns the earlier file with the same
- * samples; NULL if there is none, or if `file` counts as it stands. The second warns that n of
- * n_all curves are copies. */
-const flow_file *flow_find_original(const flow_file *file, uint64_t samples);
-void flow_log_copy(flow_file *file, const flow_file *original, size_t n, size_t n_all,
-                   const wt_job *work);
-/* Hash of all channels of a record. */
-uint64_t condition_hash_record(const wt_record *record);
+
+/* Curves of a file that have the samples of curves of other files. */
+typedef struct copied_curves {
+    const flow_file *original; /* of the first copy */
+    size_t n;
+} copied_curves;
+
+/* Hash of all channels of a curve; 0 if the list of its file has no other file. */
+uint64_t condition_hash_curve(const flow_file *file, const wt_force_curve *curve);
+/* Returns true and counts the curve if an earlier file has the same samples, unless `file` counts
+ * as it stands. Curves of one file are not compared. */
+bool flow_is_copied_curve(flow_file *file, uint64_t samples, copied_curves *copies);
+/* Warns of the copies among the n_all curves of a file, if there are any. */
+void flow_log_copies(flow_file *file, const copied_curves *copies, size_t n_all,
+                     const wt_job *work);
+/* Hash of all channels of a record; 0 if the list of its file has no other file. */
+uint64_t condition_hash_record(const flow_file *file, const wt_record *record);
 /* Leaves out samples of friction and load that are far from all others (they become NaN), sets a
  * load within the scatter of the unloaded sensor to 0, and subtracts the zero of the friction force
  * that is seen before loading. */

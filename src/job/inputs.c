@@ -3,7 +3,6 @@
 #include "job/inputs.h"
 #include "core/base/array.h"
 #include "core/base/memory.h"
-#include "core/base/shared_params.h"
 #include "core/math/splitmix64.h"
 #include "core/system/temporary.h"
 #include "core/table/table_rows.h"
@@ -313,13 +312,12 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
 {
     char **paths = NULL;
     size_t n = 0;
-    wt_status status = WT_OK;
     wt_error failure = WT_ERROR_INIT;
     if (strcmp(pattern, "-") == 0) {
         files_add(files, wt_strdup("-"), pattern, set);
         return WT_OK;
     }
-    status = wt_glob(set->folder, pattern, &paths, &n, &failure);
+    const wt_status status = wt_glob(set->folder, pattern, &paths, &n, &failure);
     if (status != WT_OK)
         return wt_job_add_failure(work, pattern, status, &failure, err);
     for (size_t i = 0; i < n; i++) {
@@ -382,7 +380,9 @@ wt_status flow_files_list(const wt_file_set *sets, size_t n_sets, const wt_job *
     if (files->n > 1)
         qsort(files->file, files->n, sizeof *files->file, compare_file_paths);
     repeated_paths_remove(files, work);
-    if (status == WT_OK && files->n > 1)
+    if (files->n == 1)
+        files->file[0].seen = NULL;
+    else if (status == WT_OK)
         file_copies_remove(files, work);
     if (status == WT_OK)
         note_kept(files, work);

@@ -26,7 +26,7 @@ typedef struct flow_file {
     /* set by flow_open: */
     const wt_format_info *format;
     bool is_copy;     /* set by flow_check_copy */
-    sample_set *seen; /* samples of the files of the list; owned by it */
+    sample_set *seen; /* samples of the files of the list; owned by it; NULL of a single file */
 } flow_file;
 
 typedef struct flow_files {

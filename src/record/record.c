@@ -466,7 +466,7 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
         status = wt_record_read(work->formats, input, &read, work->log, &record, err);
     wt_input_close(input);
     if (status == WT_OK)
-        status = flow_check_copy(file, condition_hash_record(&record), work);
+        status = flow_check_copy(file, condition_hash_record(file, &record), work);
     const wt_estimate stated = job->track_radius, read_radius = {record.radius, 0, 0, "m"},
                       radius = isnan(stated.value) ? read_radius : stated;
     if (status == WT_OK && read.conditioning == WT_CONDITIONING_MEND) {

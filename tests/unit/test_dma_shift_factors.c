@@ -653,6 +653,7 @@ static size_t points_of(size_t near)
     shift_set set = {0};
     arena memory = {0};
     wt_error err = WT_ERROR_INIT;
+    const wt_master_options options = wt_master_options_defaults();
     wt_isotherm *t = wt_sweep_add(&sweep, STEPS * near, 0);
     assert_non_null(t);
     t->temperature = 293.15;
@@ -662,7 +663,7 @@ static size_t points_of(size_t near)
         t->storage_modulus[k] = 1e6 * pow(t->angular_frequency[k], 0.2);
         t->loss_modulus[k] = 3e5 * pow(t->angular_frequency[k], 0.2);
     }
-    if (shift_set_new(&sweep, WT_SHIFT_MODULI, NULL, &memory, &set, &err) != WT_OK)
+    if (shift_set_new(&sweep, &options, NULL, &memory, &set, &err) != WT_OK)
         fail_msg("%s", err.message);
     const size_t n = set.curves[0].n;
     assert_int_equal(set.curves[0].n_merged, n < t->n ? t->n : 0);

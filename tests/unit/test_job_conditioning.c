@@ -202,20 +202,21 @@ static void test_copied_curves(void **state)
                         {.name = "c", .set = &keep, .seen = &seen}};
     wt_log *log = wt_log_new();
     const wt_job work = {.log = log};
-    size_t n = 0;
+    copied_curves none = {0}, copies = {0};
+    for (uint64_t i = 1; i <= CURVES; i++) /* many share their low bits */
+        assert_false(flow_is_copied_curve(&file[0], 16 * i, &none));
+    for (uint64_t i = 1; i <= CURVES; i++) /* curves of one file */
+        assert_false(flow_is_copied_curve(&file[0], 16 * i, &none));
+    for (uint64_t i = CURVES - COMMON + 1; i <= 2 * CURVES - COMMON; i++)
+        (void)flow_is_copied_curve(&file[1], 16 * i, &copies);
+    assert_int_equal(copies.n, COMMON);
+    assert_ptr_equal(copies.original, &file[0]);
     for (uint64_t i = 1; i <= CURVES; i++)
-        assert_null(flow_find_original(&file[0], 16 * i)); /* many share their low bits */
-    for (uint64_t i = 1; i <= CURVES; i++)
-        assert_null(flow_find_original(&file[0], 16 * i)); /* curves of one file */
-    for (uint64_t i = CURVES - COMMON + 1; i <= 2 * CURVES - COMMON; i++) {
-        const flow_file *const original = flow_find_original(&file[1], 16 * i);
-        assert_true(original == NULL || original == &file[0]);
-        n += original != NULL;
-    }
-    assert_int_equal(n, COMMON);
-    for (uint64_t i = 1; i <= CURVES; i++)
-        assert_null(flow_find_original(&file[2], 16 * i));
-    flow_log_copy(&file[1], &file[0], n, CURVES, &work);
+        assert_false(flow_is_copied_curve(&file[2], 16 * i, &none));
+    assert_false(flow_is_copied_curve(&file[1], 0, &none)); /* 0: nothing is known */
+    flow_log_copies(&file[0], &none, CURVES, &work);
+    assert_int_equal(wt_log_count(log), 0);
+    flow_log_copies(&file[1], &copies, CURVES, &work);
     assert_false(file[1].is_copy);
     assert_true(log_has(log, "100 of 300 curves have the same samples"));
     assert_int_equal(wt_log_get(log, 0).action, WT_COPIED);

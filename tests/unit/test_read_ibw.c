@@ -216,12 +216,55 @@ static void test_old(void **state)
     }
 }
 
+/* A number of the note goes through the reader of header numbers. */
+static void test_contradictions(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *calibration, *words;
+        double spring_constant;
+    } notes[] = {
+        {"SpringConstant: 0.5\rInvOLS: 5e-08\r", NULL, 0.5},
+        {"SpringConstant: 0.5\rSpringConstant: 0.5001\r", NULL, 0.5},
+        {"SpringConstant: 0,5\r", NULL, 0.5},
+        {"SpringConstant: 0.5 N/m, thermal noise of 2019\r", NULL, 0.5},
+        {"SpringConstant: 0.25\rOther: 1\rSpringConstant: 0.3\r",
+         "states SpringConstant twice, 0.25 in line 1 and 0.3 here", 0.25},
+        {"SpringConstant: 0.25 0.3 N/m\r", "\"0.25 0.3 N/m\" states two values", (double)NAN},
+        {"SpringConstant: 0.25 N/m 0.3 N/m\r", "states two values", (double)NAN},
+        {"SpringConstant: 1.234,5\r", "is not one number", (double)NAN}};
+    for (size_t i = 0; i < sizeof notes / sizeof *notes; i++) {
+        char note[256];
+        snprintf(note, sizeof note, "%sIndexes: 0,4,6\rDirection: NaN,1,-1,\r",
+                 notes[i].calibration);
+        const ibw_writer_file f = usual(note);
+        wt_read_options options = wt_read_defaults();
+        reading r;
+        options.want = WT_Q_BIT(WT_Q_HEIGHT);
+        assert_int_equal(ibw_write(&f), 0);
+        assert_int_equal(open_force(&r, path, &options), WT_OK);
+        next_curve(&r);
+        if (isnan(notes[i].spring_constant))
+            assert_true(isnan(r.curve.cantilever.spring_constant));
+        else
+            assert_near(r.curve.cantilever.spring_constant, notes[i].spring_constant, 0);
+        assert_int_equal(wt_log_count(r.log), notes[i].words != NULL);
+        if (notes[i].words != NULL) {
+            const wt_log_entry entry = wt_log_get(r.log, 0);
+            assert_true(logged(&r, notes[i].words));
+            assert_non_null(strstr(entry.place, "of the note"));
+            assert_int_equal(entry.action, WT_CONTRADICTED);
+        }
+        close_all(&r);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_curve),   cmocka_unit_test(test_turning_point),
-        cmocka_unit_test(test_trigger), cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_shifted), cmocka_unit_test(test_damaged),
-        cmocka_unit_test(test_old)};
+        cmocka_unit_test(test_contradictions), cmocka_unit_test(test_curve),
+        cmocka_unit_test(test_turning_point),  cmocka_unit_test(test_trigger),
+        cmocka_unit_test(test_refused),        cmocka_unit_test(test_shifted),
+        cmocka_unit_test(test_damaged),        cmocka_unit_test(test_old)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -317,11 +317,55 @@ static void damaged(void **state)
     assert_int_equal(open_bytes(bytes, n_volume), WT_E_CORRUPT);
 }
 
+/* A number of the header is whole, or is named with its line. */
+static void contradictions(void **state)
+{
+    (void)state;
+    static unsigned char bytes[65536];
+    static const struct {
+        const char *written, *words;
+        double spring_constant;
+    } cases[] = {{"0.12345", NULL, 0.12345},
+                 {"0,12345", NULL, 0.12345},
+                 {"0.1 0.2", "\"0.1 0.2\" states two values", (double)NAN},
+                 {"1.234,5", "\"1.234,5\" is not one number", (double)NAN}};
+    nanoscope_writer_file f = usual(0, false);
+    f.spring_constant = 0.12345;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        static const char line[] = "Spring Constant: 0.12345";
+        assert_int_equal(nanoscope_write(&f), 0);
+        const size_t n = read_bytes(bytes, sizeof bytes);
+        reading r;
+        for (unsigned char *at; (at = memmem(bytes, n, line, sizeof line - 1)) != NULL;) {
+            if (i == 0)
+                break;
+            memcpy(at + strlen("Spring Constant: "), cases[i].written, strlen(cases[i].written));
+        }
+        FILE *const out = fopen(path, "wb");
+        assert_non_null(out);
+        assert_int_equal(fwrite(bytes, 1, n, out), n);
+        assert_int_equal(fclose(out), 0);
+        wt_read_options options = wt_read_defaults();
+        options.want = WT_Q_BIT(WT_Q_HEIGHT);
+        assert_int_equal(open_force(&r, path, &options), WT_OK);
+        next_curve(&r);
+        if (isnan(cases[i].spring_constant))
+            assert_true(isnan(r.curve.cantilever.spring_constant));
+        else
+            assert_near(r.curve.cantilever.spring_constant, cases[i].spring_constant, 0);
+        assert_int_equal(logged(&r, "it is not used: correct the line"), cases[i].words != NULL);
+        if (cases[i].words != NULL)
+            assert_true(logged(&r, cases[i].words));
+        close_all(&r);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(curves),   cmocka_unit_test(large),
-                                       cmocka_unit_test(cut),      cmocka_unit_test(mark_alone),
-                                       cmocka_unit_test(oddities), cmocka_unit_test(peakforce),
-                                       cmocka_unit_test(damaged),  cmocka_unit_test(stopped_ramp)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(contradictions), cmocka_unit_test(curves),
+                                       cmocka_unit_test(large),          cmocka_unit_test(cut),
+                                       cmocka_unit_test(mark_alone),     cmocka_unit_test(oddities),
+                                       cmocka_unit_test(peakforce),      cmocka_unit_test(damaged),
+                                       cmocka_unit_test(stopped_ramp)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

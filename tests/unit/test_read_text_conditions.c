@@ -241,26 +241,36 @@ static void wide_by_rows(void **state)
                   "Hz,MPa,MPa,MPa,MPa,MPa,MPa\n");
 }
 
-/* A row of temperatures below the names states no units, not even for a column that has none. */
+/* A row of temperatures below the names states no units, not even for a column that has none. Above
+ * and below, the first temperature may stand over the frequencies, too. */
 static void temperatures_below_names(void **state)
 {
     (void)state;
-    made_text t = {.n = 0};
-    add(&t, "f (Hz)");
-    for (size_t k = 0; k < N_T; k++)
-        add(&t, ",E' (MPa),tan delta");
-    add(&t, "\n");
-    for (size_t k = 0; k < N_T; k++)
-        add(&t, ",%g degC,%g degC", degrees[k], degrees[k]);
-    add(&t, "\n");
-    for (size_t i = 0; i < N_F; i++) {
-        add(&t, "%g", hertz[i]);
-        for (size_t k = 0; k < N_T; k++)
-            add(&t, ",%.10g,%.12g", storage(degrees[k], hertz[i]),
-                loss(degrees[k], hertz[i]) / storage(degrees[k], hertz[i]));
-        add(&t, "\n");
+    for (int way = 0; way < 3; way++) {
+        made_text t = {.n = 0};
+        const bool is_above = way == 2;
+        for (int row = 0; row < 2; row++) {
+            const bool is_names = row == (is_above ? 1 : 0);
+            if (is_names)
+                add(&t, "f (Hz)");
+            else if (way > 0)
+                add(&t, "%g degC", degrees[0]);
+            for (size_t k = 0; k < N_T; k++)
+                if (is_names)
+                    add(&t, ",E' (MPa),tan delta");
+                else
+                    add(&t, ",%g degC,%g degC", degrees[k], degrees[k]);
+            add(&t, "\n");
+        }
+        for (size_t i = 0; i < N_F; i++) {
+            add(&t, "%g", hertz[i]);
+            for (size_t k = 0; k < N_T; k++)
+                add(&t, ",%.10g,%.12g", storage(degrees[k], hertz[i]),
+                    loss(degrees[k], hertz[i]) / storage(degrees[k], hertz[i]));
+            add(&t, "\n");
+        }
+        reads_isotherms(t.text);
     }
-    reads_isotherms(t.text);
 }
 
 static void frequencies_in_names(void **state)

@@ -191,6 +191,7 @@ static wt_status fill_shift_curve(const wt_isotherm *isotherm, const shift_set *
                       "left out: %zu of %zu points have no positive modulus", curve->n_skipped,
                       isotherm->n);
         curve->n_skipped = 0;
+        curve->has_no_moduli = true;
         return set->n <= LEAST_USABLE ? fail_too_few_points(isotherm, n, first_bad, err) : WT_OK;
     }
     if (curve->n_skipped > 0)
@@ -276,8 +277,8 @@ static void exclude_kelvin(shift_set *set)
     }
 }
 
-wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log, arena *memory,
-                        shift_set *set, wt_error *err)
+wt_status shift_set_new(const wt_sweep *sweep, const wt_master_options *options, wt_log *log,
+                        arena *memory, shift_set *set, wt_error *err)
 {
     const size_t n = sweep->n_isotherms;
     size_t n_points = 0, n_longest = 1;
@@ -300,7 +301,7 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log
     double *next = arena_numbers(memory, (1 + MODULI) * n_points);
     *set = (shift_set){
         .n = n, .loading = sweep->loading, .curves = arena_alloc(memory, n, sizeof *set->curves)};
-    status = choose_fitted_quantities(sweep, by, set, err);
+    status = choose_fitted_quantities(sweep, options->shift_by, set, err);
     if (status == WT_OK && set->loading != WT_OSCILLATION && set->quantity != WT_SHIFT_STORAGE) {
         status = wt_fail(err, WT_E_ARG, "after a step there is one quantity to shift by");
         wt_error_expected(err, "shift-by moduli, which takes it");
@@ -328,7 +329,7 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log
         status = fill_shift_curve(isotherm, set, scratch, curve, log, err);
         set->n_points += curve->n;
     }
-    if (status == WT_OK)
+    if (status == WT_OK && !options->keep_isotherms)
         exclude_kelvin(set);
     return status;
 }

@@ -27,6 +27,7 @@ typedef struct shift_curve {
     bool is_vertical_fixed; /* the vertical shift is stated, too */
     double fixed_log_b;     /* stated log10 b [decade] */
     bool is_loss_excluded;  /* E'' is off and not fitted */
+    bool has_no_moduli;     /* too few points have a positive modulus: it cannot be kept */
     char exclusion[128]; /* what is left out and why: the isotherm, with n = 0, or its E''; or "" */
 } shift_curve;
 
@@ -44,8 +45,8 @@ typedef struct shift_set {
  * logarithms. Returns WT_E_RANGE with the isotherm that has too few positive points or a
  * temperature that is not in kelvin. Returns WT_E_MISSING if a modulus was not measured.
  * `memory` owns the arrays. */
-wt_status shift_set_new(const wt_sweep *sweep, wt_shift_quantity by, wt_log *log, arena *memory,
-                        shift_set *set, wt_error *err) WT_NODISCARD;
+wt_status shift_set_new(const wt_sweep *sweep, const wt_master_options *options, wt_log *log,
+                        arena *memory, shift_set *set, wt_error *err) WT_NODISCARD;
 
 /* Returns the change of the modulus along a curve, of E' if it is used [decade]. */
 double curve_modulus_change(const shift_set *set, size_t curve);

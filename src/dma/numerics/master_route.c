@@ -273,7 +273,7 @@ static wt_status fit_one_spectrum(master_work *work, wt_error *err)
     for (size_t k = 0; k < work->set.n; k++)
         if (work->set.curves[k].is_shift_fixed)
             return status; /* stated shifts may cause the misfit */
-    if (status != WT_OK || work->set.loading != WT_OSCILLATION)
+    if (status != WT_OK || work->set.loading != WT_OSCILLATION || work->options.keep_isotherms)
         return status;
     if (master_find_unit_slip(work, &i)) {
         work->set.n_points -= work->set.curves[i].n;
@@ -340,7 +340,7 @@ static wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options 
     master_work work = {.options = *options};
     wt_status status = param_check(wt_master_options_params(), &work.options, err);
     if (status == WT_OK)
-        status = shift_set_new(sweep, work.options.shift_by, log, &work.memory, &work.set, err);
+        status = shift_set_new(sweep, &work.options, log, &work.memory, &work.set, err);
     if (status == WT_OK)
         status = master_check_vertical(&work, err);
     if (status == WT_OK) {

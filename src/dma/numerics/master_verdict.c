@@ -189,14 +189,18 @@ void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master 
         note_shift(work, i, &m->shifts[i]);
     note_repeated_runs(m);
     note_strain(sweep, log);
-    for (size_t i = 0; i < m->n_shifts; i++)
-        if (m->shifts[i].note[0] != '\0')
-            wt_log_add(log,
-                       work->set.curves[i].exclusion[0] != '\0' ? WT_LOSS
-                       : m->shifts[i].determined                ? WT_NOTE
-                                                                : WT_WARNING,
-                       NULL, NULL, "isotherm of %.2f °C: %s",
-                       m->shifts[i].temperature - WT_ZERO_CELSIUS, m->shifts[i].note);
+    for (size_t i = 0; i < m->n_shifts; i++) {
+        const shift_curve *const curve = &work->set.curves[i];
+        const double celsius = m->shifts[i].temperature - WT_ZERO_CELSIUS;
+        if (curve->exclusion[0] != '\0')
+            wt_log_action(log, WT_LOSS, WT_LEFT_OUT, 1,
+                          curve->has_no_moduli ? NULL : WT_KEEP_OPTION, NULL, NULL,
+                          "isotherm of %.2f °C: %s%s", celsius, m->shifts[i].note,
+                          curve->has_no_moduli ? "" : "; " WT_KEEP_OPTION " uses it as it is");
+        else if (m->shifts[i].note[0] != '\0')
+            wt_log_add(log, m->shifts[i].determined ? WT_NOTE : WT_WARNING, NULL, NULL,
+                       "isotherm of %.2f °C: %s", celsius, m->shifts[i].note);
+    }
     if (work->lines)
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "the spectrum is one of few sharp processes: between their lines nothing "

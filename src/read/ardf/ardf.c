@@ -354,7 +354,7 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
     const wt_status status = open_ardf(input, &s->file, err);
     if (status != WT_OK)
         return status;
-    s->metadata = ibw_metadata(&s->file.wave);
+    s->metadata = ibw_metadata(&s->file.wave, base->log);
     base->n_curves = s->file.columns * s->file.lines;
     base->grid_columns = (long)s->file.columns;
     base->grid_rows = (long)s->file.lines;
@@ -381,10 +381,9 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
 {
     ardf_file f;
     (void)self;
-    (void)log;
     const wt_status status = open_ardf(input, &f, metadata->err);
     if (status == WT_OK) {
-        const force_metadata read = ibw_metadata(&f.wave);
+        const force_metadata read = ibw_metadata(&f.wave, log);
         metadata_add(metadata, fact_item_text(FACT_CURVES), "", "VDEF", "%zu", f.columns * f.lines);
         metadata_add(metadata, "grid", "", "VDEF", "%zu x %zu", f.columns, f.lines);
         ibw_describe_channels(&f.wave, &read, options, metadata);

@@ -53,7 +53,7 @@ static void add_setpoint(const ibw_file *file, force_metadata *metadata)
 /* Returns the metadata of the curve. Heights in the file increase towards the sample; the signal is
  * negated. The deflection is in metres, computed with the sensitivity of the note. The velocities
  * of the note are settings, used or not, so none is read. */
-force_metadata ibw_metadata(const ibw_file *file)
+force_metadata ibw_metadata(const ibw_file *file, wt_log *log)
 {
     static const struct {
         const char *name;
@@ -66,8 +66,8 @@ force_metadata ibw_metadata(const ibw_file *file)
         .velocity = (double)NAN,
         .setpoint = (double)NAN,
         .cantilever = {.spring_constant =
-                           force_positive_or_nan(ibw_note_number(file, "SpringConstant")),
-                       .sensitivity = force_positive_or_nan(ibw_note_number(file, "InvOLS"))},
+                           ibw_note_calibration(file, "SpringConstant", WT_Q_SPRING_CONSTANT, log),
+                       .sensitivity = ibw_note_calibration(file, "InvOLS", WT_Q_SENSITIVITY, log)},
         .offers = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT, WT_Q_FORCE, WT_Q_DEFLECTION,
                    WT_Q_DEFLECTION_VOLTAGE},
         .n_offers = 6};
@@ -98,7 +98,7 @@ void ibw_describe_channels(const ibw_file *file, const force_metadata *read,
     force_describe_calibration(read, options, "note, SpringConstant", "note, InvOLS", metadata);
 }
 
-static wt_status describe_curve(wt_input *input, const wt_read_options *options,
+static wt_status describe_curve(wt_input *input, const wt_read_options *options, wt_log *log,
                                 table_writer *metadata, wt_error *err)
 {
     ibw_file file;
@@ -111,7 +111,7 @@ static wt_status describe_curve(wt_input *input, const wt_read_options *options,
         status = ibw_read_segments(&file, segments, &n, err);
     if (status != WT_OK)
         return status;
-    const force_metadata read = ibw_metadata(&file);
+    const force_metadata read = ibw_metadata(&file, log);
     metadata_add(metadata, fact_item_text(FACT_CURVES), "", "one for each file", "1");
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (ibw_note_text(&file, keys[i], text))
@@ -130,7 +130,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
                           wt_log *log, table_writer *metadata)
 {
     wt_error err = WT_ERROR_INIT;
-    const wt_status status = describe_curve(input, options, metadata, &err);
+    const wt_status status = describe_curve(input, options, log, metadata, &err);
     return images_add_metadata(self, input, options, log, metadata, status, &err);
 }
 
@@ -192,7 +192,8 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
     wt_status status = ibw_open(input, &source->file, err);
     if (status == WT_OK)
         status = ibw_read_segments(&source->file, source->segments, &source->n_segments, err);
-    source->metadata = ibw_metadata(&source->file); /* has pointers to the channels of this file */
+    source->metadata = ibw_metadata(
+        &source->file, source->base.log); /* has pointers to the channels of this file */
     base->n_curves = 1;
     return status;
 }

@@ -59,10 +59,14 @@ wt_status ibw_open_image(wt_input *input, ibw_file *file, ibw_grid *grid,
 /* Reads the value of a key of the note, cut to fit; false if it is absent. */
 bool ibw_note_text(const ibw_file *file, const char *key, char value[IBW_TEXT]);
 double ibw_note_number(const ibw_file *file, const char *key); /* NaN if it is absent */
+/* Returns a value of the cantilever; NaN if it is absent or no number. Values that contradict it
+ * are logged. */
+double ibw_note_calibration(const ibw_file *file, const char *key, wt_quantity quantity,
+                            wt_log *log);
 wt_status ibw_read_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS], size_t *n,
                             wt_error *err) WT_NODISCARD;
 /* Returns signals and calibration, which all segments share. */
-force_metadata ibw_metadata(const ibw_file *file);
+force_metadata ibw_metadata(const ibw_file *file, wt_log *log);
 /* Adds the rows of the channels and of the calibration. */
 void ibw_describe_channels(const ibw_file *file, const force_metadata *read,
                            const wt_read_options *options, table_writer *metadata);

@@ -4,6 +4,7 @@
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "read/bytes/bytes.h"
+#include "read/header_number.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -267,16 +268,19 @@ wt_status ibw_open_image(wt_input *input, ibw_file *file, ibw_grid *grid, wt_err
 
 /* ---- the note -------------------------------------------------------------------------------- */
 
-bool ibw_note_text(const ibw_file *file, const char *key, char value[IBW_TEXT])
+/* Copies the value of the next line with the key from *at on, which is line *line after the call.
+ */
+static bool next_note_text(const ibw_file *file, const char *key, size_t *at, size_t *line_number,
+                           char value[IBW_TEXT])
 {
     const size_t length = strlen(key);
-    size_t at = 0;
-    while (at < file->note_length) {
-        const char *line = file->note + at;
+    while (*at < file->note_length) {
+        const char *line = file->note + *at;
         size_t n = 0;
-        while (at + n < file->note_length && line[n] != '\r' && line[n] != '\n')
+        while (*at + n < file->note_length && line[n] != '\r' && line[n] != '\n')
             n++;
-        at += n + 1;
+        *at += n + 1;
+        ++*line_number;
         if (n <= length || memcmp(line, key, length) != 0 || line[length] != ':')
             continue;
         size_t from = length + 1;
@@ -290,13 +294,45 @@ bool ibw_note_text(const ibw_file *file, const char *key, char value[IBW_TEXT])
     return false;
 }
 
+bool ibw_note_text(const ibw_file *file, const char *key, char value[IBW_TEXT])
+{
+    size_t at = 0, line = 0;
+    return next_note_text(file, key, &at, &line, value);
+}
+
 double ibw_note_number(const ibw_file *file, const char *key)
 {
     char text[IBW_TEXT];
-    double value;
-    return ibw_note_text(file, key, text) && wt_number_parse(text, strlen(text), '.', &value)
-               ? value
-               : (double)NAN;
+    double value = (double)NAN;
+    size_t end;
+    if (ibw_note_text(file, key, text))
+        (void)header_number_read(text, strlen(text), &value, &end);
+    return value;
+}
+
+double ibw_note_calibration(const ibw_file *file, const char *key, wt_quantity quantity,
+                            wt_log *log)
+{
+    const double tolerance = 1e-3; /* rounding of a printed value */
+    const char *const option = header_number_option(quantity);
+    char text[IBW_TEXT], place[32];
+    double first = (double)NAN, value;
+    size_t at = 0, line = 0, first_line = 0, end;
+    while (next_note_text(file, key, &at, &line, text)) {
+        snprintf(place, sizeof place, "line %zu of the note", line);
+        header_number_warn(header_number_read(text, strlen(text), &value, &end), text, strlen(text),
+                           key, option, file->name, place, log);
+        if (first_line > 0 && fabs(value - first) > tolerance * fabs(first)) {
+            wt_log_action(log, WT_WARNING, WT_CONTRADICTED, 2, option, file->name, place,
+                          "the note states %s twice, %g in line %zu and %g here; the first one is "
+                          "used: state the value by %s",
+                          key, first, first_line, value, option);
+        } else if (first_line == 0) {
+            first = value;
+            first_line = line;
+        }
+    }
+    return force_positive_or_nan(first);
 }
 
 static wt_status fail_segments(const char *found, wt_error *err)

@@ -131,6 +131,7 @@ static wt_status nanoscope_images(const file_reader *self, wt_input *input,
         status = nanoscope_header_read(bytes, n, &header, err);
     if (status == WT_OK)
         status = window_open(&window, input, err);
+    nanoscope_check_calibration(&header, wt_input_name(input), log);
     for (size_t i = 0; status == WT_OK; i++) {
         const size_t section = nanoscope_section(&header, SECTION_IMAGE, i);
         if (section == SIZE_MAX)

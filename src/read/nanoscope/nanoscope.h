@@ -24,6 +24,7 @@ typedef struct nanoscope_line {
     size_t section;  /* index of the section */
     const char *key; /* without "\", "@" and group; the name for a section */
     const char *value;
+    size_t number; /* of the line, from 1 */
 } nanoscope_line;
 
 typedef struct nanoscope_header {
@@ -52,6 +53,8 @@ double nanoscope_number(const nanoscope_header *header, size_t section, const ch
 nanoscope_value nanoscope_parse_value(const char *text); /* accepts NULL */
 /* Returns a soft scale [m/V]; NaN if there is none. */
 double nanoscope_soft_scale(const nanoscope_header *header, const char *soft);
+/* Warns of spring constants and sensitivities that are more than one number. */
+void nanoscope_check_calibration(const nanoscope_header *header, const char *file, wt_log *log);
 
 /* ---- the curves: nanoscope_file.c -------------------------------------------------------------
  */

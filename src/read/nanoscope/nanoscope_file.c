@@ -486,6 +486,7 @@ wt_status nanoscope_file_open(wt_input *input, wt_log *log, nanoscope_file *f, w
     if (status == WT_OK)
         status = check_stopped_ramp(f, log, err);
     if (status == WT_OK) {
+        nanoscope_check_calibration(&f->header, f->name, log);
         read_ramp_settings(f, nanoscope_section(&f->header, SECTION_BLOCK, 0));
         read_sinusoid(f);
         read_grid_pitch(f);

@@ -1,6 +1,6 @@
 /* Parses the text at the beginning of a NanoScope file. SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "core/base/number.h"
+#include "read/header_number.h"
 #include "read/nanoscope/nanoscope.h"
 
 #include <ctype.h>
@@ -20,7 +20,7 @@ bool nanoscope_is_header(const unsigned char *bytes, size_t length)
 
 /* Parses a line. "\@4:Z scale: V ..." has the key "Z scale" and the value "V ..."; a section has
  * its name as key. */
-static void parse_line(nanoscope_header *header, char *line)
+static void parse_line(nanoscope_header *header, char *line, size_t number)
 {
     nanoscope_line *to = &header->lines[header->n];
     char *end = line + strlen(line);
@@ -30,7 +30,7 @@ static void parse_line(nanoscope_header *header, char *line)
         *--end = '\0';
     line++;
     if (*line == '*') {
-        *to = (nanoscope_line){header->n_sections++, line + 1, ""};
+        *to = (nanoscope_line){header->n_sections++, line + 1, "", number};
         header->n++;
         return;
     }
@@ -45,7 +45,7 @@ static void parse_line(nanoscope_header *header, char *line)
     if (colon == NULL || header->n_sections == 0)
         return;
     *colon++ = '\0';
-    *to = (nanoscope_line){header->n_sections - 1, line, colon + strspn(colon, " ")};
+    *to = (nanoscope_line){header->n_sections - 1, line, colon + strspn(colon, " "), number};
     header->n++;
 }
 
@@ -75,11 +75,12 @@ wt_status nanoscope_header_read(const unsigned char *bytes, size_t length, nanos
             header->text[out++] = (char)(bytes[i] == 0xb5                    ? '~'
                                          : bytes[i] == 0 || bytes[i] >= 0x80 ? '?'
                                                                              : bytes[i]);
+    size_t number = 0;
     for (char *line = header->text; line != NULL;) {
         char *next = strchr(line, '\n');
         if (next != NULL)
             *next++ = '\0';
-        parse_line(header, line);
+        parse_line(header, line, ++number);
         line = next;
     }
     return WT_OK;
@@ -112,10 +113,10 @@ const char *nanoscope_get(const nanoscope_header *header, size_t section, const 
 /* Returns the number at the beginning of a text, after blanks. */
 static double parse_leading_number(const char *text)
 {
-    double value = (double)NAN;
-    text += strspn(text, " ");
-    const size_t n = number_prefix_length(text, strlen(text), '.');
-    return n > 0 && wt_number_parse(text, n, '.', &value) ? value : (double)NAN;
+    double value;
+    size_t end;
+    (void)header_number_read(text, strlen(text), &value, &end);
+    return value;
 }
 
 double nanoscope_number(const nanoscope_header *header, size_t section, const char *key)
@@ -164,4 +165,27 @@ double nanoscope_soft_scale(const nanoscope_header *header, const char *soft)
         return force_positive_or_nan(factor * parse_leading_number(text));
     }
     return (double)NAN;
+}
+
+void nanoscope_check_calibration(const nanoscope_header *header, const char *file, wt_log *log)
+{
+    static const struct {
+        const char *key;
+        wt_quantity quantity;
+    } known[] = {{"Spring Constant", WT_Q_SPRING_CONSTANT}, {"Sens. ", WT_Q_SENSITIVITY}};
+    for (size_t i = 0; i < header->n; i++)
+        for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+            const char *const key = header->lines[i].key;
+            const char *text = header->lines[i].value;
+            double value;
+            size_t end;
+            char place[64];
+            if (strncasecmp(key, known[k].key, strlen(known[k].key)) != 0)
+                continue;
+            text += text[0] == 'V' ? 1 : 0;
+            snprintf(place, sizeof place, "line %zu", header->lines[i].number);
+            header_number_warn(header_number_read(text, strlen(text), &value, &end), text,
+                               strlen(text), key, header_number_option(known[k].quantity), file,
+                               place, log);
+        }
 }

@@ -334,6 +334,27 @@ static void resolve_matrix(const names_row *names, text_file *file, text_table *
         table->problems[table->n_problems++] = column;
 }
 
+static wt_quantity cell_quantity(const column_resolver *r, size_t cell)
+{
+    name_match known;
+    return find_column_name(r->d, r->names->names.cells[cell], &known)
+               ? r->d->rules[r->d->names[known.first].rule].quantity
+               : WT_Q_NONE;
+}
+
+/* True for the only column of frequencies, times or temperatures. All conditions share it, although
+ * a row of conditions may repeat the first one above it. */
+static bool is_shared_axis(const column_resolver *r, size_t cell)
+{
+    const wt_quantity_set axes = WT_Q_BIT(WT_Q_FREQUENCY) | WT_Q_BIT(WT_Q_ANGULAR_FREQUENCY) |
+                                 WT_Q_BIT(WT_Q_TIME) | WT_Q_BIT(WT_Q_TEMPERATURE);
+    const wt_quantity quantity = cell_quantity(r, cell);
+    bool is_only = quantity != WT_Q_NONE && (axes & WT_Q_BIT(quantity)) != 0;
+    for (size_t i = 0; is_only && i < r->names->names.n; i++)
+        is_only = i == cell || cell_quantity(r, i) != quantity;
+    return is_only;
+}
+
 /* Sets the condition of a column, by its name and by the cells above and below it. */
 static void set_condition(const column_resolver *r, text_file *file, const name_match *known,
                           text_column *column)
@@ -341,7 +362,7 @@ static void set_condition(const column_resolver *r, text_file *file, const name_
     text_table *const t = r->table;
     const size_t cell = column->cell;
     text_condition c = known->condition;
-    if (r->uses_cells && cell < r->names->n_above)
+    if (r->uses_cells && cell < r->names->n_above && !is_shared_axis(r, cell))
         condition_merge(&c, &r->names->above[cell]);
     if (condition_is_empty(&c))
         return;
@@ -371,16 +392,15 @@ static void compare_cells(column_resolver *r)
     condition_set *const sets = wt_alloc(names->n_above, sizeof *sets);
     size_t n = 0;
     for (size_t i = 0; i < names->n_above && i < names->names.n; i++) {
-        name_match known;
+        const wt_quantity quantity = cell_quantity(r, i);
         size_t k = 0;
-        if (condition_is_empty(&names->above[i]) ||
-            !find_column_name(r->d, names->names.cells[i], &known))
+        if (condition_is_empty(&names->above[i]) || quantity == WT_Q_NONE || is_shared_axis(r, i))
             continue;
         while (k < n && !condition_is_same(sets[k].condition, &names->above[i]))
             k++;
         n = k == n ? n + 1 : n;
         sets[k].condition = &names->above[i];
-        sets[k].quantities |= WT_Q_BIT(r->d->rules[r->d->names[known.first].rule].quantity);
+        sets[k].quantities |= WT_Q_BIT(quantity);
     }
     r->uses_cells = n > 0;
     for (size_t k = 1; k < n; k++)

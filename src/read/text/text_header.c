@@ -5,6 +5,7 @@
 #include "read/text/text_scanner.h"
 
 #include "core/base/utf8.h"
+#include "read/header_number.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -56,18 +57,27 @@ static void apply_field(text_scanner *s, field_sets sets, text_span text)
     }
 }
 
-/* Parses the number of a field in SI units; false, with a message, for another text. */
+/* Parses the number of a field in SI units; false, with a message, for another text. What follows
+ * the text on its line is no part of the number. */
 static bool parse_field_number(const text_scanner *s, const header_field *field, text_span text,
                                const field_value *value, double *number)
 {
     const line_position_text place = format_line_position(value->line);
+    const size_t rest = (size_t)(s->line.text + s->line.length - text.text);
     const char *unit = value->unit;
     double factor, offset;
+    size_t end;
     for (size_t i = 0; i < s->d->n_aliases; i++)
         if (strcmp(s->d->aliases[i].found, unit) == 0)
             unit = s->d->aliases[i].means;
-    if (!wt_number_parse(text.text, text.length, '.', number) &&
-        !wt_number_parse(text.text, text.length, ',', number)) {
+    const header_number found = header_number_read(text.text, rest, number, &end);
+    header_number_warn(found, text.text, rest, field->name, header_number_option(field->quantity),
+                       s->file->name, place.text, s->log);
+    if (found > HEADER_NUMBER_ONE)
+        return false;
+    while (text.length > end && strchr(" \t", text.text[text.length - 1]) != NULL)
+        text.length--;
+    if (found == HEADER_NUMBER_NONE || end != text.length) {
         wt_log_add(s->log, WT_NOTE, s->file->name, place.text, "%s: \"%s\" is not a number",
                    field->name, value->text);
         return false;
@@ -82,24 +92,27 @@ static bool parse_field_number(const text_scanner *s, const header_field *field,
     return true;
 }
 
-/* Reports a second value of the cantilever in one header that differs from the first one. Headers
- * of several curves may differ, so rows in between end a header. */
+/* Reports a second value in one header that differs from the first one. Headers of several curves
+ * may differ, so rows in between end a header. Positions and times differ within one. */
 static void check_second_value(const text_scanner *s, const header_field *field, header_value h,
                                double number, size_t first_line)
 {
     const double before = s->header.value[h], tolerance = 1e-3; /* rounding of a printed value */
-    const bool is_calibration = h == HEADER_SPRING_CONSTANT || h == HEADER_SENSITIVITY;
-    if (!is_calibration || isnan(before) || first_line == 0 || first_line < s->row_line ||
+    const bool is_one = h == HEADER_SPRING_CONSTANT || h == HEADER_SENSITIVITY ||
+                        h == HEADER_LOAD || h == HEADER_RADIUS || h >= HEADER_VALUE_FACTOR;
+    if (!is_one || isnan(before) || first_line == 0 || first_line < s->row_line ||
         fabs(number - before) <= tolerance * fabs(before))
         return;
-    const char *unit = h == HEADER_SPRING_CONSTANT ? "N/m" : "m/V";
+    const char *unit = wt_quantity_unit(field->quantity);
     char first[32], second[32];
     wt_format_si(before, unit, 4, first, sizeof first);
     wt_format_si(number, unit, 4, second, sizeof second);
-    wt_log_add(s->log, WT_WARNING, s->file->name, format_line_position(s->i + 1).text,
-               "the header states the %s twice, %s in line %zu and %s here; the last one is used: "
-               "delete the wrong line or state the value by an option",
-               field->name, first, first_line, second);
+    wt_log_action(
+        s->log, WT_WARNING, WT_CONTRADICTED, 2, header_number_option(field->quantity),
+        s->file->name, format_line_position(s->i + 1).text,
+        "the header states the %s twice, %s in line %zu and %s here; the last one is used: "
+        "delete the wrong line or state the value by an option",
+        field->name, first, first_line, second);
 }
 
 static void set_field(text_scanner *s, size_t f, const regmatch_t groups[REGEX_GROUPS])

@@ -1,0 +1,84 @@
+/* Numbers in headers of files.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "read/header_number.h"
+#include "core/base/number.h"
+
+#include <math.h>
+#include <string.h>
+
+static size_t skip(const char *text, size_t length, size_t i, const char *bytes)
+{
+    while (i < length && text[i] != '\0' && strchr(bytes, text[i]) != NULL)
+        i++;
+    return i;
+}
+
+static size_t word_end(const char *text, size_t length, size_t i)
+{
+    while (i < length && strchr(" \t,;|", text[i]) == NULL)
+        i++;
+    return i;
+}
+
+/* Parses a number with the decimal mark that takes more of the text. Returns its length, 0 without
+ * one. */
+static size_t parse(const char *text, size_t length, double *value)
+{
+    const size_t point = number_prefix_length(text, length, '.'),
+                 comma = number_prefix_length(text, length, ','), n = comma > point ? comma : point;
+    return n > 0 && wt_number_parse(text, n, comma > point ? ',' : '.', value) ? n : 0;
+}
+
+/* True if another number stands behind the one that ends at `from`, before the unit ("0.25 0.30
+ * N/m") or with a unit of its own ("0.25 N/m 0.30 N/m"). */
+static bool differs(const char *text, size_t length, size_t from, double value)
+{
+    static const char separators[] = " \t,;/|";
+    const size_t unit = skip(text, length, from, " \t"), unit_end = word_end(text, length, unit);
+    double second;
+    size_t at = skip(text, length, from, separators);
+    if (at > from && parse(text + at, length - at, &second) > 0)
+        return second < value || second > value;
+    at = skip(text, length, unit_end, separators);
+    const size_t n = at < length ? parse(text + at, length - at, &second) : 0,
+                 again = skip(text, length, at + n, " \t");
+    return n > 0 && word_end(text, length, again) - again == unit_end - unit &&
+           memcmp(text + again, text + unit, unit_end - unit) == 0 &&
+           (second < value || second > value);
+}
+
+header_number header_number_read(const char *text, size_t length, double *value, size_t *end)
+{
+    const size_t from = skip(text, length, 0, " \t"), n = parse(text + from, length - from, value);
+    header_number found = HEADER_NUMBER_ONE;
+    *end = from + n;
+    if (n == 0)
+        found = HEADER_NUMBER_NONE;
+    else if (*end + 1 < length && strchr(".,", text[*end]) != NULL && text[*end] != '\0' &&
+             text[*end + 1] >= '0' && text[*end + 1] <= '9')
+        found = HEADER_NUMBER_GOES_ON;
+    else if (differs(text, length, *end, *value))
+        found = HEADER_NUMBER_DIFFER;
+    if (found != HEADER_NUMBER_ONE)
+        *value = (double)NAN;
+    return found;
+}
+
+void header_number_warn(header_number found, const char *text, size_t length, const char *name,
+                        const char *option, const char *file, const char *place, wt_log *log)
+{
+    const int shown = length < 60 ? (int)length : 60;
+    if (found != HEADER_NUMBER_GOES_ON && found != HEADER_NUMBER_DIFFER)
+        return;
+    wt_log_action(log, WT_WARNING, WT_CONTRADICTED, 1, option, file, place,
+                  "%s: \"%.*s\" %s; it is not used: correct the line%s%s", name, shown, text,
+                  found == HEADER_NUMBER_DIFFER ? "states two values" : "is not one number",
+                  option != NULL ? " or state the value by " : "", option != NULL ? option : "");
+}
+
+const char *header_number_option(wt_quantity quantity)
+{
+    return quantity == WT_Q_SPRING_CONSTANT ? "--spring-constant"
+           : quantity == WT_Q_SENSITIVITY   ? "--sensitivity"
+                                            : NULL;
+}

@@ -1,0 +1,26 @@
+/* Numbers in headers of files. A number that goes on behind its end ("1.234,5"), and two numbers
+ * that differ, are named and not used. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_READ_HEADER_NUMBER_H
+#define WT_READ_HEADER_NUMBER_H
+
+#include "weartrack/core.h"
+
+typedef enum header_number {
+    HEADER_NUMBER_NONE, /* the text does not begin with a number */
+    HEADER_NUMBER_ONE,  /* or the same number twice, as in "512 512" */
+    HEADER_NUMBER_GOES_ON,
+    HEADER_NUMBER_DIFFER
+} header_number;
+
+/* Reads the number at the beginning of a value such as "0.25 N/m", after blanks, with a decimal
+ * point or comma. *end is the length of the blanks and the number. *value is NaN unless there is
+ * one number. */
+header_number header_number_read(const char *text, size_t length, double *value, size_t *end);
+/* Warns of a value that is more than one number. `place` is the line, `name` what the number is and
+ * `option` the option that states it, or NULL. */
+void header_number_warn(header_number found, const char *text, size_t length, const char *name,
+                        const char *option, const char *file, const char *place, wt_log *log);
+/* Returns the option that states a value of the cantilever; NULL for another quantity. */
+const char *header_number_option(wt_quantity quantity);
+
+#endif
