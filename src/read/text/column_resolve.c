@@ -272,7 +272,7 @@ static text_column resolve_column(const column_resolver *r, size_t cell, const n
         column.assumed = answer == DEFORMATION_STATED ? rule->assumed : NULL;
         if (unit != NULL && is_angular_per_second(rule->quantity, unit))
             column.assumed = "the angular frequency is in 1/s: taken as rad/s; if cycles are "
-                             "meant, give the column as frequency with --columns";
+                             "meant, give --columns \"NAME=frequency:Hz\"";
         column.problem = COLUMN_GOOD;
         column.factor = rule->negate ? -factor : factor;
         column.offset = rule->negate ? -offset : offset;

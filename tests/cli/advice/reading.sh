@@ -43,6 +43,11 @@ cause 'with --columns' master --deformation tension shear.csv -o a.h5
 helps master --deformation tension --columns "T (C)=temperature:degC" --columns "f (Hz)=frequency:Hz" \
   --columns "G' (MPa)=storage_modulus:MPa" --columns "G'' (MPa)=loss_modulus:MPa" --poisson-ratio 0.5 shear.csv -o a.h5
 
+piece 'if cycles are meant, give --columns \"NAME=frequency:Hz\"'
+{ echo "T (C),omega (1/s),E' (MPa),E'' (MPa)"; sweep 10 20 30; } > second.csv
+cause 'if cycles are meant' master second.csv -o a.h5
+helps master --columns "omega (1/s)=frequency:Hz" second.csv -o a.h5
+
 piece 'give the one of all points with --frequency 10Hz'
 cause '--frequency 10Hz' ramp ramp.csv -o a.h5
 helps ramp --frequency 10Hz ramp.csv -o a.h5
