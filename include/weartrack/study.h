@@ -127,7 +127,7 @@ WT_API wt_status wt_compare_dwells(const wt_compare_job *job, const wt_job *work
 /* ---- results of cases side by side ---------------------------------------------------------- */
 
 /* A result of wt_run_case, identified by the sample and condition of the case, or by `file` and "";
- * or a result of wt_indent_group, whose groups are listed with the cases. */
+ * or a result of wt_indent_group or wt_ramp_compute, which is listed with the cases. */
 typedef struct wt_collected_result {
     const wt_result *result;
     const char *file;
@@ -148,8 +148,8 @@ typedef struct wt_collection_tables {
 } wt_collection_tables;
 WT_API void wt_collection_tables_clear(wt_collection_tables *tables);
 /* Compares cases. Modulus ratios of pairs count as independent. For shared constants, errors from
- * the same files are fully correlated. WT_E_EMPTY without a case; WT_E_AMBIGUOUS for two cases of
- * one sample and condition. */
+ * the same files are fully correlated. WT_E_EMPTY without a case or a temperature sweep;
+ * WT_E_AMBIGUOUS for two cases of one sample and condition. */
 WT_API wt_status wt_collection_compute(const wt_collected_result *cases, size_t n,
                                        const wt_collect_job *job, wt_collection_tables *tables,
                                        wt_error *err) WT_NODISCARD;

@@ -15,6 +15,12 @@ enum { MAX_FILES = 2000 };
 
 /* ---- files ----------------------------------------------------------------------------------- */
 
+void view_give_file(wt_view *view, char *path)
+{
+    view->given = array_grow(view->given, view->n_given, sizeof *view->given);
+    view->given[view->n_given++] = path;
+}
+
 static void add_file(wt_view *view, const char *path)
 {
     for (size_t i = 0; i < view->n_files; i++)

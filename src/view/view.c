@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "view/view.h"
 
-#include "core/base/array.h"
 #include "core/base/param.h"
 #include "core/base/shared_params.h"
 #include "job/inputs.h"
@@ -79,12 +78,6 @@ static wt_status check_name(const char *name, wt_error *err)
     wt_error_file(err, name);
     wt_error_expected(err, "a name that does not begin with . or -");
     return status;
-}
-
-void view_give_file(wt_view *view, char *path)
-{
-    view->given = array_grow(view->given, view->n_given, sizeof *view->given);
-    view->given[view->n_given++] = path;
 }
 
 /* Adds a data file by its absolute path, because the programs run in the folder of the case. */

@@ -143,7 +143,7 @@ cp empty.txt none.txt
 cause 'what weartrack' friction --material three.h5 --roughness $surface --pressure 0.4MPa --velocity 0.1m/s --layer-thickness 1um --layer-comparison empty.txt
 advice='no such text'
 leads compare bulk.h5 track.h5
-piece 'what weartrack run wrote' 'give what weartrack run wrote; beside it, weartrack indent with'
+piece 'what weartrack run wrote' 'give what weartrack run wrote or, for moduli against'
 cause 'what weartrack run wrote' collect empty.txt empty.txt
 cause 'weartrack indent with --curves median' collect bulk.h5 track.h5
 for g in bulk track; do
