@@ -400,7 +400,6 @@ static inline void fixture_accuracy(wt_case *read)
     }
     fixture_of_case("transverse", "transverse_isotropy");
     fixture_of_case("texture", "anisotropy");
-    fixture_of_case("texture", "friction_map");
     fixture_of_case("texture", "friction_decades");
     fixture_of_case("layer", "identification");
 }
