@@ -165,7 +165,7 @@ static void test_records(void **state)
         "1e10J/m^3</critical-energy><modulus-ratio>0.6</modulus-ratio></layer><record>"            \
         "<files>disc.csv</files>"
 #define FIGURE "</record><report><figure>friction</figure></report></case>"
-    static const char held[] = "given_material record roughness given_ratio layer friction what_if "
+    static const char held[] = "given_material record roughness given_ratio layer friction "
                                "validation validation_running_in ";
     static const char off[] = "given_material roughness given_ratio layer friction ";
     check_plan(HELD FIGURE, held);
