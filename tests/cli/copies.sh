@@ -58,11 +58,4 @@ compare thermal thermal
 copy "$curve"
 compare "sensitivity sensitivity_curves" sensitivity --direction approach --max-slope-change 5
 
-# An image after the indentation that is the one before it tells no change.
-map=$fixtures/surface/road.gsf
-"$weartrack" spot --no-provenance --tip sphere:radius=20um --depth 1um --after "$map" "$map" \
-    -o "$work/spot.tsv" 2>"$work/spot.txt" || fail "spot: exit status $?"
-grep -q 'the same samples as the image before it: a copy' "$work/spot.txt" || fail "spot: no line"
-"$weartrack" table "$work/spot.tsv" data_quality | grep -q 'copied	1	the same samples' ||
-    fail "spot: no action"
 exit $failed

@@ -59,8 +59,8 @@ if command -v tar > /dev/null; then
   cp "$fixtures/case/dma.txt" one.txt; cp one.txt two.txt
   tar cf texts.tar one.txt two.txt; tar czf texts.tgz one.txt two.txt
   for name in texts.tar texts.tgz; do
-    refused 1 'found a tar archive; give its files' master "$name"
-    refused 1 'found a tar archive; give its files' convert --format trios-lims "$name"
+    refused 1 'found a tar archive; unpack it (tar -xf), and give its files' master "$name"
+    refused 1 'found a tar archive; unpack it (tar -xf), and give its files' convert --format trios-lims "$name"
   done
 fi
 

@@ -65,6 +65,6 @@ advice='no such text'
 helps friction --material three.h5 --roughness "$law" --pressure 0.4MPa --velocity 0.1m/s
 
 # spots
-piece 'its coordinates, as the image counts them, would tell (--at-x, --at-y)' 'a better known position would tell (--position-error)' 'within the error of the position; that place instead would te'
+piece 'its coordinates, as the image counts them, would tell (--at-x, --at-y)' 'a better known position would tell (--position-error)'
 cause '(--at-x, --at-y)' spot --tip sphere:radius=5um --depth 500nm --at-x 1m --at-y 1m "$road"
 helps spot --tip sphere:radius=5um --depth 500nm --at-x 0m --at-y 0m "$road"
