@@ -101,3 +101,13 @@ status=0
 "$program" collect HC-mild.h5 HC-mild.h5 -o none.h5 2>words || status=$?
 test $status -eq 1 -a ! -e none.h5
 grep -q 'sample "HC" and condition "mild"' words
+
+# cases without indentation have a row of their largest friction, and none of a ratio
+for name in nr-rough sbr-rough; do
+  "$program" run -q --no-report "$fixtures/../compounds/$name.xml" -o $name.h5 >/dev/null
+done
+"$program" collect nr-rough.h5 sbr-rough.h5 -o friction.h5 2>words
+for name in NR SBR; do
+  grep -q "^  $name, rough surface  *0\.[0-9]* .*largest friction by hysteresis, at 10.0 m/s" words
+done
+! grep -q 'not known' words

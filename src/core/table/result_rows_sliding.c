@@ -287,6 +287,9 @@ static void add_collection(rows_source *s, const table_view *v)
 {
     for (size_t i = 0; i < v->n_rows; i++) {
         const char *const condition = collection_text(v, i, COLLECTION_CONDITION);
+        if (isnan(collection_get(v, i, COLLECTION_RATIO)) &&
+            collection_enum(v, i, COLLECTION_DIFFERS) == VERDICT_NOT_ASKED)
+            continue; /* a case without indentation */
         result_row *row =
             rows_add_number(s, 0,
                             rows_number(collection_get(v, i, COLLECTION_RATIO),
@@ -297,6 +300,34 @@ static void add_collection(rows_source *s, const table_view *v)
         const char *differs = collection_text(v, i, COLLECTION_DIFFERS);
         rows_note(row, "track / bulk%s%.*s", *differs != '\0' ? "; differs: " : "",
                   (int)length_without_reason(differs), differs);
+    }
+}
+
+/* The largest friction of each case, and the velocity at which it is. */
+static void add_collected_friction(rows_source *s, const table_view *v)
+{
+    const bool hysteresis =
+        collected_friction_key_enum(v, COLLECTED_FRICTION_KEY_PART) == HYSTERESIS_ALONE;
+    for (size_t i = 0, end; i < v->n_rows; i = end) {
+        const char *const sample = collected_friction_text(v, i, COLLECTED_FRICTION_SAMPLE);
+        const char *const condition = collected_friction_text(v, i, COLLECTED_FRICTION_CONDITION);
+        size_t most = i;
+        for (end = i + 1;
+             end < v->n_rows &&
+             strcmp(collected_friction_text(v, end, COLLECTED_FRICTION_SAMPLE), sample) == 0 &&
+             strcmp(collected_friction_text(v, end, COLLECTED_FRICTION_CONDITION), condition) == 0;
+             end++)
+            if (collected_friction_get(v, end, COLLECTED_FRICTION_FRICTION) >
+                collected_friction_get(v, most, COLLECTED_FRICTION_FRICTION))
+                most = end;
+        const wt_estimate largest = {
+            collected_friction_get(v, most, COLLECTED_FRICTION_FRICTION),
+            collected_friction_get(v, most, COLLECTED_FRICTION_FRICTION_STANDARD_ERROR), 0, "1"};
+        result_row *row = rows_add_number(s, 0, rows_estimate(largest), "%s%s%s", sample,
+                                          condition[0] != '\0' ? ", " : "", condition);
+        rows_note(
+            row, "largest friction%s, at %s", hysteresis ? " by hysteresis" : "",
+            rows_short(collected_friction_get(v, most, COLLECTED_FRICTION_VELOCITY), "m/s").value);
     }
 }
 
@@ -358,6 +389,8 @@ void rows_of_collection(rows_source *s)
     table_view view;
     if (rows_bind(s, &collection_schema, &view))
         add_collection(s, &view);
+    if (rows_bind(s, &collected_friction_schema, &view))
+        add_collected_friction(s, &view);
     if (rows_bind(s, &shared_constants_schema, &view))
         add_constants(s, &view);
     if (rows_bind(s, &shared_pairs_schema, &view))
