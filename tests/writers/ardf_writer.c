@@ -14,7 +14,7 @@ typedef struct buffer {
 static void set(buffer *b, size_t at, uint64_t value, size_t width)
 {
     for (size_t i = 0; i < width; i++)
-        b->bytes[at + i] = (unsigned char)(value >> (8 * i));
+        b->bytes[at + i] = i < 8 ? (unsigned char)(value >> (8 * i)) : 0; /* padding behind */
 }
 
 static void put(buffer *b, uint64_t value, size_t width)
