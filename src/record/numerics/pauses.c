@@ -310,6 +310,8 @@ static void remove_rests(wt_record *record, const pause_buffers *r)
 static void find_pauses_by_channel(wt_record *record, wt_record_channel c, const pause_buffers *r,
                                    size_t *alike)
 {
+    if (c < WT_RECORD_CHANNELS && record->channel[c] == NULL)
+        return;
     memset(r->cut, 0, record->n * sizeof *r->cut);
     memset(r->rest, 0, record->n * sizeof *r->rest);
     for (size_t first = 0, end; first < record->n; first = end) {
