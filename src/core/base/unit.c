@@ -295,8 +295,8 @@ static const char *skip_outer_blanks(const char *text, size_t *length)
 
 /* Replaces spellings that no database knows: characters that look like the degree sign, degrees
  * with a dot or a blank, wrong cases of the pascal, powers of ten with a multiplication sign,
- * kilogram as force in a pressure, and Cyrillic letters. A spelling that does not fit stays. */
-static void normalise_spelling(char unit[UNIT_MAX])
+ * and Cyrillic letters. No spelling becomes longer. */
+static void normalise_spelling(char *unit)
 {
     static const struct {
         const char *found, *means;
@@ -317,8 +317,6 @@ static void normalise_spelling(char unit[UNIT_MAX])
                      {"\xe2\x81\xb9", "^9"}, /* U+2079 superscript nine */
                      {"x 10^", "10^"},
                      {"x10^", "10^"},
-                     {"kg/mm", "kgf/mm"},
-                     {"kg/cm", "kgf/cm"},
                      {"\xd0\x9c\xd0\x9f\xd0\xb0", "MPa"},
                      {"\xd0\xba\xd0\x9f\xd0\xb0", "kPa"},
                      {"\xd0\x9f\xd0\xb0", "Pa"},
@@ -331,8 +329,6 @@ static void normalise_spelling(char unit[UNIT_MAX])
     for (size_t i = 0; i < COUNT_OF(spellings); i++) {
         const size_t found = strlen(spellings[i].found), means = strlen(spellings[i].means);
         for (char *at = unit; (at = strstr(at, spellings[i].found)) != NULL; at += means) {
-            if (strlen(unit) + means - found >= UNIT_MAX)
-                return;
             memmove(at + means, at + found, strlen(at + found) + 1);
             memcpy(at, spellings[i].means, means);
         }
@@ -387,11 +383,17 @@ static wt_status convert_quantity_unit(const char text[UNIT_MAX], wt_quantity qu
     wt_status status = convert_unit(unit, si, good, factor, offset, err);
     if (status != WT_OK || *good)
         return status;
-    /* A mass that is given as a force is that of its weight. */
-    if (strcmp(si, "N") == 0) {
-        static const double standard_gravity = 9.80665; /* [m/s^2] */
-        status = convert_unit(unit, "kg", good, factor, offset, err);
-        *factor *= standard_gravity;
+    /* A mass that is given as a force, or over an area as a pressure, is that of its weight. */
+    static const struct {
+        const char *of_force, *of_mass;
+    } weights[] = {{"N", "kg"}, {"Pa", "kg/m^2"}};
+    static const double standard_gravity = 9.80665; /* [m/s^2] */
+    for (size_t i = 0; i < COUNT_OF(weights); i++) {
+        if (strcmp(si, weights[i].of_force) != 0)
+            continue;
+        status = convert_unit(unit, weights[i].of_mass, good, factor, offset, err);
+        if (status == WT_OK && *good)
+            *factor *= standard_gravity;
         return status;
     }
     /* A spatial frequency would have the unit cycles/m, so that 1/m means rad/m. */

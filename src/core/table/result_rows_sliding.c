@@ -283,13 +283,16 @@ void rows_of_records(rows_source *s)
 
 /* ---- several cases --------------------------------------------------------------------------- */
 
-static void add_collection(rows_source *s, const table_view *v)
+/* Returns false if no case has an indentation. */
+static bool add_collection(rows_source *s, const table_view *v)
 {
+    bool any = false;
     for (size_t i = 0; i < v->n_rows; i++) {
         const char *const condition = collection_text(v, i, COLLECTION_CONDITION);
         if (isnan(collection_get(v, i, COLLECTION_RATIO)) &&
             collection_enum(v, i, COLLECTION_DIFFERS) == VERDICT_NOT_ASKED)
             continue; /* a case without indentation */
+        any = true;
         result_row *row =
             rows_add_number(s, 0,
                             rows_number(collection_get(v, i, COLLECTION_RATIO),
@@ -301,6 +304,7 @@ static void add_collection(rows_source *s, const table_view *v)
         rows_note(row, "track / bulk%s%.*s", *differs != '\0' ? "; differs: " : "",
                   (int)length_without_reason(differs), differs);
     }
+    return any;
 }
 
 /* The largest friction of each case, and the velocity at which it is. */
@@ -387,9 +391,10 @@ static void add_pairs(rows_source *s, const table_view *v)
 void rows_of_collection(rows_source *s)
 {
     table_view view;
+    bool indented = false;
     if (rows_bind(s, &collection_schema, &view))
-        add_collection(s, &view);
-    if (rows_bind(s, &collected_friction_schema, &view))
+        indented = add_collection(s, &view);
+    if (!indented && rows_bind(s, &collected_friction_schema, &view))
         add_collected_friction(s, &view);
     if (rows_bind(s, &shared_constants_schema, &view))
         add_constants(s, &view);
