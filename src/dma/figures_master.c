@@ -206,9 +206,9 @@ static void caption_isotherms(figure_drawing *d)
 {
     text_format(
         &d->caption,
-        " %zu %s. Those that superposition can join have the same form, moved along "
-        "the axis of frequency or time; where one crosses its neighbours, look at the sample, the "
-        "clamping and the oven first.",
+        " %zu %s. Curves that superposition can join have the same shape and are displaced "
+        "along the axis. Where a curve crosses its neighbours, check the sample, the clamping "
+        "and the oven first.",
         count_isotherms(d), count_isotherms(d) == 1 ? "isotherm" : "isotherms");
 }
 
@@ -231,8 +231,9 @@ static void caption_master_curve(figure_drawing *d)
     if (terms > 0)
         text_format(&d->caption, " Lines: one relaxation spectrum of %zu terms behind both moduli.",
                     terms);
-    text_add(&d->caption, " Grey: its 95 % interval, mostly narrower than the line. A good one has "
-                          "the points of all temperatures on one line without steps.");
+    text_add(&d->caption, " Grey: its 95 % interval, mostly narrower than the line. In a good "
+                          "master curve the points of all temperatures lie on one line without "
+                          "steps.");
 }
 
 /* ---- step experiments ------------------------------------------------------------------------ */
@@ -330,7 +331,8 @@ static void draw_wicket(figure_drawing *d)
     .x = {MASTER_CURVE_ANGULAR_FREQUENCY, AXIS_LOG, "Reduced angular frequency"},                  \
     .y = {{MASTER_CURVE_STORAGE_MODULUS, AXIS_LOG, "Storage modulus"}},                            \
     .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},                              \
-    .empty_reason = "no oscillation moduli above zero; steps have a figure over time",             \
+    .empty_reason = "there are no positive oscillatory moduli; step tests have a figure "          \
+                    "against time",                                                                \
     .curves = {CURVE(MASTER_CURVE_STORAGE_MODULUS, OWN), CURVE(MASTER_CURVE_LOSS_MODULUS, OWN),    \
                CURVE(MASTER_CURVE_TEMPERATURE, DATA), CURVE(MASTER_CURVE_FITTED_STORAGE, DATA),    \
                CURVE(MASTER_CURVE_FITTED_LOSS, DATA)}
@@ -373,7 +375,8 @@ const figure_description figures_master[] = {
      .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},
      .curves = {CURVE(MASTER_CURVE_OWN_STORAGE, OWN), CURVE(MASTER_CURVE_OWN_LOSS, OWN),
                 CURVE(MASTER_CURVE_TEMPERATURE, DATA)},
-     .empty_reason = "no oscillation moduli above zero; steps have a figure over time",
+     .empty_reason = "there are no positive oscillatory moduli; step tests have a figure "
+                     "against time",
      .caption_text =
          "Storage and loss modulus at the temperature of each isotherm, and tan δ below, before "
          "any shift; the colours are those of the master curve.",
@@ -392,7 +395,8 @@ const figure_description figures_master[] = {
                 CURVE(MASTER_CURVE_FITTED_STORAGE, DATA, .with_errors = true),
                 CURVE(MASTER_CURVE_FITTED_LOSS, DATA, .with_errors = true),
                 CURVE(MASTER_CURVE_FITTED_LOSS_FACTOR, DATA, .with_errors = true)},
-     .empty_reason = "no oscillation moduli above zero; steps have a figure over time",
+     .empty_reason = "there are no positive oscillatory moduli; step tests have a figure "
+                     "against time",
      .caption_text = "Storage and loss modulus shifted to the reference temperature",
      .draw = draw_master_curve,
      .caption = caption_master_curve},
@@ -432,9 +436,9 @@ const figure_description figures_master[] = {
                 CURVE(SHIFT_FACTORS_LOG_B_PHYSICAL, OWN), CURVE(SHIFT_FACTORS_LOG_B_MATERIAL, OWN)},
      .empty_reason = "there is no vertical shift",
      .caption_text =
-         "Vertical shift factors of the isotherms with one standard error, what is smooth in "
-         "them, which is treated as the material, and what density and temperature alone would "
-         "give.",
+         "Vertical shift factors of the isotherms with one standard error, their smooth part, "
+         "which is treated as a property of the material, and the factors that density and "
+         "temperature alone would give.",
      .draw = draw_vertical_shifts,
      .caption = caption_vertical_shifts},
     {.name = "van_gurp_palmen",
@@ -442,28 +446,30 @@ const figure_description figures_master[] = {
      .title = "Superposition: van Gurp-Palmen plot",
      PLANE_FIGURE,
      .caption_text =
-         "Phase angle against the size of the modulus, shifted vertically only: frequency and "
-         "horizontal shift do not enter. In a good one the isotherms lie on one line; where "
-         "they fan out with temperature no horizontal shift can join them.",
+         "Phase angle against the magnitude of the modulus, shifted vertically only (van "
+         "Gurp-Palmen plot): frequency and horizontal shift do not enter. If superposition "
+         "holds, the isotherms lie on one line. Where they spread with temperature, no "
+         "horizontal shift can join them.",
      .draw = draw_van_gurp_palmen},
     {.name = "wicket",
      .in_depth = true,
      .title = "Superposition: wicket plot",
      PLANE_FIGURE,
      .caption_text =
-         "tan δ against the storage modulus, shifted vertically only. In a good one all "
-         "temperatures lie on one line, over a glass transition an arch, the wicket; single "
-         "points beside it are outliers, an isotherm beside it was measured on a changed "
-         "sample or at the limit of the instrument.",
+         "tan δ against the storage modulus, shifted vertically only. If superposition holds, "
+         "all temperatures lie on one line, which is an arch over a glass transition (wicket "
+         "plot). Single points beside it are outliers. An isotherm beside it was measured on a "
+         "changed sample or at the limit of the instrument.",
      .draw = draw_wicket},
     {.name = "cole_cole",
      .in_depth = true,
      .title = "Superposition: Cole-Cole plot",
      PLANE_FIGURE,
      .caption_text =
-         "Loss against storage modulus on linear axes, shifted vertically only, which shows the "
-         "stiff end. In a good one the isotherms follow one arc without steps; a glass that "
-         "the clamps or the instrument could not hold bends away from it.",
+         "Loss against storage modulus on linear axes, shifted vertically only (Cole-Cole "
+         "plot). Linear axes show the stiff end. If superposition holds, the isotherms follow "
+         "one arc without steps. Where clamps or instrument yield under the glass, the points "
+         "bend away from it.",
      .draw = draw_cole_cole},
     {.name = NULL},
 };

@@ -181,8 +181,8 @@ void caption_vertical_shifts(figure_drawing *d)
         most = fmax(most, isfinite(deviation) ? fabs(deviation) : 0);
     }
     text_format(&d->caption,
-                " A good one is smooth, and near the line of rubber elasticity above the glass "
-                "transition; here the isotherms are off it by up to %s decade. A filler that "
-                "softens with temperature or a clamp that yields leads away from it.",
+                " The factors should be smooth and, above the glass transition, near the line "
+                "of rubber elasticity; here they deviate from it by up to %s decade. A filler "
+                "that softens with temperature or a clamp that yields causes such a deviation.",
                 NUMBER(most, 2));
 }

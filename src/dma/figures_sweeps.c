@@ -126,8 +126,8 @@ static void draw_relaxation_spectrum(figure_drawing *d)
         return;
     drawing_axes(d);
     plot_item(d, d->data[0],
-              "($1*x_unit):($3*y_unit):($4*y_unit) with filledcurves ls 61 title "
-              "'limits on the safe side of 95 %%'");
+              "($1*x_unit):($3*y_unit):($4*y_unit) with filledcurves ls 61 title 'conservative "
+              "95 %% limits'");
     plot_item(d, d->data[0], "($1*x_unit):($2*y_unit) with lines ls 11 title 'spectrum'");
     plot_end(d);
 }
@@ -225,10 +225,9 @@ const figure_description figures_payne[] = {
                 CURVE(RELAXATION_SPECTRUM_HIGH, DATA)},
      .empty_reason = "no relaxation time lies within the measured frequencies",
      .caption_text =
-         "Relaxation spectrum behind the master curve with limits on the safe side of 95 % "
-         "(band): which modulus relaxes at which time. A step of the storage modulus is a "
-         "hump here; where "
-         "the band is wide the measurement tells little.",
+         "Relaxation spectrum of the master curve with conservative 95 % limits (band): the "
+         "modulus that relaxes at each time. A step of the storage modulus appears as a "
+         "maximum. Where the band is wide, the measurement determines little.",
      .draw = draw_relaxation_spectrum},
     {.name = "ramp",
      .title = "Moduli against temperature",
@@ -263,8 +262,8 @@ const figure_description figures_payne[] = {
      .caption_text =
          "Storage modulus and, below, loss modulus against the amplitude of strain, with the "
          "law of Kraus (lines) and the amplitudes at which a tenth and half of the storage "
-         "modulus are lost. A filled rubber falls between two plateaus, and the loss modulus "
-         "has its maximum where half of that fall is reached.",
+         "modulus are lost. The storage modulus of a filled rubber falls between two plateaus, "
+         "and its loss modulus has the maximum where half of that fall is reached.",
      .draw = draw_payne,
      .caption = caption_payne},
     {.name = NULL},

@@ -102,7 +102,7 @@ static wt_status check_series(const fem_material *s, wt_error *err)
     const size_t terms = s->rubber.prony.n + (s->long_term > 0);
     const size_t most = s->program->most_terms;
     if (!(s->long_term > 0) && (vibration || s->program->long_term)) {
-        wt_fail(err, WT_E_RANGE, "the series has no long-term modulus, which %s begins with",
+        wt_fail(err, WT_E_RANGE, "the series has no long-term modulus, which %s requires",
                 vibration ? "the frequency domain of Abaqus" : s->program->title);
         wt_error_advice(err, vibration
                                  ? "give it by --prony-long-term, or leave --export-domain out"
@@ -217,8 +217,9 @@ static void write_superposition(fem_material *s)
     if (isfinite(s->fastest))
         fem_write(
             s,
-            "%sThe modulus at once is an extrapolation: at the highest frequency measured the "
-            "storage modulus is %.6g,\n%sand %.2g %% of the modulus at once lies beyond it.\n",
+            "%sThe instantaneous modulus is an extrapolation: at the highest frequency "
+            "measured the storage modulus is %.6g,\n%sand %.2g %% of the instantaneous modulus "
+            "lies beyond it.\n",
             s->comment, s->fastest, s->comment, 100 * (1 - s->fastest / s->instant));
 }
 
@@ -232,14 +233,14 @@ static void write_fem_header(fem_material *s)
     fem_write(s, "%sUnits: %s; temperatures in %s.\n", s->comment, s->unit_system->words,
               s->zero > 0 ? "degrees Celsius" : "kelvin");
     fem_write(s,
-              "%sReference temperature %.10g. Young's modulus %.6g at once, %.6g in the end; shear "
-              "modulus %.6g, %.6g.\n",
+              "%sReference temperature %.10g. Instantaneous and long-term Young's modulus "
+              "%.6g, %.6g; shear modulus %.6g, %.6g.\n",
               s->comment, s->reference, s->instant, s->long_term, fem_shear_modulus(s, s->instant),
               fem_shear_modulus(s, s->long_term));
     if (s->incompressible)
         fem_write(s, "%sIncompressible: Poisson's ratio 0.5, no bulk modulus.\n", s->comment);
     else if (s->program->one_temperature)
-        fem_write(s, "%sPoisson's ratio %.6g in the end; the bulk modulus %.6g does not relax.\n",
+        fem_write(s, "%sLong-term Poisson's ratio %.6g; the bulk modulus %.6g does not relax.\n",
                   s->comment, s->nu, fem_elastic_bulk_modulus(s));
     else
         fem_write(
@@ -334,8 +335,8 @@ wt_status wt_fem_export(FILE *out, wt_fem_program program, const wt_table *prony
         return wt_fail(err, WT_E_ARG, "nothing to export to");
     if (prony_reduced == NULL)
         return wt_fail(err, WT_E_MISSING,
-                       "there is no series to export: the loss modulus or the "
-                       "loss factor alone tells no level of the moduli");
+                       "there is no series to export: the loss modulus or the loss factor "
+                       "alone does not determine the level of the moduli");
     const wt_fem_export_options o = options != NULL ? *options : wt_fem_export_options_defaults();
     fem_material s = {.out = out,
                       .program = &fem_programs[program],

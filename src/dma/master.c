@@ -51,7 +51,7 @@ static const wt_param rows[] = {
     {PARAM_TEXT_OF("shift-law", wt_master_job, shift_law), .value = "LAW", .unset = "fitted",
      .help = "law that gives all horizontal shifts of the DMA: "
              "wlf:reference-temperature=20degC,c1=8.86,c2=101.6K or "
-             "arrhenius:activation-energy=80kJ/mol; its errors are in no interval",
+             "arrhenius:activation-energy=80kJ/mol; no interval contains its errors",
      .check = check_shift_law},
     {PARAM_TEXTS_OF("shift", wt_master_job, hand_shifts, n_hand_shifts), .value = "T=LOG_AT",
      .unset = "fitted",
@@ -95,7 +95,7 @@ static wt_status check_strain_sweeps(const wt_sweep *sweep, const wt_job *work, 
         return WT_OK;
     wt_fail(err, WT_E_EMPTY, "a master curve needs isotherms");
     wt_error_found(err, "strain sweeps: %zu", n);
-    wt_error_advice(err, "`weartrack payne FILE` tells how the rubber softens with strain");
+    wt_error_advice(err, "`weartrack payne FILE` reports how the rubber softens with strain");
     return WT_E_EMPTY;
 }
 
@@ -112,8 +112,9 @@ static wt_status prepare_sweep(const wt_master_job *job, const wt_job *work, wt_
         status = flow_set_stated_shifts(law, job->shifts, job->fit.vertical, sweep, work->log, err);
     if (status == WT_OK && job->n_hand_shifts > 0 &&
         job->fit.reference_at == WT_REFERENCE_TAN_DELTA_PEAK) {
-        status =
-            wt_fail(err, WT_E_ARG, "shifts by hand need a reference that is known before them");
+        status = wt_fail(err, WT_E_ARG,
+                         "shifts by hand need a reference temperature that is known "
+                         "before the fit");
         wt_error_advice(err, "give --reference-temperature in place of --reference-at");
         wt_error_options(err, "reference-temperature reference-at");
     }
@@ -121,8 +122,8 @@ static wt_status prepare_sweep(const wt_master_job *job, const wt_job *work, wt_
         status = flow_set_hand_shifts(job->hand_shifts, job->n_hand_shifts, sweep, work->log, err);
     if (status == WT_OK && law->kind != WT_LAW_NONE)
         wt_log_add(work->log, WT_NOTE, NULL, NULL,
-                   "the shifts are those of the law that is given: its errors are in no "
-                   "interval");
+                   "the shifts are those of the law that is given: no interval contains its "
+                   "errors");
     return status;
 }
 
@@ -166,7 +167,9 @@ static bool has_modulus_level(const wt_master *m)
 
 static wt_status fail_no_modulus_level(const wt_master *m, wt_error *err)
 {
-    wt_fail(err, WT_E_MISSING, "the %s alone tells no level of the moduli, and friction needs both",
+    wt_fail(err, WT_E_MISSING,
+            "the %s alone does not determine the level of the moduli, which "
+            "friction needs",
             wt_master_shift_quantity(m) == WT_SHIFT_LOSS ? "loss modulus" : "loss factor");
     wt_error_expected(err, "isotherms with storage and loss modulus");
     return WT_E_MISSING;
@@ -256,8 +259,8 @@ static void warn_unconverged(const wt_master *m, const wt_job *work)
 {
     if (!flow_fit_has_converged(m))
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
-                   "the fit ended before it was settled: a further step would move a number "
-                   "by up to %.2g of its standard error",
+                   "the fit ended before it converged: a further iteration would change a "
+                   "number by up to %.2g of its standard error",
                    m->step_bound);
 }
 

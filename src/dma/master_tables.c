@@ -339,8 +339,8 @@ static void set_zener_keys(const wt_master *m, const wt_prony *p, double poisson
                            z.determined ? words : "none: the points do not reach its glass");
     clocale_print(
         words, sizeof words,
-        "%s by AICc, lower by %.3g; off the points (rms of E', E'') by %.2g %% and %.2g %%, the "
-        "fractional Zener law by %.3g %% and %.3g %%",
+        "%s by AICc, lower by %.3g; rms deviation from the points (E', E'') %.2g %% and %.2g "
+        "%%, of the fractional Zener law %.3g %% and %.3g %%",
         z.series_aicc < z.aicc ? "the Prony series" : "the fractional Zener law",
         fabs(z.aicc - z.series_aicc), 100 * z.series_rms_storage, 100 * z.series_rms_loss,
         100 * z.rms_storage, 100 * z.rms_loss);
@@ -397,8 +397,8 @@ wt_status flow_reduced_table(const wt_master *m, const wt_master_job *job, const
         const double most = fmax(deviation[0], deviation[1]);
         if (most > options->error)
             wt_log_add(work->log, WT_WARNING, NULL, NULL,
-                       "the reduced Prony series of %zu term%s is off the spectrum by up to "
-                       "%.3g %%, more than the %.3g %% of --prony-error: %s",
+                       "the reduced Prony series of %zu term%s deviates from the spectrum by "
+                       "up to %.3g %%, more than the %.3g %% of --prony-error: %s",
                        p.n, p.n == 1 ? "" : "s", 100 * most, 100 * options->error,
                        options->terms > 0 ? "more terms are closer"
                                           : "its long-term modulus may not be that of the rubber");

@@ -36,7 +36,7 @@ static wt_status check_peak_points(const void *member, wt_error *err)
 static const wt_param rows[] = {
     {PARAM_LIST_OF("at", wt_ramp_job, temperature, n_temperatures, WT_Q_TEMPERATURE, ABOVE(0)),
      .value = "T", .unset = "",
-     .help = "temperatures at which the moduli are told, such as 0degC,25degC,60degC"},
+     .help = "temperatures at which the moduli are reported, such as 0degC,25degC,60degC"},
     {PARAM("peak-points", wt_ramp_job, peak_points, WT_Q_NONE, FROM_TO(0, 10000)), .value = "N",
      .check = check_peak_points,
      .help = "place peaks by a plain parabola through so many points; 0: by a smooth curve through "
@@ -410,7 +410,8 @@ wt_status wt_ramp_compute(const wt_ramp_job *job, const wt_job *work, wt_ramp_ta
         wt_error_expected(err, "moduli at one frequency at %d temperatures or more", MIN_POINTS);
         wt_error_found(err, "isotherms: %zu, strain sweeps: %zu", isotherms, strain_sweeps);
         if (strain_sweeps > 0)
-            wt_error_advice(err, "`weartrack payne FILE` tells how the rubber softens with strain");
+            wt_error_advice(err, "`weartrack payne FILE` reports how the rubber softens with "
+                                 "strain");
     }
     if (status == WT_OK)
         status = build_ramp_tables(job, work, &sweep, &t, err);

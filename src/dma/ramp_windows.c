@@ -220,8 +220,8 @@ static wt_status check_frequency_count(const wt_sweep *sweep, wt_error *err)
         return WT_OK;
     wt_fail(err, WT_E_MISSING, "a temperature sweep at one frequency has no shift of its own");
     wt_error_expected(err, "sweeps at two frequencies or more, or isotherms beside it");
-    wt_error_advice(err, "give the law of the shifts (--shift-law wlf:...); `weartrack ramp FILE` "
-                         "tells the glass transition");
+    wt_error_advice(err, "give the law of the shifts (--shift-law wlf:...); `weartrack ramp "
+                         "FILE` reports the glass transition");
     wt_error_options(err, "shift-law");
     return WT_E_MISSING;
 }
@@ -242,8 +242,8 @@ static void report_windows(const wt_sweep *sweep, const windows *w, const wt_mas
             "%zu points of the temperature sweeps left out, no positive modulus", w->n_left_out);
     if (moved >= convergence_limit)
         wt_log_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
-                   "the shift law and what it makes of the temperature sweeps do not agree "
-                   "to better than %.2g decades",
+                   "the shift law and the temperature sweeps that it shifts agree to %.2g "
+                   "decades only",
                    moved);
     if (master->law.kind == WT_LAW_NONE)
         wt_log_add(log, WT_WARNING, sweep->ramps[0].source, NULL,

@@ -406,7 +406,7 @@ static wt_status fail_mixed_amplitudes(const sweep_entry *a, const sweep_entry *
                                                               : "isotherms and temperature sweeps";
     wt_fail(err, WT_E_AMBIGUOUS, "%s of several strain amplitudes at one temperature", sweep_kind);
     wt_error_place(err, "%s", a->source);
-    wt_error_expected(err, "those of one amplitude, for a filled rubber softens with strain");
+    wt_error_expected(err, "those of one amplitude, because a filled rubber softens with strain");
     wt_error_found(err, "%.3g %% and %.3g %% at %.1f degC", low, high,
                    fmax(a->temperature[0], b->temperature[0]) - WT_ZERO_CELSIUS);
     wt_error_advice(err, "choose one with --strain %.3g%%", low);

@@ -23,7 +23,8 @@
       "log10 b that density and temperature would give", NUMBER,                                   \
       LABEL("log₁₀ b, rubber elasticity"), DECIMALS(3))                                            \
     X(SHIFT_FACTORS_LOG_B_MATERIAL, IN(shift, log_b_material),                                     \
-      "log10 b of the material: what is smooth with temperature in log_b", NUMBER, DECIMALS(3))    \
+      "log10 b of the material: the part of log_b that is smooth in temperature", NUMBER,          \
+      DECIMALS(3))                                                                                 \
     X(SHIFT_FACTORS_OVERLAP, IN(shift, overlap),                                                   \
       "least range of frequencies shared on the way to the reference [decade]", NUMBER,            \
       LABEL("Overlap (decades)"))                                                                  \
@@ -285,7 +286,7 @@
     X(ID##_POINTS, name "_points", "points that it is placed by", NUMBER, SHOWS(peak.points),      \
       LABEL("Points"), SPARSE)                                                                     \
     X(ID##_MISFIT, name "_misfit",                                                                 \
-      "root mean square of what they are off its curve, of the height", NUMBER,                    \
+      "root mean square deviation of the points from its curve, relative to the height", NUMBER,   \
       SHOWS(peak.misfit), LABEL("Misfit"), DIGITS(2), SPARSE)                                      \
     X(ID##_NOTE, name "_note", "why there is no peak or no interval", TEXT, SHOWS(peak.why_not),   \
       LABEL("Note"))
@@ -350,9 +351,9 @@
     X(PAYNE_SWEEP_LOSS_MODULUS, "loss_modulus", "loss modulus", SI(LOSS_MODULUS), SHOWS(loss))     \
     X(PAYNE_SWEEP_LOSS_FACTOR, AS(loss_factor), "loss factor tan delta", SI(LOSS_FACTOR))          \
     X(PAYNE_SWEEP_STORAGE_RATIO, AS(storage_ratio),                                                \
-      "storage modulus by that of the smallest amplitudes, f(strain)", NUMBER)                     \
+      "storage modulus over that of the smallest amplitudes, f(strain)", NUMBER)                   \
     X(PAYNE_SWEEP_LOSS_RATIO, AS(loss_ratio),                                                      \
-      "loss modulus by that of the smallest amplitudes, g(strain)", NUMBER)                        \
+      "loss modulus over that of the smallest amplitudes, g(strain)", NUMBER)                      \
     X(PAYNE_SWEEP_STORAGE_KRAUS, AS(storage_kraus), "storage modulus of the law of Kraus",         \
       SI(STORAGE_MODULUS), SPARSE)                                                                 \
     X(PAYNE_SWEEP_LOSS_KRAUS, AS(loss_kraus), "loss modulus of the law of Kraus",                  \
@@ -372,10 +373,10 @@
     X(PAYNE_STORAGE_END, IN(payne, storage_end), "storage modulus of the largest amplitudes",      \
       SI(STORAGE_MODULUS), LABEL("Storage modulus, largest strain"))                               \
     X(PAYNE_STRAIN_TENTH, IN(payne, strain_tenth),                                                 \
-      "strain at which the storage modulus first lost a tenth of its start", SI(STRAIN),           \
-      LABEL("Strain, a tenth lost"), SPARSE)                                                       \
+      "strain at which the storage modulus has first lost a tenth of its initial value",           \
+      SI(STRAIN), LABEL("Strain, a tenth lost"), SPARSE)                                           \
     X(PAYNE_STRAIN_HALF, IN(payne, strain_half),                                                   \
-      "strain at which the storage modulus first lost half of its start", SI(STRAIN),              \
+      "strain at which the storage modulus has first lost half of its initial value", SI(STRAIN),  \
       LABEL("Strain, half lost"), SPARSE)                                                          \
     X(PAYNE_LOSS_MAX, IN(payne, loss_max), "largest loss modulus", SI(LOSS_MODULUS),               \
       LABEL("Largest loss modulus"))                                                               \
@@ -400,11 +401,11 @@
                         "Kraus: loss modulus far from half of the fall", SI(LOSS_MODULUS),         \
                         "Kraus: loss modulus far from it", SHOWS(payne.loss_inf))                  \
     X(PAYNE_STORAGE_MISFIT, IN(payne, storage_misfit),                                             \
-      "root mean square of what the storage moduli are off the law, of storage_0", NUMBER,         \
-      LABEL("Misfit"), DIGITS(2), SPARSE)                                                          \
+      "root mean square deviation of the storage moduli from the law, relative to storage_0",      \
+      NUMBER, LABEL("Misfit"), DIGITS(2), SPARSE)                                                  \
     X(PAYNE_LOSS_MISFIT, IN(payne, loss_misfit),                                                   \
-      "root mean square of what the loss moduli are off the law, of the largest", NUMBER,          \
-      LABEL("Misfit of the loss modulus"), DIGITS(2), SPARSE)                                      \
+      "root mean square deviation of the loss moduli from the law, relative to the largest",       \
+      NUMBER, LABEL("Misfit of the loss modulus"), DIGITS(2), SPARSE)                              \
     X(PAYNE_NOTE, IN(payne, note), "why there is no law of Kraus, or what it lacks", TEXT,         \
       LABEL("Note"))                                                                               \
     X(PAYNE_POINTS, AS(points), "points", NUMBER, LABEL("Points"))                                 \

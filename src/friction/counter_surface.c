@@ -204,7 +204,8 @@ static wt_status read_spectrum_errors(const flow_file *file, const wt_job *work,
                                    &copied, err);
     if (status == WT_OK && !copied && (piped || table != NULL))
         wt_log_add(work->log, WT_WARNING, file->name, NULL,
-                   "the errors of the spectrum are not read%s: no error holds the surface",
+                   "the errors of the spectrum are not read%s: no error of a result contains "
+                   "them",
                    piped ? " from a pipe; give a file" : "");
     wt_result_free(tables);
     return status;

@@ -341,17 +341,17 @@ const figure_description figures_friction[] = {
                       .title = "of a contact that stays hot")},
      .empty_reason = "no hysteresis friction is a number",
      .caption_text =
-         "Hysteresis part of the friction coefficient against sliding velocity with the "
-         "temperatures that sliding makes, and with rubber as warm as its surroundings.",
+         "Hysteresis part of the friction coefficient against sliding velocity with flash "
+         "temperatures, and with rubber at the temperature of its surroundings.",
      .caption = caption_flash},
     {.name = "friction_decades",
      .title = "Which decades of the wavenumber make the friction",
      .table = &friction_decades_schema,
      .empty_reason = "no hysteresis friction of a decade is a number",
      .caption_text =
-         "What the roughness of each decade of the wavenumber makes of the hysteresis friction "
-         "coefficient, at the slowest, the reference and the fastest velocity. The first and "
-         "the last decade may be cut by the ends of the power spectrum.",
+         "Contribution of the roughness of each decade of the wavenumber to the hysteresis "
+         "friction coefficient, at the slowest, the reference and the fastest velocity. The "
+         "first and the last decade may be cut by the ends of the power spectrum.",
      .draw = draw_decades,
      .caption = caption_decades},
     {.name = "anisotropy",

@@ -439,7 +439,7 @@ static wt_status tabulate_flash(const friction_difference *e, wt_table **table, 
     describe_extent(find_velocity_extent(e->with, n, has_hot_solution), n,
                     "a contact that was hot stays hot", keys.branches, sizeof keys.branches);
     describe_extent(find_velocity_extent(e->with, n, is_unsolved), n,
-                    "no temperature below 300 degC was found that makes itself", keys.unsettled,
+                    "no stable temperature below 300 degC was found", keys.unsettled,
                     sizeof keys.unsettled);
     describe_law_range(e, keys.law_range);
     flash_set_keys(&t, &keys);

@@ -53,7 +53,7 @@ static const wt_param rows[] = {
     FRICTION_STRAIN_FACTOR(wt_sliding),
     FRICTION_ANISOTROPY(wt_sliding),
     {PARAM_FLAG_OF("decades", wt_sliding, decades),
-     .help = "also what each decade of the wavenumber makes of the friction"},
+     .help = "also the contribution of each decade of the wavenumber to the friction"},
     FLASH_ROWS(wt_sliding, flash.),
 };
 PARAM_TABLE(wt_sliding_params, wt_sliding, rows, wt_sliding_defaults, NO_PARTS)
@@ -74,7 +74,7 @@ wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work, wt_e
     if (status == WT_OK && sliding->pressure.value > max_rubber_pressure)
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "the nominal pressure of %.4g MPa is above the %.4g MPa that rubber bears: "
-                   "is its unit right?",
+                   "check its unit",
                    1e-6 * sliding->pressure.value, 1e-6 * max_rubber_pressure);
     return status;
 }
@@ -402,10 +402,10 @@ static const wt_param parameter_rows[] = {
          "of these frequencies; another one needs the shift law of the bulk, which the layer is "
          "taken to have"},
     {PARAM_FLAG_OF("ratio-by-rate", wt_layer_observation, by_rate), .flags = PARAM_NO_OPTION,
-     .help = "the modulus ratio goes with the frequency as the comparison finds it at several "
+     .help = "the modulus ratio depends on the frequency as the comparison finds it at several "
              "indentation rates"},
     {PARAM_FLAG_OF("bulk-shear", wt_layer_observation, bulk_shear), .flags = PARAM_ONLY_C,
-     .help = "shear stress of the bulk for the layer, too, not times the modulus ratio"},
+     .help = "the layer has the shear stress of the bulk, not multiplied by the modulus ratio"},
 };
 PARAM_TABLE(wt_layer_observation_params, wt_layer_observation, parameter_rows,
             wt_layer_observation_defaults, NO_PARTS)

@@ -163,7 +163,7 @@
     X(FLASH_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error", "its numerical error",       \
       NUMBER)                                                                                      \
     X(FLASH_HYSTERESIS_WITHOUT, "hysteresis_without",                                              \
-      "hysteresis friction of rubber as warm as its surroundings", NUMBER,                         \
+      "hysteresis friction of rubber at the temperature of its surroundings", NUMBER,              \
       SHOWS(without.hysteresis), NUMERICAL_ERROR(FLASH_HYSTERESIS_WITHOUT))                        \
     X(FLASH_HYSTERESIS_WITHOUT_NUMERICAL_ERROR, "hysteresis_without_numerical_error",              \
       "its numerical error", NUMBER)                                                               \
@@ -176,8 +176,8 @@
     X(FLASH_AREA_RATIO_WITHOUT_NUMERICAL_ERROR, "area_ratio_without_numerical_error",              \
       "its numerical error", NUMBER)                                                               \
     X(FLASH_HOT_HYSTERESIS, "hot_hysteresis",                                                      \
-      "hysteresis friction of a contact that was hot before and stays so; nan: there is none",     \
-      NUMBER, SHOWS(with.hot_branch.hysteresis))                                                   \
+      "hysteresis friction of the second, hotter stable state; nan: there is none", NUMBER,        \
+      SHOWS(with.hot_branch.hysteresis))                                                           \
     X(FLASH_HOT_AREA_RATIO, "hot_area_ratio", "its real over nominal contact area", NUMBER,        \
       SHOWS(with.hot_branch.area_ratio))                                                           \
     X(FLASH_HOT_TEMPERATURE, "hot_temperature", "its temperature at the finest scale",             \
@@ -276,8 +276,8 @@
     X(FRICTION_DECADES_FROM, AS(from), "first wavenumber of the decade", SI(WAVENUMBER))           \
     X(FRICTION_DECADES_TO, AS(to), "last wavenumber of the decade", SI(WAVENUMBER))                \
     X(FRICTION_DECADES_HYSTERESIS, AS(hysteresis),                                                 \
-      "hysteresis friction by the roughness between these wavenumbers", NUMBER,                    \
-      NUMERICAL_ERROR(FRICTION_DECADES_HYSTERESIS))                                                \
+      "contribution of the roughness between these wavenumbers to the hysteresis friction",        \
+      NUMBER, NUMERICAL_ERROR(FRICTION_DECADES_HYSTERESIS))                                        \
     X(FRICTION_DECADES_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error",                   \
       "its numerical error", NUMBER)                                                               \
     X(FRICTION_DECADES_SHARE, AS(share), "its share of the hysteresis friction", NUMBER)           \

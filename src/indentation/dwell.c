@@ -165,7 +165,8 @@ static wt_status compute_modulation_moduli(const wt_contact_table *contact, doub
               : !described   ? "the dwell is not described, nor is the contact point"
               : m->amplitude > small_amplitude * m->indentation
                   ? "the amplitude is more than a fifth of the indentation"
-              : air == NULL ? "drag and the lag of the instrument are in it: no modulation in air"
+              : air == NULL ? "it contains drag and the lag of the instrument: there is no "
+                              "modulation in air"
                             : "";
     const wt_status status = wt_modulation_moduli(&m->sine, air != NULL ? &air->sine : NULL,
                                                   spring_constant, slope, &m->moduli, err);
@@ -324,9 +325,9 @@ static void format_dwell_note(const wt_dwell *d, char note[256])
 {
     const char *misfit =
         d->misfit_p < misfit_p_threshold
-            ? "a rubber of a broad spectrum does not describe it; no errors are told"
-        : isnan(d->misfit_p) ? "whether a rubber of a broad spectrum describes it could not be "
-                               "tested; no errors are told"
+            ? "a rubber with a broad spectrum does not describe it; no errors are reported"
+        : isnan(d->misfit_p) ? "whether a rubber with a broad spectrum describes it could not "
+                               "be tested; no errors are reported"
                              : "";
     bool all = true, is_repulsive = true;
     for (size_t i = 0; i < d->n; i++)

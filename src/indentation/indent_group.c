@@ -112,10 +112,11 @@ static depth_text format_si_value(double value, const char *unit)
 static const char *depth_advice(const wt_modulus_profile *d, bool other_misfit)
 {
     if (d->loss_share > 0.5 || (other_misfit && d->loss_share > 0))
-        return "the DMA of the rubber would tell";
+        return "the DMA of the rubber would decide";
     if (d->curvature_share > 0.5 || (other_misfit && d->curvature_share > 0))
-        return "the baselines are bent: a straight piezo, or one that has settled, would tell";
-    return other_misfit ? "another tip or rate would tell" : "more curves would tell";
+        return "the baselines are bent: curves of a straight piezo, or one that has settled, "
+               "would decide";
+    return other_misfit ? "another tip or rate would decide" : "more curves would decide";
 }
 
 static void describe_depth_change(const wt_modulus_profile *d, char text[320])
@@ -131,13 +132,13 @@ static void describe_depth_change(const wt_modulus_profile *d, char text[320])
     if (d->n_excluded_by_loss > 0 && d->n_excluded_by_loss >= d->n)
         clocale_print(
             text, 320,
-            "inconclusive: %zu of %zu curves lose work on the way out, and what that does "
-            "to their moduli is not known; the DMA of the rubber would tell",
+            "inconclusive: %zu of %zu curves lose work between approach and retract, and the "
+            "effect on their moduli is not known; the DMA of the rubber would determine it",
             d->n_excluded_by_loss, d->n + d->n_excluded_by_loss);
     else if (isnan(d->change.value))
         clocale_print(text, 320,
-                      "inconclusive: %zu curves without adhesion do not tell, 12 are "
-                      "needed that differ by noise alone",
+                      "inconclusive: %zu curves without adhesion are too few; 12 are needed "
+                      "that differ by noise alone",
                       d->n);
     else if (d->two_spots)
         clocale_print(text, 320,
@@ -147,17 +148,17 @@ static void describe_depth_change(const wt_modulus_profile *d, char text[320])
     else if (d->verdict == WT_DEPTH_OTHER_RESIDUAL)
         clocale_print(
             text, 320,
-            "inconclusive: the curves have a residual in common that no modulus that changes "
-            "with depth leaves (chance %s); %s",
+            "inconclusive: the curves have a residual in common that a change of the modulus "
+            "with depth does not explain (chance %s); %s",
             format_probability(d->misfit_p).text, depth_advice(d, true));
     else if (d->verdict == WT_DEPTH_CHANGES && d->change.low < 1 && d->change.high > 1)
         clocale_print(text, 320,
-                      "yes: between %s and %s the modulus changes, by how much and which way the "
-                      "curves do not tell (factor %s)",
+                      "yes: between %s and %s the modulus changes; the curves do not determine "
+                      "the size and sign of the change (factor %s)",
                       shallow.text, deep.text, range);
     else if (d->verdict == WT_DEPTH_CHANGES)
         clocale_print(text, 320,
-                      "yes%s: at %s the modulus is another than at %s, by a factor of %s",
+                      "yes%s: the modulus at %s differs from that at %s by a factor of %s",
                       is_small ? ", but hardly" : "", deep.text, shallow.text, range);
     else if (d->verdict == WT_DEPTH_SAME)
         clocale_print(text, 320,
@@ -177,18 +178,18 @@ static void describe_layer_reading(const wt_modulus_profile *d, char text[640])
     char numbers[256] = "";
     if (!isnan(d->thickness.value))
         clocale_print(numbers, sizeof numbers,
-                      "; one of %s (%s to %s) with %s on %s would look like that",
+                      "; a layer of %s (%s to %s) with %s on %s would have this effect",
                       format_si_value(d->thickness.value, "m").text,
                       format_si_value(d->thickness.low, "m").text,
                       format_si_value(d->thickness.high, "m").text,
                       format_si_value(d->layer_modulus.value, "Pa").text,
                       format_si_value(d->substrate_modulus.value, "Pa").text);
     clocale_print(text, 640,
-                  "if a layer thinner than the indentation makes it, the layer is %s than what is "
-                  "below; then shallow indentations tell the layer, deep ones what is below, and "
-                  "the modulus of a whole curve is that of neither%s; another radius of the tip, "
-                  "loss, adhesion and an uneven piezo do the same, which a second rate, a second "
-                  "tip or the untouched bulk tells apart",
+                  "if a layer thinner than the indentation causes it, the layer is %s than the "
+                  "material below; then shallow indentations measure the layer, deep ones the "
+                  "material below, and the modulus of a whole curve is that of neither%s; "
+                  "another tip radius, loss, adhesion and an uneven piezo have the same "
+                  "effect; a second rate, a second tip or the untouched bulk separates them",
                   d->change.low > 1    ? "softer"
                   : d->change.high < 1 ? "stiffer"
                                        : "softer or stiffer",
@@ -351,9 +352,9 @@ static void report_common_shifts(const indent_summary *summary, const wt_indent_
     indentation_set_value(rows, INDENTATION_KEY_BEND_ERROR, bend, 0, 0);
     if (fabs(bend) > 0)
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
-                   "%s: the baseline of %zu of %zu accepted curves is bent; a piezo that goes on "
-                   "so in contact changes these moduli by %+.2g %% in the mean, which their "
-                   "scatter does not show",
+                   "%s: the baseline of %zu of %zu accepted curves is bent; if the piezo "
+                   "continues so in contact, these moduli change by %+.2g %% on average, which "
+                   "their scatter does not show",
                    job->group, summary->bend.n, summary->n, 100 * bend);
     const double error = loss_error(summary);
     const double loss = mean_shift(summary, &summary->loss);
@@ -361,18 +362,18 @@ static void report_common_shifts(const indent_summary *summary, const wt_indent_
     if (error > 0)
         wt_log_add(
             work->log, WT_NOTE, NULL, NULL,
-            "%s: %zu of %zu accepted curves lose work on the way out; their moduli are |E*| at "
-            "1/(loading time) of a rubber that loses as much, %.1g %% %s than those of a fit "
-            "without loss; that its spectrum is not known leaves a standard error of %.1g %%, "
-            "which all of them share and the DMA of the rubber takes away",
+            "%s: %zu of %zu accepted curves lose work between approach and retract; their "
+            "moduli are |E*| at 1/(loading time) of a rubber that loses as much, %.1g %% %s "
+            "than those of a fit without loss; its unknown spectrum causes a standard error of "
+            "%.1g %%, which all curves share and which the DMA of the rubber removes",
             job->group, summary->loss.n, summary->n, 100 * fabs(loss), loss > 0 ? "less" : "more",
             100 * error);
     if (isnan(error))
-        wt_log_add(
-            work->log, WT_NOTE, NULL, NULL,
-            "%s: %zu of %zu accepted curves lose work on the way out, and nothing says what that "
-            "does to their moduli; times of the samples or the DMA of the rubber would tell",
-            job->group, summary->n_unknown_loss, summary->n);
+        wt_log_add(work->log, WT_NOTE, NULL, NULL,
+                   "%s: %zu of %zu accepted curves lose work between approach and retract, and the "
+                   "effect on their moduli is not known; times of the samples or the DMA of the "
+                   "rubber would determine it",
+                   job->group, summary->n_unknown_loss, summary->n);
 }
 
 double indent_summary_range_spread(const indent_summary *summary)
@@ -440,8 +441,8 @@ static void warn_implausible_radius(const indent_summary *summary, const wt_inde
         return;
     wt_format_si(job->tip.radius, "m", 3, radius, sizeof radius);
     wt_log_add(work->log, WT_WARNING, NULL, NULL,
-               "%s: the radius of the tip, %s, is %.0f times the deepest indentation: is its "
-               "unit right?",
+               "%s: the radius of the tip, %s, is %.0f times the deepest indentation: check "
+               "its unit",
                job->group, radius, job->tip.radius / summary->max_depth);
 }
 

@@ -69,7 +69,7 @@ wt_status indent_error_check(const void *estimate, wt_error *err)
     if (isnan(e->value) || e->standard_error < e->value)
         return WT_OK;
     const wt_status status =
-        wt_fail(err, WT_E_RANGE, "the standard error is not below the value, which says nothing");
+        wt_fail(err, WT_E_RANGE, "the standard error must be smaller than the value");
     wt_error_expected(err, "an error below %g %s", e->value, e->unit);
     wt_error_found(err, "%g %s", e->standard_error, e->unit);
     wt_error_advice(err, "give the error behind +-, in %% or with its unit, or leave it out");

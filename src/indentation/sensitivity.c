@@ -34,8 +34,8 @@ wt_sensitivity_job wt_sensitivity_job_defaults(void)
 static const wt_param job_rows[] = {
     {PARAM_CHOICE_OF("direction", wt_sensitivity_job, directions, "both|approach|retract"),
      .flags = PARAM_NO_CASE,
-     .help = "which ways of the curves the answer is of; the mean of both is free of friction of "
-             "the tip and of the piezo's hysteresis to first order"},
+     .help = "which parts of the curves the result uses; the mean of both is free of friction "
+             "of the tip and of the piezo's hysteresis to first order"},
     {PARAM("max-slope-change", wt_sensitivity_job, max_slope_change, WT_Q_NONE, ABOVE(0)),
      .former = "most-bend", .value = "X", .flags = PARAM_NO_CASE,
      .help = "largest change of the slope within the part, of the slope, that is still straight"},
@@ -233,8 +233,8 @@ static wt_status check_signals(const sensitivity_task *task, wt_error *err)
     wt_fail(err, WT_E_AMBIGUOUS, "curves in volts of the detector and curves in metres");
     wt_error_expected(err, "those of one of them");
     wt_error_found(err, "%s in volts, %s in metres", volts->file->name, metres->file->name);
-    wt_error_advice(err, "give each in a call of its own: volts tell the sensitivity, metres the "
-                         "factor on that of the file");
+    wt_error_advice(err, "give each in a call of its own: a deflection in volts gives the "
+                         "sensitivity, one in metres the factor on that of the file");
     return WT_E_AMBIGUOUS;
 }
 
@@ -453,7 +453,7 @@ static const char *const verdict_reasons[] = {
     [SLOPE_STRAIGHT] = "",
     [SLOPE_RISES] = ": the slope rises with the deflection",
     [SLOPE_FALLS] = ": the slope falls with the deflection",
-    [SLOPE_INCONCLUSIVE] = ": the slope scatters too much to show if the surface is hard"};
+    [SLOPE_INCONCLUSIVE] = ": the slope scatters too much to show whether the surface is hard"};
 
 /* The first two rows are the directions. */
 static void add_group_row(table_writer *t, slope_direction row, const direction_group *g,

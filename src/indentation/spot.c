@@ -151,20 +151,20 @@ static void assess_roughness(const wt_spot_job *job, const wt_height_map *f, boo
     if (s->x < 0 || s->y < 0 || s->x > f->dx * (double)(f->nx - 1) ||
         s->y > f->dy * (double)(f->ny - 1))
         clocale_print(s->verdict, sizeof s->verdict,
-                      "inconclusive: the place lies outside of the image; its coordinates, as the "
-                      "image counts them, would tell (--at-x, --at-y)");
+                      "inconclusive: the place lies outside of the image; its coordinates in "
+                      "the image would decide (--at-x, --at-y)");
     else if (isnan(s->plane.rms) && s->plane.n + s->plane.missing < SPOT_MIN_PIXELS)
         clocale_print(
             s->verdict, sizeof s->verdict,
             "inconclusive: pixels of %s are too coarse for a contact radius of %s (%zu in it, "
-            "%d are needed); an image with pixels of %s or less would tell",
+            "%d are needed); an image with pixels of %s or less would decide",
             pixel, contact, s->plane.n + s->plane.missing, SPOT_MIN_PIXELS, required_pixel);
     else if (!covered)
         clocale_print(
             s->verdict, sizeof s->verdict,
             "inconclusive: the contact radius of %s is not measured about each place that the "
-            "tip may have gone in (%d heights and nine tenths of its pixels); an image that has "
-            "heights up to %s from the place would tell",
+            "tip may have gone in (%d heights and nine tenths of its pixels); an image that "
+            "has heights up to %s from the place would decide",
             contact, SPOT_MIN_PIXELS, search_radius);
     else if (isnan(limit))
         clocale_print(
@@ -184,7 +184,7 @@ static void assess_roughness(const wt_spot_job *job, const wt_height_map *f, boo
     else
         clocale_print(s->verdict, sizeof s->verdict,
                       "inconclusive: %s of the depth, depending on the place, and the limit is "
-                      "%.2g; a better known position would tell (--position-error)",
+                      "%.2g; a better known position would decide (--position-error)",
                       format_range(low, high, 2).text, limit);
 }
 

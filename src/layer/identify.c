@@ -281,8 +281,8 @@ static void add_thickness_row(const identify_task *task, wt_interval product, ta
                  "the product contradicts the ranges of the literature for k and U_c");
     } else {
         snprintf(row.note, sizeof row.note,
-                 "no estimate: the ends are those of the literature's ranges for k and U_c (order "
-                 "of magnitude), as far as the product leaves them");
+                 "no estimate: the ends are those of the literature's ranges for k and U_c "
+                 "(order of magnitude), as far as the product allows");
     }
     identification_add_row(t, &row);
 }
@@ -305,8 +305,8 @@ static void set_agreement_text(const identify_task *task, const identified_const
             clocale_print(range, sizeof range, " (95 %%: %s)",
                           format_range(discrepancy.low, discrepancy.high, 3).text);
         clocale_print(text + used, sizeof text - used,
-                      "%s%s the running-in asks for %.3g times the wear rate that was measured%s, "
-                      "%s",
+                      "%s%s the running-in requires %.3g times the wear rate that was "
+                      "measured%s, %s",
                       used > 0 ? "; " : "",
                       by == BY_RATES ? "by the balance of rates" : "by the transport of damage",
                       discrepancy.value, range,

@@ -37,8 +37,7 @@ static const wt_param rows[] = {
              "as 2e10J/m^3"},
     {PARAM("observed-thickness", wt_layer_job, observed_thickness, WT_Q_LENGTH, ABOVE(0)),
      .value = "D", .unset = "",
-     .help = "of a layer, instead of the critical energy: this is to be "
-             "the balance"},
+     .help = "of a layer at balance, from which the critical energy is calculated"},
     LAYER_WEAR_RATE(wt_layer_job, "as measured"),
     LAYER_DUTY(wt_layer_job),
     {PARAM_FLAG_OF("incubation", wt_layer_job, incubation),
@@ -69,8 +68,8 @@ wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err)
     if (isnan(job->specific_wear_rate.value)) {
         status =
             wt_fail(err, WT_E_MISSING, "no specific wear rate is given, and none was measured");
-        wt_error_advice(err, "give specific-wear-rate, such as \"1e-3mm^3/(N m)\", or what a "
-                             "record tells of the wear");
+        wt_error_advice(err, "give specific-wear-rate, such as \"1e-3mm^3/(N m)\", or a record "
+                             "with the wear");
         return status;
     }
     if (energy == observed) {
@@ -311,7 +310,7 @@ static wt_status draw_layer_replicates(layer_task *task, wt_error *err)
     }
     if (without > 0 && without < solved)
         wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
-                   "within the stated errors the layer may be there or not: %zu of %zu "
+                   "within the stated errors there may be a layer or none: %zu of %zu "
                    "replicates have none",
                    without, solved);
     return status;

@@ -196,7 +196,8 @@ static void write_advice(const validation *v, const model_variant *t, const sour
                                  list->of[i].words);
     if (n > MOST_NAMED)
         clocale_print(advice->settles, sizeof advice->settles,
-                      "hardly anything, so near is the end of the margin; most would be had by %s",
+                      "hardly anything, because the ratio is near the end of the margin; the "
+                      "largest gain is from %s",
                       first->remedy);
     else
         clocale_print(advice->settles, sizeof advice->settles, "%s known better%s%s", words,

@@ -107,8 +107,8 @@ void measured_default_remarks(const table_view *record, bool first_steps, char *
                       "case");
     if (pressure && heaviest > same_load * lightest)
         append_remark(remarks, size,
-                      "the load changes between the steps, and the pressure with it: what the "
-                      "steps of another load say is not of the theory alone");
+                      "the load changes between the steps, and the pressure with it: the steps "
+                      "of another load do not test the theory alone");
 }
 
 /* Reads a row of the record. Missing conditions come from the case. */
@@ -156,7 +156,7 @@ wt_status measured_steps_read(const table_view *record, const wt_sliding *slidin
     qsort(m->step, m->n_all, sizeof *m->step, compare_conditions);
     if (m->n == 0) {
         wt_fail(err, WT_E_EMPTY, "no step of the record has a friction coefficient with an error");
-        wt_error_advice(err, "longer records: the error comes of the scatter of the cycles");
+        wt_error_advice(err, "longer records: the error comes from the scatter of the cycles");
         return WT_E_EMPTY;
     }
     if (m->n > MOST_STEPS) {

@@ -444,8 +444,8 @@ wt_status required_cutoff_set_keys(const validation *v, table_writer *t, wt_erro
     set_cutoff_value(t, VALIDATION_KEY_CUTOFF_HIGH, interval_bound(&s, best, 1), 0);
     clocale_print(
         text, sizeof text,
-        "%.3g times that used; the thickness of the layer is held, and an end that is not "
-        "told lies beyond %.3g rad/m to %.3g rad/m",
+        "%.3g times that used; the thickness of the layer is held constant, and an end that is "
+        "not given lies outside %.3g rad/m to %.3g rad/m",
         pow(10, at) / v->used.surface.q1, first, last);
     validation_set_text(t, VALIDATION_KEY_CUTOFF_NOTE, text);
     return WT_OK;

@@ -151,7 +151,7 @@ static void note_decay(const wt_job *work, const record_row *r, char *note, size
 {
     static const char *const words[] = {
         "", "the plateau of a decay is told",
-        "ends before it is steady: the plateau of its decay is told",
+        "ends before it is steady: the plateau of its decay is reported",
         "ends before it is steady: the plateau of its decay is not known"};
     append_note(note, size, words[r->decay]);
     if (r->decay >= DECAY_GOES_ON)
@@ -179,7 +179,7 @@ static void note_step(const wt_job *work, const wt_cycles *cycles, const record_
         append_note(note, size, "not steady: the last tenth is told");
         wt_log_add(work->log, WT_WARNING, r->file, NULL,
                    "friction does not become steady before the last tenth of step %zu, whose "
-                   "mean is told",
+                   "mean is reported",
                    r->step);
     }
     if (r->drift.low * r->drift.high > 0) {
@@ -192,8 +192,8 @@ static void note_step(const wt_job *work, const wt_cycles *cycles, const record_
         append_note(note, size, "velocity not known: give --track-radius");
     if (fabs(r->zero) > r->steady.mean.value) {
         clocale_print(words, sizeof words,
-                      "a zero of %.3g above the friction is left out: half the difference of the "
-                      "directions is told",
+                      "an offset of %.3g, above the friction, is removed: half the difference "
+                      "of the directions is reported",
                       r->zero);
         append_note(note, size, words);
     }
@@ -330,15 +330,14 @@ static void warn_pauses(const wt_job *work, const record_pauses *pauses, const c
         all += pauses->of[i].time;
     if (pauses->n > 0)
         wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, pauses->n, WT_KEEP_OPTION, file, NULL,
-                      "%zu pause%s of %s%.4g s in mid-record, %s at %.4g s of sliding: no time "
-                      "of sliding, and left out",
+                      "%zu pause%s of %s%.4g s in mid-record, %s at %.4g s of sliding: not "
+                      "sliding time, and left out",
                       pauses->n, pauses->n > 1 ? "s" : "", pauses->n > 1 ? "together " : "", all,
                       pauses->n > 1 ? "the first" : "behind which it goes on", pauses->of[0].at);
     if (pauses->alike > 0)
         wt_log_add(work->log, WT_WARNING, file, NULL,
-                   "%zu gaps in the time that are alike are treated as those of a recorder that "
-                   "is off between while sliding goes on; no column of distance, laps or "
-                   "velocity tells",
+                   "%zu equal gaps in the time are treated as pauses of the recorder while "
+                   "sliding continues; no column of distance, laps or velocity confirms it",
                    pauses->alike);
 }
 
@@ -557,7 +556,9 @@ static wt_status make_record_tables(const wt_record_job *job, const wt_job *work
 wt_status wt_record_job_check(const wt_record_job *job, wt_error *err)
 {
     if (job->profile != NULL && !isnan(job->track_area.value))
-        return wt_fail(err, WT_E_ARG, "profile and track-area both tell what the track lost: one");
+        return wt_fail(err, WT_E_ARG,
+                       "profile and track-area both state the loss of the "
+                       "track: give one of them");
     if (isnan(job->mass_loss.value) == isnan(job->density.value))
         return WT_OK;
     const char *const missing = isnan(job->density.value) ? "density" : "mass-loss";

@@ -32,8 +32,8 @@ static const wt_param rows[] = {
      .help = "normal force where the record says none, such as \"5N +- 1%\""},
     {PARAM("track-radius", wt_record_job, track_radius, WT_Q_LENGTH, ABOVE(0)), .value = "R",
      .unset = "that of the file",
-     .help = "radius of the track on a disc, which tells laps by the distance and the velocity by "
-             "the rotation"},
+     .help = "radius of the track on a disc, which relates distance to laps and velocity to "
+             "rotation"},
     {PARAM("track-area", wt_record_job, track_area, WT_Q_AREA, ABOVE(0)), .value = "A", .unset = "",
      .help = "cross-section that the track has lost, such as \"3e-11m^2 +- 20%\", for the specific "
              "wear rate"},

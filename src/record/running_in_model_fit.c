@@ -121,14 +121,13 @@ void run_fit_compute(run_fit *run, double margin)
     run->value = wt_alloc((1 + run->growth->n_draws) * RUN_QUANTITIES, sizeof *run->value);
     if (!run->fit.seen)
         snprintf(run->note, sizeof run->note,
-                 "no change as the layer makes it stands out of the "
-                 "scatter of the cycles");
+                 "no change like that by the layer exceeds the scatter of the cycles");
     else if (isnan(run->fit.high))
         snprintf(run->note, sizeof run->note,
-                 "a change as the layer makes it is not over at the end of the record");
+                 "a change like that by the layer is not complete at the end of the record");
     else if (isnan(run->fit.low))
         snprintf(run->note, sizeof run->note,
-                 "a change as the layer makes it is over within the first cycles");
+                 "a change like that by the layer is complete within the first cycles");
     fit_draws(run, margin);
 }
 

@@ -322,14 +322,13 @@ static wt_status set_wear_agreement(const running_in_task *task, const run_set *
     if (known)
         validation_running_in_set_print(
             t, VALIDATION_RUNNING_IN_KEY_AGREES,
-            "%s: the time asks for %.3g times the wear rate that was measured (95 %%: %s)",
+            "%s: the time requires %.3g times the wear rate that was measured (95 %%: %s)",
             ratio.low <= 1 && ratio.high >= 1 ? "agrees within the errors" : "contradicts",
             ratio.value, format_range(ratio.low, ratio.high, 3).text);
     else
         validation_running_in_set_print(t, VALIDATION_RUNNING_IN_KEY_AGREES,
-                                        "inconclusive: the time asks for %.3g times the wear rate "
-                                        "that was measured, which has no "
-                                        "stated error",
+                                        "inconclusive: the time requires %.3g times the wear "
+                                        "rate that was measured, which has no stated error",
                                         ratio.value);
     return WT_OK;
 }

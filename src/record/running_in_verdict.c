@@ -84,21 +84,20 @@ static void describe_inconclusive_run(const run_fit *run, char *text, size_t siz
     if (!fit->seen)
         clocale_print(
             text, size,
-            "no change of friction as the layer makes it stands out of the scatter of the "
-            "cycles");
+            "no change of friction like that by the layer exceeds the scatter of the cycles");
     else if (isnan(fit->low) && isnan(fit->high))
         clocale_print(text, size,
-                      "friction changes, and the record tells neither the least nor the most time "
-                      "that it takes");
+                      "friction changes, and the record gives neither a lower nor an upper "
+                      "limit of the time");
     else if (isnan(fit->high))
         clocale_print(text, size,
-                      "a change as the layer makes it is not over at the end of the record, after "
-                      "%.3g times the time predicted at least%s",
+                      "a change like that by the layer is not complete at the end of the "
+                      "record, after %.3g times the time predicted at least%s",
                       exp(isnan(with_prediction) ? fit->low : with_prediction), by);
     else
         clocale_print(text, size,
-                      "a change as the layer makes it is over within the first cycles, after %.3g "
-                      "times the time predicted at most%s",
+                      "a change like that by the layer is complete within the first cycles, "
+                      "after %.3g times the time predicted at most%s",
                       exp(isnan(with_prediction) ? fit->high : with_prediction), by);
     if (fit->seen && run->rec->running_in > 0) /* this is a different question with an answer of
                                                   its own */
@@ -117,16 +116,18 @@ static void describe_time(const run_set *all, char *text, size_t size)
                                                                      first_inconclusive_run(all);
     if (against != NULL || isnan(i.value)) {
         if (against == NULL && first_determined_run(all, RUN_TIME_RATIO) != NULL)
-            snprintf(text, size, "a record tells a time of running-in that all together do not");
+            snprintf(text, size,
+                     "one record determines a time of running-in, all together do "
+                     "not");
         else
             describe_inconclusive_run(against != NULL ? against : open, text, size);
         return;
     }
     clocale_print(text, size,
-                  "a change as the layer makes it is over after %.3g times the time predicted (95 "
-                  "%%: %s)%s",
+                  "a change like that by the layer is complete after %.3g times the time "
+                  "predicted (95 %%: %s)%s",
                   exp(i.value), format_range(exp(i.low), exp(i.high), 3).text,
-                  open != NULL ? ", which not every record tells" : "");
+                  open != NULL ? ", which not every record determines" : "");
 }
 
 static void describe_change(const run_set *all, char *text, size_t size)
@@ -189,7 +190,7 @@ static const run_fit *first_compared_run(const run_set *all)
 static const char *remedy_for_time(const running_in_curve_fit *fit)
 {
     if (fit->seen && isnan(fit->high))
-        return "a record that goes on until a change as the layer makes it is over";
+        return "a record that continues until the change of friction is complete";
     return fit->seen && isnan(fit->low) ? "shorter cycles at the start, or a slower record"
                                         : "a longer record, or more of them, of a fresh surface";
 }
@@ -214,7 +215,9 @@ static void write_run_advice(const run_set *all, run_quantity number, char *text
         return;
     }
     if (share < 0.5 || run->growth->n_lines == 0) {
-        snprintf(text, size, "the prediction known better: material, roughness and layer together");
+        snprintf(text, size,
+                 "smaller errors of the prediction: material, roughness and layer "
+                 "together");
         return;
     }
     const char *remedy, *words = draw_source_name(run->growth->line[line], &remedy);

@@ -144,8 +144,8 @@ static void required_shear_set_keys(const validation *v, table_writer *t)
     else
         validation_set_text(t, VALIDATION_KEY_SHAPE,
                             v->needed.value > 0
-                                ? "inconclusive: with so few velocities the shear stress takes up "
-                                  "whatever was measured"
+                                ? "inconclusive: with so few velocities some shear stress fits "
+                                  "any measurement"
                                 : "does not: the hysteresis part alone is more than was measured");
 }
 
@@ -187,8 +187,8 @@ static const wt_param rows[] = {
      .help = "time and change of a running-in over those predicted with the layer that are treated "
              "as agreement: 1 is from 1/2 to 2, as a wear rate is hardly known better"},
     {PARAM_FLAG_OF("validate", wt_validation_job, wanted), .flags = PARAM_NO_OPTION,
-     .help = "whether a run holds the records against what the case predicts, also where figures "
-             "or results are listed"},
+     .help = "whether a run compares the records with the prediction of the case, also where "
+             "figures or results are listed"},
 };
 PARAM_TABLE(wt_validation_job_params, wt_validation_job, rows, wt_validation_job_defaults, NO_PARTS)
 
@@ -432,16 +432,16 @@ static wt_status begin_validation(validation *v, wt_error *err)
     v->layered = v->layer_observation != NULL;
     if (status == WT_OK && job->layer_observation != NULL && !v->layered)
         measured_steps_add_remark(
-            &v->steps, "without wear, or where it ages, the layer grows without end "
-                       "and friction with it is not known: that without a layer is compared");
+            &v->steps, "without wear, or where it ages, the layer grows without end and "
+                       "friction with it is not known: friction without a layer is compared");
     v->has_shear = !isnan(job->sliding->shear_stress.value);
     if (status == WT_OK)
         status = predict_friction(job->sliding, v->layer_observation, &v->steps, v->work, true,
                                   &v->p, err);
     if (status == WT_OK && v->p.n_draws == 0)
         measured_steps_add_remark(&v->steps,
-                                  "no interval and no verdict holds errors of the prediction, "
-                                  "which take replicates");
+                                  "intervals and verdicts contain no errors of the prediction, "
+                                  "because they need replicates");
     return status;
 }
 

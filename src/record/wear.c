@@ -237,8 +237,8 @@ static const char *missing_wear_input(const wt_record_job *job, const wear_row *
                                       bool strokes, bool rounds)
 {
     if (!is_stated(job->mass_loss) && !is_stated(job->track_area) && isnan(r->depth.value))
-        return "nothing tells what was lost: give --profile, --track-area or --mass-loss, or "
-               "record the depth";
+        return "the loss of the track is not known: give --profile, --track-area or "
+               "--mass-loss, or record the depth";
     if (isnan(load.value))
         return "no load: give --load";
     if (isnan(r->distance))

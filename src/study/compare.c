@@ -424,7 +424,7 @@ static const wt_param rows[] = {
     {PARAM("between-spot-sd", wt_compare_job, spot_scatter, WT_Q_NONE, FROM_BELOW(0, 1)),
      .former = "spot-scatter", .value = "X", .unset = "not known",
      .help = "relative standard deviation of the modulus from spot to spot, as known of other "
-             "samples, such as 15%; for one spot against one or two, which do not tell it"},
+             "samples, such as 15%; for one spot against one or two, which do not determine it"},
     {PARAM("expected-thickness", wt_compare_job, expected_thickness, WT_Q_LENGTH, ABOVE(0)),
      .value = "D", .unset = "that of the theory, where the case has a layer",
      .help = "thickness of the layer known otherwise, such as \"3um +- 20%\" of a section, for the "

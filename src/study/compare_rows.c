@@ -158,9 +158,9 @@ static void warn_two_spots(const comparison_task *task)
         return;
     const int g = c->n_track == 2;
     wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
-               "the two spots of the %s do not tell whether they scatter more than those of "
-               "the %s; if they do, the interval is too narrow and a difference may be shown "
-               "where there is none: measure a third spot",
+               "the two spots of the %s do not determine whether they scatter more than those "
+               "of the %s; if they do, the interval is too narrow and a difference may be "
+               "shown where there is none: measure a third spot",
                compare_group_name[g], compare_group_name[!g]);
 }
 
@@ -172,15 +172,15 @@ static void warn_one_spot(const comparison_task *task)
         return;
     if (c->scatter_is_stated) {
         wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
-                   "the interval of the ratio rests on spots that scatter by %.3g %%, as given: "
-                   "one spot does not tell it; three spots in each group would",
+                   "the interval of the ratio rests on spots that scatter by %.3g %%, as "
+                   "given: one spot does not determine it; three spots in each group would",
                    100 * task->job->spot_scatter);
         return;
     }
     const int g = c->n_track == 1;
     wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
                "the %s has one spot only: it is taken to scatter up to twice as much as those "
-               "of the %s; more spots would tell",
+               "of the %s; more spots would determine it",
                compare_group_name[g], compare_group_name[!g]);
 }
 
@@ -206,7 +206,7 @@ static void warn_rates(const comparison_task *task)
     }
     if (left_out > 0)
         wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
-                   "%zu curves tell no indentation rate; the comparison leaves them out", left_out);
+                   "%zu curves have no indentation rate; the comparison leaves them out", left_out);
 }
 
 /* ---- table ----------------------------------------------------------------------------------- */

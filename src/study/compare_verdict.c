@@ -54,9 +54,9 @@ static void advise_spots(const wt_compare_job *job, const wt_comparison *c, comp
         snprintf(number, sizeof number, "%zu spots", n < 3 ? 3 : n);
     const char *third = "";
     if (c->by_spot && c->n_bulk == 2 && c->n_track > 2)
-        third = "a third spot in the bulk first, for two do not tell how much they scatter; ";
+        third = "a third spot in the bulk first, because two do not determine their scatter; ";
     else if (c->by_spot && c->n_track == 2 && c->n_bulk > 2)
-        third = "a third spot in the track first, for two do not tell how much they scatter; ";
+        third = "a third spot in the track first, because two do not determine their scatter; ";
     clocale_print(
         v->settled_by, sizeof v->settled_by,
         "%s%s in each group would show a difference of %s in four of five trials where spots "
@@ -252,14 +252,14 @@ static void report_incomplete_interval(const wt_compare_job *job, const comparis
                                        compare_verdict *v)
 {
     SET_VERDICT(v, VERDICT_INCONCLUSIVE,
-                "the interval of the ratio has no room for a difference above %s, but it does "
-                "not hold, for it is not known: %s",
+                "the interval of the ratio contains no difference above %s, but it lacks an "
+                "error that is not known: %s",
                 format_percent(job->margin).text, k->lacks);
     if (k->lacks_loss_effect)
         clocale_print(
             v->settled_by, sizeof v->settled_by, "%s",
-            "curves whose samples have times, or a DMA of the rubber: either tells what the loss "
-            "of the curves does to their moduli");
+            "curves whose samples have times, or a DMA of the rubber: either determines the "
+            "effect of the loss on the moduli");
     else
         clocale_print(v->settled_by, sizeof v->settled_by, "the error or the effect of: %s",
                       k->lacks);
@@ -312,7 +312,7 @@ static compare_verdict assess_interval(const compare_pair *p, const wt_compare_j
                     format_percent(job->margin).text);
     } else {
         SET_VERDICT(&v, VERDICT_INCONCLUSIVE,
-                    "the interval of the ratio has room for no difference and for one above %s",
+                    "the interval of the ratio contains both no difference and one above %s",
                     format_percent(job->margin).text);
         const double known_error = inputs->offset.standard_error;
         if (c->offset_variance_share > 0.5 &&
@@ -320,8 +320,8 @@ static compare_verdict assess_interval(const compare_pair *p, const wt_compare_j
                 0.5 * known_error * known_error)
             clocale_print(
                 v.settled_by, sizeof v.settled_by, "%s",
-                "a DMA of the rubber, which tells the spectrum behind the loss, or curves with "
-                "straight baselines: what the curves lose and bend is most of the interval");
+                "a DMA of the rubber, which determines the spectrum of the loss, or curves "
+                "with straight baselines: loss and bent baselines cause most of the interval");
         else if (c->offset_variance_share > 0.5)
             clocale_print(
                 v.settled_by, sizeof v.settled_by, "%s",

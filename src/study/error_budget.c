@@ -376,11 +376,11 @@ static void set_advice(const error_budget_run *b, case_quantity k, const number_
         clocale_append(text, sizeof text, " What the arithmetic leaves open is not known.");
     else if (v->numerical < 1e-2 * floor)
         clocale_append(text, sizeof text,
-                       " The arithmetic is good to %.1g: a tighter tolerance buys nothing.",
+                       " The numerical error is %.1g: a tighter tolerance does not help.",
                        v->numerical / value);
     else if (floor > 0)
         clocale_append(text, sizeof text,
-                       " The arithmetic is good to %.1g only: a tighter tolerance helps.",
+                       " The numerical error is %.1g: a tighter tolerance helps.",
                        v->numerical / value);
     error_budget_set_text(t, numbers[k].key, text);
 }
@@ -449,7 +449,8 @@ static void add_modulus_ratio_row(const error_budget_run *b, table_writer *t)
                              M_SQRT2 * curves.error * ratio.value, (double)NAN, curves.seconds},
                        t);
         clocale_print(text + n, sizeof text - n,
-                      " The arithmetic of the fits is good to %.1g: it leaves nothing to be had.",
+                      " The numerical error of the fits is %.1g: a tighter tolerance does not "
+                      "help.",
                       M_SQRT2 * curves.error);
     }
     error_budget_set_text(t, ERROR_BUDGET_KEY_RATIO, text);

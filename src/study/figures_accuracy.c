@@ -328,11 +328,11 @@ const figure_description figures_accuracy[] = {
      .table = &work_precision_schema,
      .empty_reason = "no numerical part was timed",
      .caption_text =
-         "True error of each numerical part against its processor time as the setting is "
-         "swept (full marks), and what the method itself states (open marks, dashed): of the "
-         "arithmetic a bound, which should lie on or above, of noise and draws a standard "
-         "error, which the one error that is drawn is near; lower and further left is better. "
-         "The grey line is what the reference is good to: a smaller error stands there.",
+         "True error of each numerical part against its processor time as the setting is swept "
+         "(full marks), and the error that the method states (open marks, dashed): for the "
+         "arithmetic a bound, which should lie on or above the true error; for noise and draws "
+         "a standard error, which is of the size of the true error. Lower and further left is "
+         "better. Grey line: error of the reference; smaller errors are drawn there.",
      .draw = draw_work_precision},
     {.name = "error_budget",
      .title = "Where the errors come from",
@@ -356,8 +356,8 @@ const figure_description figures_accuracy[] = {
      .caption_text =
          "Processor time of each stage that ran (left), and the relative errors it leaves "
          "(right): the standard error of its main number (full marks) and its numerical error "
-         "(open marks), of a fit what a further step would change. A tighter tolerance buys "
-         "nothing where the open mark lies left of the full one.",
+         "(open marks), of a fit the change by a further iteration. A tighter tolerance does "
+         "not help where the open mark lies left of the full one.",
      .draw = draw_cost},
     {.name = NULL},
 };

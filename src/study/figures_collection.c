@@ -533,8 +533,9 @@ const figure_description figures_constants[] = {
      .curves = {CURVE(IDENTIFICATION_WEAR, LINE)},
      .empty_reason = "no way to know both has an interval",
      .caption_text =
-         "Regions that hold critical energy and specific wear rate together in 95 %, by what is "
-         "known of the layer. What is long and narrow is known across, and hardly along.",
+         "Regions that contain critical energy and specific wear rate together in 95 %, for "
+         "each combination of known data of the layer. A long and narrow region is well "
+         "determined across and hardly along its axis.",
      .draw = draw_regions},
     {.name = "collected_constants",
      .title = "Critical energy and wear rate of the cases",
@@ -544,8 +545,9 @@ const figure_description figures_constants[] = {
      .curves = {CURVE(COLLECTED_CONSTANTS_WEAR, LINE)},
      .empty_reason = "no case knows both with an interval",
      .caption_text =
-         "Regions that hold critical energy and specific wear rate of a case together in 95 %, a "
-         "panel for each way to know them. Whether one pair is behind them is in the table.",
+         "Regions that contain critical energy and specific wear rate of a case together in 95 "
+         "%, a panel for each way to determine them. The table says whether one pair explains "
+         "all of them.",
      .draw = draw_regions,
      .caption = caption_regions},
     {.name = NULL},

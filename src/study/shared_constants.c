@@ -168,11 +168,9 @@ static void advise_errors(const shared_rows *list, char *text, size_t size)
         if (v == NULL)
             continue;
         shared_value_name(v, name, sizeof name);
-        clocale_append(text, size,
-                       "%sthe error of the %s of %s is not whole before that of %s is "
-                       "known",
-                       text[0] != '\0' ? "; " : "", shared_constant_names[v->constant], name,
-                       v->lacks);
+        clocale_append(
+            text, size, "%sthe error of the %s of %s is incomplete until that of %s is known",
+            text[0] != '\0' ? "; " : "", shared_constant_names[v->constant], name, v->lacks);
         return;
     }
 }
@@ -520,7 +518,9 @@ static void write_pair_advice(const pair_rows *rows, char *text, size_t size)
         const reported_pair *lacks = find_incomplete_pair(row);
         const constant_axes axes = constant_axes_compute(row->found.covariance);
         if (lacks != NULL) {
-            clocale_print(text, size, "the error of %s, %s is not whole before that of %s is known",
+            clocale_print(text, size,
+                          "the error of %s, %s is incomplete until that of %s is "
+                          "known",
                           lacks->of->sample, lacks->of->condition, lacks->lacks);
             return;
         }

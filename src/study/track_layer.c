@@ -150,18 +150,18 @@ static void write_remedy(const track_layer_result *f, char *text, size_t size)
             "and depth, better on three spots or more each");
     else if (p->bound_kind == WT_LAYER_BOUND_OUTSIDE_LAW)
         clocale_print(text, size,
-                      "a section across the track under a microscope: of such moduli the curves "
-                      "do not tell a thickness");
+                      "a section across the track under a microscope: with such moduli the "
+                      "curves do not determine a thickness");
     else if (other && has_no_error(f))
         clocale_print(text, size, "a standard error of the thickness by %s", f->other.from);
     else if (is_ratio_inconclusive(f))
         clocale_print(text, size,
-                      "more spots in bulk and track, until the ratio of their moduli is "
-                      "told from 1");
+                      "more spots in bulk and track, until the ratio of their moduli differs "
+                      "from 1 with certainty");
     else if (p->bound_kind == WT_LAYER_BOUND_EMPTY)
         clocale_print(text, size,
                       "curves at a second rate or with a second tip, in bulk and track: "
-                      "what is not of the layer changes with them");
+                      "effects other than that of the layer change with them");
     else if (other && may_lack_error(f))
         clocale_print(text, size, "a stated error of %s", f->other.lacks);
     else if (p->bound_kind == WT_LAYER_BOUND_LOWER && other)
@@ -195,38 +195,39 @@ static void write_allowed_thickness(const track_layer_result *f, char *text, siz
     else if (p->bound_kind == WT_LAYER_BOUND_UNKNOWN && p->n[0] >= WT_DEPTH_MIN_CURVES &&
              p->n[1] >= WT_DEPTH_MIN_CURVES)
         clocale_print(text, size,
-                      "inconclusive: no change with depth can be fitted to what the contact law "
-                      "leaves of the curves of bulk and track");
+                      "inconclusive: no change with depth can be fitted to the residuals of "
+                      "the curves of bulk and track");
     else if (p->bound_kind == WT_LAYER_BOUND_UNKNOWN)
         clocale_print(text, size,
-                      "inconclusive: %zu curves of the bulk and %zu of the track tell of depth, %d "
-                      "of each are needed, without adhesion or loss whose effect is not known",
+                      "inconclusive: %zu curves of the bulk and %zu of the track are usable, "
+                      "%d of each are needed, without adhesion or loss whose effect is not "
+                      "known",
                       p->n[0], p->n[1], WT_DEPTH_MIN_CURVES);
     else if (p->bound_kind == WT_LAYER_BOUND_ANY)
         clocale_print(text, size, "every thickness that was tried, from %s on: %s", least.text,
                       is_ratio_inconclusive(f)
                           ? "the moduli of track and bulk are not told apart"
-                          : "the curves do not tell how the modulus changes with depth");
+                          : "the curves do not determine how the modulus changes with depth");
     else if (p->bound_kind == WT_LAYER_BOUND_LOWER)
         clocale_print(text, size,
-                      "at least %s (95 %%): down to %s the modulus of the track changes no more "
-                      "than that of the bulk, as it would if the bulk were nearer",
+                      "at least %s (95 %%): down to %s the modulus of the track changes no "
+                      "more than that of the bulk; over a thinner layer it would",
                       low.text, depth.text);
     else if (p->bound_kind == WT_LAYER_BOUND_UPPER)
         clocale_print(text, size,
-                      "less than %s (95 %%): down to %s the modulus of the track changes more than "
-                      "with a thicker layer; how thin the law of a layer, which ends at %s, does "
-                      "not tell",
+                      "less than %s (95 %%): down to %s the modulus of the track changes more "
+                      "than with a thicker layer; the law of a layer ends at %s and does not "
+                      "determine how thin",
                       high.text, depth.text, least.text);
     else if (p->bound_kind == WT_LAYER_BOUND_EMPTY)
         clocale_print(text, size,
-                      "none: down to %s the modulus of the track changes as no layer on this bulk "
-                      "would make it",
+                      "none: no layer on this bulk explains how the modulus of the track "
+                      "changes down to %s",
                       depth.text);
     else
         clocale_print(text, size,
-                      "%s (95 %% interval %s to %s): down to %s the modulus of the track goes "
-                      "to that of the bulk as it would with such a layer",
+                      "%s (95 %% interval %s to %s): down to %s the modulus of the track "
+                      "approaches that of the bulk as it would with such a layer",
                       format_length(p->thickness.value).text, low.text, high.text, depth.text);
 }
 
@@ -247,7 +248,7 @@ static void write_agreement(const track_layer_result *f, char *text, size_t size
                       both = format_thickness_range(f->agreement.low, f->agreement.high);
     if (f->obstacle.reason != NULL || p->bound_kind == WT_LAYER_BOUND_UNKNOWN ||
         p->bound_kind == WT_LAYER_BOUND_OUTSIDE_LAW)
-        clocale_print(text, size, "inconclusive: the curves do not tell");
+        clocale_print(text, size, "inconclusive: the curves do not determine it");
     else if (p->bound_kind == WT_LAYER_BOUND_EMPTY)
         clocale_print(text, size, "inconclusive: something else than a layer changes the curves");
     else if (has_no_error(f))
@@ -259,7 +260,9 @@ static void write_agreement(const track_layer_result *f, char *text, size_t size
                       "the curves might %s it",
                       here.text, o->from, o->lacks, f->agreement.differ ? "allow" : "not allow");
     else if (f->agreement.differ)
-        clocale_print(text, size, "no: %s by %s (95 %% interval: %s) is not what the curves allow",
+        clocale_print(text, size,
+                      "no: %s by %s (95 %% interval: %s) is outside of what the "
+                      "curves allow",
                       here.text, o->from,
                       format_thickness_range(o->thickness.low, o->thickness.high).text);
     else if (f->agreement.agree)
@@ -356,7 +359,7 @@ static track_obstacle find_obstacle(const depth_group *g, bool has_tip, double k
                                 "a Poisson's ratio of rubber (0.5) in weartrack indent, if the "
                                 "sample is rubber"};
     if (g->tip.sample_thickness > 0)
-        return (track_obstacle){"a layer on a thin sample is none of which the law is known",
+        return (track_obstacle){"the law of a layer on a thin sample is not known",
                                 "curves on a thick piece of the sample"};
     return (track_obstacle){NULL, NULL};
 }
@@ -523,15 +526,15 @@ static wt_status find_profile(const depth_group group[2], const wt_compare_job *
     f->ratio_error = log_ratio.standard_error;
     if (!(f->ratio > 0) || !(f->ratio_error >= 0)) {
         f->obstacle = (track_obstacle){
-            "the ratio of the moduli of track and bulk is not known with its error; the "
+            "the ratio of the moduli of track and bulk, or its error, is not known; the "
             "comparison says why",
             "what the comparison says of that ratio"};
         return WT_OK;
     }
     if (tips_differ(&group[0].tip, &group[1].tip)) {
         f->obstacle = (track_obstacle){
-            "bulk and track were indented with different tips, so that the bulk does not "
-            "show what of the change with depth is the tip's",
+            "bulk and track were indented with different tips, so that the bulk does not show "
+            "how much of the change with depth the tip causes",
             "curves of the bulk and of the track with one tip"};
         return WT_OK;
     }

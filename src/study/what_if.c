@@ -234,7 +234,7 @@ static const model_choice choices[] = {
      "a transversely isotropic material has two others", has_poisson,
      offsetof(case_variant, rubber.poisson_ratio), NULL, move_poisson, TRIED(0.4, 0.5)},
     {"vertical shift", "Measure the thermal expansion of the rubber.", NULL,
-     "all four; which of them is right the isotherms do not say", "no isotherms to fit again",
+     "all four; the isotherms do not determine which of them is right", "no isotherms to fit again",
      has_vertical, 0, name_vertical, move_vertical,
      TRIED(WT_VERTICAL_NONE, WT_VERTICAL_PHYSICAL, WT_VERTICAL_FREE, WT_VERTICAL_TIED)},
     {"depth profile", "Indent bulk and track deeper than the predicted thickness.", NULL,

@@ -145,13 +145,13 @@ void surface_describe_profiles(const surface_result *w, char *to, size_t size)
         clocale_append(to, size, "%sthey share no waves with the height maps", separator);
     else if (isnan(r->standard_error))
         clocale_append(to, size,
-                       "%swhere both tell, C by them is %.2g of that by the height maps; their "
-                       "agreement is inconclusive, because how places differ is not known: add a "
-                       "second map or profile",
+                       "%swhere both have data, C by them is %.2g of that by the height maps; "
+                       "their agreement is inconclusive, because the scatter between places is "
+                       "not known: add a second map or profile",
                        separator, r->value);
     else
         clocale_append(to, size,
-                       "%swhere both tell, C by them is %.2g (95 %%: %s) of that by the "
+                       "%swhere both have data, C by them is %.2g (95 %%: %s) of that by the "
                        "height maps%s",
                        separator, r->value, format_range(r->low, r->high, 2).text,
                        surface_profiles_disagree(w) ? ": they disagree" : "");
@@ -396,7 +396,8 @@ static wt_status find_spectrum_limit(const wt_topography_job *job, const surface
     }
     if (status == WT_OK && *end > last && !w->law.found)
         status = wt_fail(err, WT_E_RANGE,
-                         "no self-affine law describes the spectrum, by which it could go on");
+                         "no self-affine law describes the spectrum, so that it cannot be "
+                         "extended");
     return status;
 }
 
@@ -406,10 +407,10 @@ static void warn_extrapolation(const wt_job *work, const surface_result *w, doub
     wt_format_si(2 * M_PI / end, "m", 3, wavelength, sizeof wavelength);
     if (w->knots.n > w->knots.n_measured)
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
-                   "beyond the reliable range the spectrum goes on by its self-affine law, "
-                   "to waves of %s: %.0f %% of the squared slope come from there, and "
-                   "errors hold the scatter of its constants, not that the surface may leave "
-                   "it",
+                   "beyond the reliable range the spectrum follows its self-affine law, to "
+                   "waves of %s: %.0f %% of the squared slope come from there, and the errors "
+                   "contain the scatter of the constants, not a deviation of the surface from "
+                   "the law",
                    wavelength, 100 * w->extrapolated_share);
     if (end > 2 * M_PI / shortest_wave)
         wt_log_add(work->log, WT_WARNING, NULL, NULL,

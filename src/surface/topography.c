@@ -93,7 +93,7 @@ static void condition_scan(const wt_topography_job *job, const wt_job *work, con
             work->log, WT_WARNING, WT_IMPLAUSIBLE, 0, NULL, file, NULL,
             "adjacent scan lines differ more than adjacent columns do: a texture along the "
             "lines, or a drift of the scanner, which raises the spectrum; scan the surface "
-            "again at 90 degrees to tell");
+            "again at 90 degrees to distinguish them");
 }
 
 /* Measures one of the files. */
@@ -165,17 +165,17 @@ static void warn_profiles(const surface_result *w, const wt_job *work)
 {
     if (w->n_profiles > 0 && isnan(w->directions.amplitude))
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
-                   "the spectrum of profiles is told for a surface that is the same in all "
-                   "directions; a height map would tell");
+                   "the spectrum of profiles assumes a surface that is the same in all "
+                   "directions; a height map would test it");
     else if (w->n_profiles > 0 && surface_is_anisotropic(&w->directions))
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
-                   "what the profiles tell is told for a surface that is the same in all "
-                   "directions, which by the height maps it is not");
+                   "the spectrum of profiles assumes a surface that is the same in all "
+                   "directions, which it is not by the height maps");
     if (surface_profiles_disagree(w))
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
-                   "the profiles and the height maps disagree: where both tell, the density by "
-                   "the profiles is %.2g of that by the maps (95 %%: %s); see "
-                   "whether they are of one surface, and leave out what is not",
+                   "the profiles and the height maps disagree: where both have data, the "
+                   "density by the profiles is %.2g of that by the maps (95 %%: %s); check "
+                   "that they are of one surface, and leave out those that are not",
                    w->profiles_ratio.value,
                    format_range(w->profiles_ratio.low, w->profiles_ratio.high, 2).text);
 }
@@ -185,13 +185,13 @@ static void warn_surface(const surface_result *w, size_t n, const wt_job *work)
     warn_profiles(w, work);
     if (n == 1)
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
-                   "one scan: how much places of the surface differ is not known, and no "
-                   "error holds it; scan several places");
+                   "one scan: the scatter between places of the surface is not known, and no "
+                   "error contains it; scan several places");
     if (w->directions.amplitude > least_anisotropy && surface_is_anisotropic(&w->directions))
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
-                   "the surface is not the same in all directions: the density changes by "
-                   "%.0f %% about its mean, which is told; friction depends on the direction "
-                   "of sliding",
+                   "the surface is not the same in all directions: the density varies by %.0f "
+                   "%% about its mean, which is reported; friction depends on the direction of "
+                   "sliding",
                    100 * w->directions.amplitude);
 }
 

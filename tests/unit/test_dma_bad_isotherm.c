@@ -77,7 +77,7 @@ static void a_bad_loss_modulus_is_named(void **state)
     dma_usual(&sweep, true, 0.01, 11);
     for (size_t k = 0; k < sweep.isotherms[BAD].n; k++)
         sweep.isotherms[BAD].loss_modulus[k] *= 1.4;
-    check_left_out(&sweep, BAD, "20.00 °C", "its E'' is left out: it is +", true);
+    check_left_out(&sweep, BAD, "20.00 °C", "its E'' is left out: it deviates by +", true);
 }
 
 static void radians_under_hertz_are_named(void **state)

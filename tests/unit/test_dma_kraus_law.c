@@ -116,7 +116,7 @@ static void test_what_is_not_reached_is_not_told(void **state)
     /* nothing falls */
     p = measured(&(filled){5, 0, 1, 0.6, 0.5, 0.5}, 20, -2, 1, 0.01, &seed);
     assert_false(p.fitted);
-    assert_non_null(strstr(p.note, "no fall"));
+    assert_non_null(strstr(p.note, "does not fall"));
     assert_true(isnan(p.storage_0.value) && isnan(p.strain_tenth));
     /* few points */
     p = measured(&rubbers[0], 6, -2, 1, 0.01, &seed);

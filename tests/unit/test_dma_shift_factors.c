@@ -504,7 +504,7 @@ static void lines_between_the_terms_pull_nothing(void **state)
         wt_master master = fit_good(&sweep, &at, log);
         bool named = false;
         for (size_t i = 0; i < wt_log_count(log); i++)
-            named = named || strstr(wt_log_get(log, i).text, "few sharp processes") != NULL;
+            named = named || strstr(wt_log_get(log, i).text, "few sharp lines") != NULL;
         assert_true(named);
         wt_log_free(log);
         double square = 0.0;

@@ -301,7 +301,7 @@ static void test_lines(void **state)
                  error = (size_t)wt_table_find(t.dwell, "loss_modulus_standard_error");
     size_t seen = 0;
     for (size_t i = 0; i < CURVES; i++) {
-        const bool said = strstr(wt_table_text(t.dwell, i, note), "no errors are told") != NULL;
+        const bool said = strstr(wt_table_text(t.dwell, i, note), "no errors are reported") != NULL;
         assert_int_equal(said, isnan(wt_table_number(t.dwell, i, error)));
         seen += said;
     }

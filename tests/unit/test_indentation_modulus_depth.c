@@ -286,12 +286,13 @@ static void words_of_a_change(void **state)
         wt_interval change;
         const char *changes, *reading;
     } cases[] = {
-        {{1.4, 0.1, 1.2, 1.6},
-         "yes: at 50.0 nm the modulus is another",
-         "the layer is softer than"},
-        {{0.7, 0.1, 0.5, 0.9}, "yes: at 50.0 nm the modulus is another", "is stiffer than"},
+        {{1.4, 0.1, 1.2, 1.6}, "yes: the modulus at 50.0 nm differs", "the layer is softer than"},
+        {{0.7, 0.1, 0.5, 0.9}, "yes: the modulus at 50.0 nm differs", "is stiffer than"},
         {{1.05, 0.02, 1.01, 1.09}, "yes, but hardly", "is softer than"},
-        {{1.1, 0.2, 0.8, 1.5}, "the curves do not tell (factor 1.100", "softer or stiffer than"},
+        {{1.1, 0.2, 0.8, 1.5},
+         "the curves do not determine the size and sign of the change "
+         "(factor 1.100",
+         "softer or stiffer than"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         wt_modulus_profile d = {.verdict = WT_DEPTH_CHANGES,
@@ -320,15 +321,17 @@ static void words_of_no_answer(void **state)
         bool two_spots;
     } cases[] = {
         {WT_DEPTH_INCONCLUSIVE, 0, 0, 0, "two spots do not allow an interval", true},
-        {WT_DEPTH_INCONCLUSIVE, 0, 0, 0, "more curves would tell", false},
-        {WT_DEPTH_INCONCLUSIVE, 0.6, 0, 0, "a straight piezo, or one that has settled, would tell",
+        {WT_DEPTH_INCONCLUSIVE, 0, 0, 0, "more curves would decide", false},
+        {WT_DEPTH_INCONCLUSIVE, 0.6, 0, 0,
+         "curves of a straight piezo, or one that has "
+         "settled, would decide",
          false},
-        {WT_DEPTH_INCONCLUSIVE, 0, 0.6, 0, "the DMA of the rubber would tell", false},
+        {WT_DEPTH_INCONCLUSIVE, 0, 0.6, 0, "the DMA of the rubber would decide", false},
         {WT_DEPTH_INCONCLUSIVE, 0, 0, 40, "inconclusive: 40 of 70 curves lose work", false},
-        {WT_DEPTH_OTHER_RESIDUAL, 0, 0, 0, "another tip or rate would tell", false},
+        {WT_DEPTH_OTHER_RESIDUAL, 0, 0, 0, "another tip or rate would decide", false},
         {WT_DEPTH_OTHER_RESIDUAL, 0.1, 0, 0,
-         "a straight piezo, or one that has settled, would tell", false},
-        {WT_DEPTH_OTHER_RESIDUAL, 0, 0.1, 0, "the DMA of the rubber would tell", false},
+         "curves of a straight piezo, or one that has settled, would decide", false},
+        {WT_DEPTH_OTHER_RESIDUAL, 0, 0.1, 0, "the DMA of the rubber would decide", false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const wt_modulus_profile d = {.n = 30,

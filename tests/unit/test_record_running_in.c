@@ -92,7 +92,8 @@ static void test_closed(void **state)
     (void)state;
     begin();
     (void)add(0, true, true);
-    check(judged().verdict, "explains: a change as the layer makes it is over after 1 times");
+    check(judged().verdict, "explains: a change like that by the layer is complete after 1 "
+                            "times");
     (void)add(2, true, true);
     check(judged().verdict, "inconclusive");
 }
@@ -125,10 +126,9 @@ static void test_open_second(void **state)
     begin();
     (void)add(0, true, false);
     (void)add(2, true, false);
-    check(
-        judged().verdict,
-        "does not: a change as the layer makes it is not over at the end of the record, after 6.65 "
-        "times");
+    check(judged().verdict,
+          "does not: a change like that by the layer is not complete at the end of the record, "
+          "after 6.65 times");
 }
 
 /* One that tells no time leaves it open, and what would close it is told of that run. */
@@ -140,19 +140,20 @@ static void test_open_agrees(void **state)
     (void)add(0, true, false);
     run_verdict said = judged();
     check(said.verdict,
-          "inconclusive: a change as the layer makes it is over after 1 times the time predicted");
-    check(said.verdict, "which not every record tells");
-    check(said.settled_by, "goes on until a change as the layer makes it is over");
+          "inconclusive: a change like that by the layer is complete after 1 times the time "
+          "predicted");
+    check(said.verdict, "which not every record determines");
+    check(said.settled_by, "continues until the change of friction is complete");
     begin();
     (void)add(0, false, true);
     said = judged();
     check(said.verdict,
-          "inconclusive: a change as the layer makes it is over within the first cycles");
+          "inconclusive: a change like that by the layer is complete within the first cycles");
     check(said.settled_by, "shorter cycles at the start");
     begin();
     (void)add(0, false, false);
     said = judged();
-    check(said.verdict, "tells neither the least nor the most time");
+    check(said.verdict, "gives neither a lower nor an upper limit of the time");
     check_not(said.verdict, "stands out");
 }
 
@@ -169,7 +170,7 @@ static void test_steady_by_itself(void **state)
         add(0, early, !early)->rec = &steady;
         const run_verdict said = judged();
         check(said.verdict,
-              early ? "not over at the end of the record" : "within the first cycles");
+              early ? "not complete at the end of the record" : "within the first cycles");
         check(said.verdict, early ? "(by its scatter alone friction is steady from the first cycle)"
                                   : "(by its scatter alone friction is steady after 295 cycles)");
     }
@@ -202,7 +203,8 @@ static void test_share_of_variance(void **state)
         wide->value[k * RUN_QUANTITIES + RUN_TIME_RATIO] =
             0.8 * flow_draw_normal(all.seed, k - 1, FLOW_DRAW_WEAR);
     const run_verdict said = judged();
-    check(said.verdict, "inconclusive: a change as the layer makes it is over after 1 times");
+    check(said.verdict, "inconclusive: a change like that by the layer is complete after 1 "
+                        "times");
     check(said.settled_by, "known better");
     check(said.settled_by, " % of the variance");
     check_not(said.settled_by, "nan");
@@ -254,7 +256,8 @@ static void test_short_change(void **state)
         .at = {.velocity = 0.3}, .n = CYCLES, .end = end, .friction = friction, .note = ""};
     run_fit r = {.rec = &fast, .growth = &layer[0]};
     run_fit_compute(&r, 1);
-    assert_string_equal(r.note, "a change as the layer makes it is over within the first cycles");
+    assert_string_equal(r.note, "a change like that by the layer is complete within the first "
+                                "cycles");
     assert_non_null(r.value);
     assert_true(r.fit.seen && r.fit.high < 0);
     run_fit_clear(&r);
@@ -328,7 +331,7 @@ static void test_not_together(void **state)
     assert_true(isnan(run_level_interval(&all.level[RUN_TIME_RATIO]).value));
     assert_true(isnan(run_level_interval(&all.level[RUN_ENERGY]).value));
     check(run_set_assess(&all).verdict,
-          "inconclusive: a record tells a time of running-in that all together do not");
+          "inconclusive: one record determines a time of running-in, all together do not");
     records_end();
 }
 
@@ -342,7 +345,7 @@ static void test_together(void **state)
     assert_int_equal(run_set_compute_levels(&all, NULL), WT_OK);
     const wt_interval time = run_level_interval(&all.level[RUN_TIME_RATIO]);
     assert_true(time.low < 0 && time.high > 0);
-    check(run_set_assess(&all).verdict, "which not every record tells");
+    check(run_set_assess(&all).verdict, "which not every record determines");
     records_end();
 }
 
@@ -528,9 +531,9 @@ static void test_sentence_and_table(void **state)
         size_t rows;  /* of the record; 0: all */
         double scale; /* of its friction above 0.3 */
         const char *begins, *holds;
-    } tried[] = {{0, 1, "explains: ", "is over after"},
-                 {60, 1, "inconclusive: ", "is not over at the end of the record, after"},
-                 {0, -8, "does not: the change of friction is -", "is over after"}};
+    } tried[] = {{0, 1, "explains: ", "is complete after"},
+                 {60, 1, "inconclusive: ", "is not complete at the end of the record, after"},
+                 {0, -8, "does not: the change of friction is -", "is complete after"}};
     (void)state;
     for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
         change_case(energy, energy);

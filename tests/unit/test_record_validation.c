@@ -494,7 +494,7 @@ static void test_no_replicates(void **state)
     const wt_validation_job job = job_of(false);
     wt_validation_tables t = made(&job);
     assert_non_null(strstr(wt_table_key(t.validation, "test"), "without replicates"));
-    assert_non_null(strstr(wt_table_key(t.validation, "remarks"), "which take replicates"));
+    assert_non_null(strstr(wt_table_key(t.validation, "remarks"), "because they need replicates"));
     wt_validation_tables_clear(&t);
 }
 

@@ -594,8 +594,8 @@ static void test_numbers_of_captions(void **state)
                        "cos 2(phi - 30 deg). at 300 mm/s"},
         {"flash_temperature", " Surroundings at 20 °C; 28.9 K warmer. Two solutions: hot at 2 of 3 "
                               "velocities."},
-        {"isotherms", " 12 isotherms. Those that superposition"},
-        {"vertical_shifts", " are off it by up to "},
+        {"isotherms", " 12 isotherms. Curves that superposition"},
+        {"vertical_shifts", " they deviate from it by up to "},
         {"shift_factors", " C₁ = 6.504 ± 0.011 and C₂ = 110.08 ± 0.11 K, with the offset"},
         {"shift_factors", " Not determined by overlap: 1 of 12 isotherms."},
         {"power_spectrum", " height 44.8 ± 1.1 µm. Root-mean-square slope 0.945 ± 0.024."},

@@ -177,7 +177,7 @@ static void test_partly_known(void **state)
     told other = shear;
     other.shear = 2e6;
     other.lacks = "roughness";
-    check(shear, other, "inconclusive", "settled_by", "before that of roughness is known");
+    check(shear, other, "inconclusive", "settled_by", "until that of roughness is known");
     other.shear = shear.shear;
     check(other, shear, "inconclusive", "settled_by", "shear stress of HC, a");
 }

@@ -281,8 +281,8 @@ static void test_verdict(void **state)
                                             "20 %, the margin set");
     assert_null(wt_table_key(tables.comparison, "settled_by"));
     assert_string_equal(verdict(1.02, 0.05),
-                        "inconclusive: the interval of the ratio has room for no "
-                        "difference and for one above 5 %");
+                        "inconclusive: the interval of the ratio contains both no difference "
+                        "and one above 5 %");
     assert_non_null(strstr(wt_table_key(tables.comparison, "settled_by"),
                            "spots in each group would show a difference of 5 %"));
 }
@@ -322,8 +322,8 @@ static void test_two_spots(void **state)
 {
     (void)state;
     static const int names[][2] = {{3, 2}, {2, 3}, {2, 2}, {3, 3}};
-    static const char *const words[] = {"the two spots of the track do not tell",
-                                        "the two spots of the bulk do not tell", NULL, NULL};
+    static const char *const words[] = {"the two spots of the track do not determine",
+                                        "the two spots of the bulk do not determine", NULL, NULL};
     for (size_t i = 0; i < 4; i++) {
         wt_job common = wt_job_defaults();
         wt_compare_job job = wt_compare_job_defaults();

@@ -148,7 +148,7 @@ static void test_beyond_the_law(void **state)
     (void)state;
     wt_table *t = track_layer(&soft, 3e-6, 0.3e-6);
     begins(t, "allowed", "inconclusive: the law of a layer is known for moduli of 0.3 to 3 times");
-    begins(t, "agree", "inconclusive: the curves do not tell");
+    begins(t, "agree", "inconclusive: the curves do not determine");
     begins(t, "settled_by", "a section across the track");
     assert_true(isnan(key_of(t, "thickness_low")) && isnan(key_of(t, "thickness_high")));
     assert_null(wt_table_key(t, "both_low"));

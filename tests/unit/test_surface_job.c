@@ -296,8 +296,8 @@ static void test_directions(void **state)
     assert_near(key(t, "anisotropy"), alone, 1e-12);
     assert_near(key(t, "anisotropy_fourth"), fourth, 1e-12);
     assert_int_equal(wt_table_n_rows(m.tables.angular_spectrum), WT_SURFACE_SECTORS);
-    assert_non_null(strstr(wt_table_key(t, "profiles"), "where both tell"));
-    assert_true(said(&m, "what the profiles tell is told for a surface that is the same in all"));
+    assert_non_null(strstr(wt_table_key(t, "profiles"), "where both have data"));
+    assert_true(said(&m, "the spectrum of profiles assumes a surface that is the same in all"));
     clear(&m);
 
     make(&m, all, COUNT_OF(all));
@@ -337,7 +337,7 @@ static void test_alone(void **state)
     making m = {.job = wt_topography_job_defaults()};
     make(&m, all, 1);
     assert_int_equal(m.status, WT_OK);
-    assert_true(said(&m, "one scan: how much places of the surface differ is not known"));
+    assert_true(said(&m, "one scan: the scatter between places of the surface is not known"));
     assert_true(isnan(key(m.tables.power_spectrum, "place_scatter")));
     assert_non_null(
         strstr(wt_table_key(m.tables.power_spectrum, "standard_error_excludes"), "places"));
@@ -700,7 +700,8 @@ static void test_profiles_beside(void **state)
     assert_int_equal(close(mkstemp(twice)), 0);
     write_changed(SURFACE "place-1.gsf", 1.0F / 3, false, low);
     write_changed(SURFACE "place-1.gsf", 2, false, twice);
-    static const char format[] = "where both tell, C by them is %lf (95 %%: %lf to %lf) of that";
+    static const char format[] = "where both have data, C by them is %lf (95 %%: %lf to %lf) "
+                                 "of that";
     const struct {
         const char *maps[2];
         double low, high; /* of the ratio */

@@ -415,7 +415,7 @@ static void fit_kraus_law(const payne_points *p, wt_payne *payne)
     const double freedom = (double)(p->n - 4), flat = payne_total_squares(p);
     if (!(s.rss > 0) ||
         gsl_cdf_fdist_Q((flat - s.rss) / 3 / (s.rss / freedom), 3, freedom) > significance) {
-        payne->note = s.rss > 0 ? "no fall of the storage modulus that stands out of its scatter"
+        payne->note = s.rss > 0 ? "the storage modulus does not fall by more than its scatter"
                                 : "the points have no scatter";
         return;
     }
@@ -428,11 +428,11 @@ static void fit_kraus_law(const payne_points *p, wt_payne *payne)
         law_misfit(p, p->loss, &payne->law, wt_kraus_loss, &loss_residuals_drift) / payne->loss_max;
     payne_intervals(p, gsl_cdf_tdist_Pinv(confidence, freedom), payne);
     if (residuals_drift)
-        payne->note = "the points leave the law of Kraus one after the other to the same side: "
-                      "intervals too narrow";
+        payne->note = "the residuals of the law of Kraus are not random: the intervals are too "
+                      "narrow";
     if (loss_residuals_drift && payne->loss_note[0] == '\0')
-        payne->loss_note = "the points leave the law of Kraus one after the other to the same "
-                           "side: intervals too narrow";
+        payne->loss_note = "the residuals of the law of Kraus are not random: the intervals "
+                           "are too narrow";
     withhold_unmeasured(p, payne);
 }
 

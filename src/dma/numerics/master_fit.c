@@ -79,9 +79,9 @@ static const wt_param rows[] = {
      .help = "of the relaxation spectrum"},
     {PARAM_FLAG_OF("liquid", wt_master_options, liquid), .help = "no equilibrium modulus"},
     {PARAM_CHOICE_OF("shift-by", wt_master_options, shift_by, "moduli|storage|loss|loss-factor"),
-     .help =
-         "what isotherms are shifted by and the spectrum is fitted to: both moduli (or what was "
-         "measured of all isotherms), one of them, or the loss factor, which tells no level"},
+     .help = "data that determine the shifts and the spectrum: both moduli (or what was measured "
+             "of all isotherms), one of them, or the loss factor, which does not determine the "
+             "level of the moduli"},
 };
 PARAM_TABLE(wt_master_options_params, wt_master_options, rows, wt_master_options_defaults, NO_PARTS)
 

@@ -87,7 +87,8 @@ bool master_find_objecting(master_work *work, size_t *found)
     free(list);
     if (gap != 0.0)
         clocale_print(work->set.curves[*found].exclusion, sizeof work->set.curves[*found].exclusion,
-                      "its E'' is left out: it is %+.0f %% off what E' and the others demand",
+                      "its E'' is left out: it deviates by %+.0f %% from what E' and the "
+                      "others imply",
                       100.0 * expm1(gap));
     return gap != 0.0;
 }
@@ -158,8 +159,9 @@ bool master_find_unit_slip(master_work *work, size_t *found)
         least = rest;
         *found = list[k];
         clocale_print(work->set.curves[*found].exclusion, sizeof work->set.curves[*found].exclusion,
-                      "left out: its frequencies are %.2f decade off, as 2 pi: %s", fabs(off),
-                      off < 0.0 ? "rad/s read as Hz" : "Hz read as rad/s");
+                      "left out: its frequencies deviate by %.2f decade, as by a factor 2 pi: "
+                      "%s",
+                      fabs(off), off < 0.0 ? "rad/s read as Hz" : "Hz read as rad/s");
     }
     free(list);
     return *found < work->set.n;
@@ -199,21 +201,21 @@ static bool note_undetermined(const master_work *work, size_t i, wt_master_shift
         master_add_note(shift, "not determined: only %zu points", c->n);
     else if (!work->placed[i])
         master_add_note(shift, work->route == WT_SHIFTS_FROM_OVERLAP
-                                   ? "not determined: shares too little of E' with its neighbours"
+                                   ? "not determined: it overlaps too little with its "
+                                     "neighbours in E'"
                                    : "not determined: no overlap with the others");
     else if (work->route == WT_SHIFTS_FROM_OVERLAP)
         return false; /* each step is determined */
     else if (extra > master_max_shift_error)
-        master_add_note(
-            shift, "not determined: superposition fails, overlaps leave open %.2g decade", own);
+        master_add_note(shift,
+                        "not determined: superposition fails, overlaps differ by %.2g decade", own);
     else if (!(own <= master_max_shift_error))
-        master_add_note(shift, "not determined: no slope decides, error of log aT %.2g decade",
-                        own);
+        master_add_note(shift, "not determined: it is too flat, error of log aT %.2g decade", own);
     else if (work->options.vertical == WT_VERTICAL_FREE &&
              fabs(posterior_a_per_b(work->posterior, work->curve[i])) * clamping >
                  master_max_shift_error)
         master_add_note(shift,
-                        "not determined: no slope decides, %.2g decade of log bT is %.2g of log "
+                        "not determined: it is too flat, %.2g decade of log bT is %.2g of log "
                         "aT",
                         clamping, master_max_shift_error);
     return shift->note[0] != '\0';
@@ -336,11 +338,10 @@ static wt_status fail_flat_isotherms(const master_work *work, wt_error *err)
     const size_t steepest = master_steeper_isotherm(work);
     const bool elsewhere = steepest != work->anchor;
     wt_fail(err, WT_E_NO_OVERLAP,
-            elsewhere
-                ? "no shift is determined: the isotherm that the others are shifted onto is flat"
-                : "no shift is determined: the isotherms are flat");
-    wt_error_expected(err,
-                      "moduli that change along an isotherm by more than noise and clamping do");
+            elsewhere ? "no shift is determined: the isotherm of the reference temperature is flat"
+                      : "no shift is determined: the isotherms are flat");
+    wt_error_expected(err, "moduli that change along an isotherm by more than noise and clamping "
+                           "change them");
     wt_error_found(err, "a change of %.2g %% along that of the reference, %.2f °C",
                    100.0 * expm1(curve_modulus_change(&work->set, work->anchor) * M_LN10),
                    at->temperature - WT_ZERO_CELSIUS);
@@ -378,8 +379,8 @@ wt_status master_check_shifts(const master_work *work, const wt_master *m, wt_er
     }
     if (work->posterior->extra_error != NULL && doubted > 0) {
         wt_fail(err, WT_E_NO_OVERLAP,
-                "no shift is determined: one spectrum misses the isotherms, and the overlaps of "
-                "neighbours leave every shift open by more than %.1f decade",
+                "no shift is determined: one spectrum does not describe the isotherms, and the "
+                "overlaps of neighbours determine no shift to better than %.1f decade",
                 master_max_shift_error);
         wt_error_advice(err, "leave out isotherms or points that one process does not describe, "
                              "shift by the storage modulus alone, or give a law of the shifts");

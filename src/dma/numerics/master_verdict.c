@@ -124,8 +124,8 @@ static void note_quantity(const master_work *work, wt_log *log)
 {
     static const char *const open[] = {
         [WT_SHIFT_STORAGE] =
-            "fitted to the storage modulus alone: the loss modulus is what its slope "
-            "demands (Kramers-Kronig), and superposition is not tested",
+            "fitted to the storage modulus alone: the loss modulus follows from its slope "
+            "(Kramers-Kronig), and superposition is not tested",
         [WT_SHIFT_LOSS] = "fitted to the loss modulus alone: no equilibrium modulus, so no storage "
                           "modulus and no series, and superposition is not tested",
         [WT_SHIFT_LOSS_FACTOR] =
@@ -139,9 +139,9 @@ static void note_quantity(const master_work *work, wt_log *log)
                    work->set.loading == WT_CREEP ? "creep compliances" : "relaxation moduli");
     if (work->flows)
         wt_log_add(log, WT_WARNING, NULL, NULL,
-                   "creep of a liquid is fitted with an equilibrium modulus, which stands for "
-                   "what flows: shifts, law and moduli at the measured times are those of the "
-                   "liquid, and it is too stiff at longer ones");
+                   "creep of a liquid is fitted with an equilibrium modulus in place of its "
+                   "flow: shifts, law and moduli at the measured times are those of the "
+                   "liquid, and the moduli at longer times are too high");
     else if (work->set.loading == WT_OSCILLATION && work->set.quantity != WT_SHIFT_MODULI)
         wt_log_add(log, WT_WARNING, NULL, NULL, "%s", open[work->set.quantity]);
 }
@@ -163,16 +163,16 @@ static void note_route(const master_work *work, wt_log *log)
     if (work->part)
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "spectrum, law and series are those of the isotherms from %.1f to %.1f °C, "
-                   "which one spectrum describes; shifts of the others are by the overlap of "
-                   "their storage modulus with their neighbours'",
+                   "which one spectrum describes; the other isotherms are shifted by the "
+                   "overlap of their storage modulus with that of their neighbours",
                    work->set.curves[work->first].temperature - WT_ZERO_CELSIUS,
                    work->set.curves[work->last].temperature - WT_ZERO_CELSIUS);
     else if (work->route == WT_SHIFTS_FROM_OVERLAP)
         wt_log_add(log, WT_WARNING, NULL, NULL,
-                   "shifts are by the overlap of the storage modulus alone, from neighbour to "
-                   "neighbour and %s: their errors hold what the places of an overlap "
-                   "disagree by, and by how much the overlap of E'' and %s would move them; "
-                   "E'' of the spectrum is off by what superposition fails by",
+                   "each isotherm is shifted by the overlap of its storage modulus with its "
+                   "neighbour, %s; the errors of the shifts contain the differences within an "
+                   "overlap, and the changes by the overlap of E'' and by %s; E'' of the "
+                   "spectrum deviates from the measured one by the misfit of superposition",
                    work->options.vertical == WT_VERTICAL_PHYSICAL
                        ? "with the vertical shift of rubber elasticity"
                        : "without a vertical shift",
@@ -203,9 +203,9 @@ void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master 
     }
     if (work->lines)
         wt_log_add(log, WT_WARNING, NULL, NULL,
-                   "the spectrum is one of few sharp processes: between their lines nothing "
-                   "is measured, and the errors of E'', of the series and of what is worked "
-                   "out with it are up to twice as large as stated");
+                   "the spectrum consists of few sharp lines: nothing is measured between "
+                   "them, and the errors of E'', of the series and of results that use it are "
+                   "up to twice as large as stated");
     if (m->n_shifts > 1 && (m->reference_temperature < m->shifts[0].temperature ||
                             m->reference_temperature > m->shifts[m->n_shifts - 1].temperature))
         wt_log_add(log, WT_WARNING, NULL, NULL,
@@ -219,9 +219,9 @@ void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master 
                          isnan(m->valid_from) ? ": " : " ", m->superposition_reason);
     if (m->law.kind != WT_LAW_NONE && m->law_rms > master_max_shift_error)
         wt_log_add(log, WT_WARNING, NULL, NULL,
-                   "the law of the shift factors is %.2g decade off them (rms): it is none of "
-                   "this material, and what is worked out at other temperatures with it is off "
-                   "by as much",
+                   "the law of the shift factors deviates from them by %.2g decade (rms): it "
+                   "does not describe this material, and results at other temperatures are "
+                   "wrong by as much",
                    m->law_rms);
     if (m->law.kind == WT_LAW_NONE && m->n_shifts > 1)
         wt_log_add(log, WT_WARNING, NULL, NULL, "no law of the shift factors: %s",
@@ -312,11 +312,10 @@ static void describe_gross_misfit(const master_work *work, wt_master *m)
         clocale_print(at, 64, ", holds from %.1f to %.1f °C: ", m->valid_from - zero,
                       m->valid_to - zero);
     }
-    clocale_print(
-        m->superposition_reason, sizeof m->superposition_reason,
-        "%sone spectrum of all misses E' by %.1f %% and E'' by %.1f %% beyond their noise: "
-        "other processes, as in a glass, or a change of the material",
-        where, 100.0 * missed[STORAGE], 100.0 * missed[LOSS]);
+    clocale_print(m->superposition_reason, sizeof m->superposition_reason,
+                  "%sone spectrum deviates from E' by %.1f %% and from E'' by %.1f %% beyond their "
+                  "noise: a second process, as in a glass, or a change of the material",
+                  where, 100.0 * missed[STORAGE], 100.0 * missed[LOSS]);
 }
 
 void master_assess(const master_work *work, wt_master *m)
@@ -341,7 +340,7 @@ void master_assess(const master_work *work, wt_master *m)
     m->valid_from = m->valid_to = (double)NAN;
     if (!both) {
         clocale_print(m->superposition_reason, sizeof m->superposition_reason,
-                      "%s alone does not tell; storage and loss modulus together would",
+                      "%s alone does not test it; storage and loss modulus together would",
                       work->set.quantity == WT_SHIFT_LOSS_FACTOR ? "the loss factor"
                                                                  : "one modulus");
     } else if (work->no_spectrum[0] != '\0') {
@@ -353,8 +352,9 @@ void master_assess(const master_work *work, wt_master *m)
     } else if (determined >= 2 && master_loss_is_inconsistent(lack)) {
         m->superposition = WT_SUPERPOSITION_FAILS;
         clocale_print(m->superposition_reason, sizeof m->superposition_reason,
-                      "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p %s): check the "
-                      "instrument, the columns, and whether the material changed meanwhile",
+                      "E'' deviates by %+.1f %% from what E' implies (Kramers-Kronig, p %s): "
+                      "check the instrument, the columns, and whether the material changed "
+                      "meanwhile",
                       100.0 * expm1(lack->factor), format_probability(lack->kk).text);
     } else if (determined >= LEAST_ISOTHERMS && master_misfit_is_significant(lack)) {
         m->superposition = WT_SUPERPOSITION_FAILS;
@@ -363,25 +363,25 @@ void master_assess(const master_work *work, wt_master *m)
         clocale_print(high, sizeof high, "%.1f", 100.0 * lack->misfit_high);
         const bool one = strcmp(low, high) == 0;
         clocale_print(m->superposition_reason, sizeof m->superposition_reason,
-                      "one spectrum misses the isotherms by %s%s%s %% (p %s): a second process "
-                      "or a change of the material; treat the temperatures apart",
+                      "one spectrum deviates from the isotherms by %s%s%s %% (p %s): a second "
+                      "process or a change of the material; treat the temperatures separately",
                       one ? "about " : low, one ? "" : " to ", high,
                       format_probability(lack->p_sure).text);
     } else if (determined < LEAST_ISOTHERMS) {
         clocale_print(m->superposition_reason, sizeof m->superposition_reason,
-                      "%zu isotherm%s that overlap%s; three or more would tell", determined,
+                      "%zu isotherm%s that overlap%s; three or more would decide", determined,
                       determined == 1 ? "" : "s", determined == 1 ? "s" : "");
     } else if (3 * undetermined > m->n_shifts) {
         clocale_print(
             m->superposition_reason, sizeof m->superposition_reason,
-            "%zu of %zu shifts not determined; smaller steps of temperature or a wider range of "
-            "frequencies would tell",
+            "%zu of %zu shifts not determined; smaller steps of temperature or a wider range "
+            "of frequencies would determine them",
             undetermined, m->n_shifts);
     } else if (lack->misfit_high > possible_misfit) {
         clocale_print(
             m->superposition_reason, sizeof m->superposition_reason,
             "a misfit of up to %.1f %% would not be seen; less noise than %.1f %%, or more "
-            "points, would tell",
+            "points, would show it",
             round_up_percent(lack->misfit_high), 100.0 * fmax(m->noise_storage, m->noise_loss));
     } else if (master_misfit_is_likely(lack)) {
         clocale_print(m->superposition_reason, sizeof m->superposition_reason,
@@ -390,7 +390,8 @@ void master_assess(const master_work *work, wt_master *m)
     } else if (window < least_window) {
         clocale_print(
             m->superposition_reason, sizeof m->superposition_reason,
-            "windows of %.1f decades hide a second process; 1.5 decades or more would tell",
+            "isotherms over %.1f decades can hide a second process; 1.5 decades or more would "
+            "show it",
             window);
     } else {
         m->superposition = WT_SUPERPOSITION_HOLDS;

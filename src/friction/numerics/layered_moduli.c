@@ -95,7 +95,7 @@ wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *
         return WT_OK;
     if (isnan(to)) {
         wt_fail(err, WT_E_MISSING,
-                "the modulus ratio is of a temperature, and that of the rubber "
+                "the modulus ratio holds at one temperature, and the temperature of the rubber "
                 "is not known");
         wt_error_advice(err, "give --reference-temperature");
         wt_error_options(err, "reference-temperature");
@@ -105,9 +105,11 @@ wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *
     if (isnan(log_a) && fabs(from - to) <= same_temperature)
         return WT_OK;
     if (isnan(log_a)) {
-        wt_fail(err, WT_E_MISSING, "the modulus ratio is of another temperature than the rubber");
+        wt_fail(err, WT_E_MISSING,
+                "the modulus ratio holds at another temperature than that "
+                "of the rubber");
         wt_error_found(err, "%.4g K and %.4g K", from, to);
-        wt_error_advice(err, "a material with a shift law between them would tell its frequencies");
+        wt_error_advice(err, "give a material whose shift law reaches from one to the other");
         return WT_E_MISSING;
     }
     const double a = exp(M_LN10 * log_a);

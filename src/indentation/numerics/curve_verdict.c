@@ -288,8 +288,8 @@ static wt_curve_verdict law_verdict(curve_fitting *f, const wt_indent_fit *fit, 
     if (force_flattens(f)) {
         curve_set_reason(
             reason,
-            "the force flattens towards its top (chance %s by noise): detector, or the sample "
-            "gives way",
+            "the force flattens towards its maximum (chance %s by noise): detector, or the "
+            "sample yields",
             format_probability(s->lack.flat_chance).text);
         return WT_CURVE_SATURATED;
     }
@@ -304,8 +304,8 @@ static wt_curve_verdict law_verdict(curve_fitting *f, const wt_indent_fit *fit, 
         return WT_CURVE_DOUBTFUL;
     if (curve_has_unknown_loss(f)) {
         curve_set_reason(reason,
-                         "%.0f %% of the work lost; what loss does under a punch is known with "
-                         "the DMA only",
+                         "%.0f %% of the work lost; the effect of loss under a punch is known "
+                         "with the DMA only",
                          100.0 * f->loss);
         return WT_CURVE_DOUBTFUL;
     }
@@ -319,8 +319,8 @@ static wt_curve_verdict law_verdict(curve_fitting *f, const wt_indent_fit *fit, 
         return WT_CURVE_WIDE;
     }
     if (isnan(fit->misfit_error) && f->options->misfit_p_threshold > 0.0 && !f->kind.plain) {
-        curve_set_reason(reason, "what a misfit makes of the modulus is not known: too few "
-                                 "samples in contact for other ranges of the fit");
+        curve_set_reason(reason, "the effect of the misfit on the modulus is not known: too "
+                                 "few samples in contact for other ranges of the fit");
         f->misfit_is_named = true;
         return WT_CURVE_DOUBTFUL;
     }
@@ -338,7 +338,7 @@ static wt_curve_verdict law_verdict(curve_fitting *f, const wt_indent_fit *fit, 
     if (departure > baseline_bend * fit->max_force && pull > 0.0) {
         curve_set_reason(reason, "adhesion: a pull of %s, and %s before contact; %s",
                          curve_format_si(pull, "N").buffer, curve_format_si(departure, "N").buffer,
-                         "a longer baseline would tell them apart");
+                         "a longer baseline would separate them");
         return WT_CURVE_DOUBTFUL;
     }
     if (departure > baseline_bend * fit->max_force) {
@@ -440,7 +440,7 @@ static wt_curve_verdict verdict_below_limit(curve_fitting *f, wt_curve_verdict v
     memcpy(all, reason, sizeof all);
     curve_set_reason(reason,
                      "fitted up to %s, above which the force flattens: detector, or the sample "
-                     "gives way",
+                     "yields",
                      curve_format_si(f->options->fit_force, "N").buffer);
     if (verdict != WT_CURVE_ACCEPTED) {
         curve_set_reason(text, "; %s", all);

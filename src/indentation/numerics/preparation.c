@@ -425,8 +425,8 @@ static wt_curve_verdict advance_verdict(const curve_input *input, char reason[16
     }
     if (fabs(advance) < rigid_share) {
         curve_set_reason(reason,
-                         "the tip advances %.1f %% of the bending of the cantilever, %g %% needed "
-                         "to tell a modulus",
+                         "the tip advances %.1f %% of the bending of the cantilever, %g %% "
+                         "needed for a modulus",
                          100.0 * advance, 100.0 * rigid_share);
         return WT_CURVE_RIGID;
     }

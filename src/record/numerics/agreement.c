@@ -178,7 +178,7 @@ wt_status agreement_fit(const agreement_data *data, size_t most_terms, agreement
     wt_status status = WT_OK;
     alloc_agreement(data, a);
     if (!find_curve_weights(data, a, 0))
-        status = wt_fail(err, WT_E_INTERNAL, "the velocities do not tell a curve");
+        status = wt_fail(err, WT_E_INTERNAL, "the velocities do not determine a curve");
     for (size_t i = 0; status == WT_OK && i < data->n; i++)
         shape[i] = residual_prediction_variance(data, a, i, row);
     if (status == WT_OK) {

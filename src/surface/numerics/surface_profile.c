@@ -160,8 +160,8 @@ wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spect
         b->freedom = surface_variance_freedom(variance);
     }
     if (status == WT_OK && made.n < 2) {
-        status =
-            wt_fail(err, WT_E_RANGE, "so few profiles do not tell the spectrum of the surface");
+        status = wt_fail(err, WT_E_RANGE,
+                         "so few profiles do not determine the spectrum of the surface");
         wt_error_expected(err, "densities that are known to a factor of two");
         wt_error_advice(err, "measure more profiles, ten say, longer ones, or a height map");
     }

@@ -33,7 +33,7 @@ helps master "$relaxation" -o a.h5
     awk -v e=$e -v t=$t -v s=$s 'BEGIN { printf "%s,10,%s,%g,%g,%s\n", t, e, 5 + 5 / (1 + e), 1 + e / (1 + e * e), s }'
   done; done; done; } > payne.csv
 "$weartrack" payne -q payne.csv -o payne.h5 2> err
-piece '`weartrack payne FILE` tells how the rubber softens with strain' 'see `weartrack payne`' 'weartrack payne'
+piece '`weartrack payne FILE` reports how the rubber softens with strain' 'see `weartrack payne`' 'weartrack payne'
 payne=payne.csv
 cause '`weartrack payne FILE`' master "$payne" -o a.h5
 helps payne "$payne" -o a.h5
@@ -104,7 +104,7 @@ piece '--sample is of moduli and strain sweeps alike'
 cause '--sample is of moduli and strain sweeps alike' friction --sample c --material c.h5 --roughness $surface --pressure 0.4MPa --velocity 0.1m/s --strain-softening payne.h5 --softening-temperature 20degC
 helps friction --material c.h5 --roughness $surface --pressure 0.4MPa --velocity 0.1m/s --strain-softening softening.tsv
 
-piece 'the reduced Prony series of %zu term%s is off the spectrum'
+piece 'the reduced Prony series of %zu term%s deviates from the spectrum'
 cause 'of --prony-error' master --poisson-ratio 0.5 --prony-terms 1 three.csv -o a.h5
 helps master --poisson-ratio 0.5 --prony-error 50% three.csv -o a.h5
 

@@ -17,12 +17,12 @@ piece 'velocity not known: give --track-radius'
 { echo 'time (s),normal force (N),rotation (rpm),friction force (N)'; steady load,rotation; } > turns.csv
 cause 'velocity not known: give --track-radius' record turns.csv -o -
 helps record --track-radius 12mm turns.csv -o -
-piece 'no distance: give --track-radius' 'nothing tells what was lost: give --profile, --track-area or --mass-loss' 'no load: give --load'
+piece 'no distance: give --track-radius' 'the loss of the track is not known: give --profile, --track-area or --mass-loss' 'no load: give --load'
 { echo 'time (s),normal force (N),friction force (N)'; steady load; } > still.csv
 cause 'no distance, velocity, laps or rotation in the record' record --track-area 3e-11m^2 still.csv -o -
 cause 'no distance: give --track-radius' record --track-area 3e-11m^2 turns.csv -o -
 helps record --track-area 3e-11m^2 --track-radius 12mm turns.csv -o wear.h5
-cause 'nothing tells what was lost' record --track-radius 12mm --ball-radius 5mm --modulus 20MPa turns.csv -o -
+cause 'the loss of the track is not known' record --track-radius 12mm --ball-radius 5mm --modulus 20MPa turns.csv -o -
 helps record --track-radius 12mm --mass-loss 3mg --density 1150kg/m^3 turns.csv -o -
 { echo 'time (s),distance (m),mu'; steady distance | sed 's/,\([^,]*\)$/,0.9/'; } > mu.csv
 cause 'no load: give --load' record --track-area 3e-11m^2 --track-radius 12mm mu.csv -o -
@@ -65,6 +65,6 @@ advice='no such text'
 helps friction --material three.h5 --roughness "$law" --pressure 0.4MPa --velocity 0.1m/s
 
 # spots
-piece 'its coordinates, as the image counts them, would tell (--at-x, --at-y)' 'a better known position would tell (--position-error)'
+piece 'its coordinates in the image would decide (--at-x, --at-y)' 'a better known position would decide (--position-error)'
 cause '(--at-x, --at-y)' spot --tip sphere:radius=5um --depth 500nm --at-x 1m --at-y 1m "$road"
 helps spot --tip sphere:radius=5um --depth 500nm --at-x 0m --at-y 0m "$road"
