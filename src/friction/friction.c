@@ -478,15 +478,7 @@ wt_status wt_sliding_friction_compute(const wt_sliding *sliding, const wt_layer_
         t = (wt_friction_tables){0};
     }
     sliding_contact_clear(&c);
-    wt_friction_tables_clear(&t);
+    wt_table_free(t.friction);
     free_results(&task);
     return status;
-}
-
-void wt_friction_tables_clear(wt_friction_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->friction);
-    *tables = (wt_friction_tables){0};
 }

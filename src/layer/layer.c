@@ -191,14 +191,6 @@ typedef struct layer_task {
     replicates replicates;
 } layer_task;
 
-void wt_layer_tables_clear(wt_layer_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->layer);
-    *tables = (wt_layer_tables){0};
-}
-
 /* Estimate of a quantity proportional to the total power, with its relative numerical error. */
 static wt_estimate power_estimate(const layer_run *run, double value)
 {
@@ -439,7 +431,7 @@ wt_status wt_layer_thickness_compute(const wt_sliding *sliding, const wt_layer_j
         t = (wt_layer_tables){0};
     }
     clear_run(&centre);
-    wt_layer_tables_clear(&t);
+    wt_table_free(t.layer);
     free(task.time);
     replicates_clear(&task.replicates);
     return status;

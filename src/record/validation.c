@@ -192,15 +192,6 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_validation_job_params, wt_validation_job, rows, wt_validation_job_defaults, NO_PARTS)
 
-void wt_validation_tables_clear(wt_validation_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->validation);
-    wt_table_free(tables->sources);
-    *tables = (wt_validation_tables){0};
-}
-
 /* ---- the steps ------------------------------------------------------------------------------- */
 
 static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
@@ -512,6 +503,6 @@ wt_status wt_validation_compute(const wt_validation_job *job, const wt_job *work
         *tables = made;
         made = (wt_validation_tables){0};
     }
-    wt_validation_tables_clear(&made);
+    wt_tables_clear(&made, sizeof made);
     return status;
 }

@@ -74,8 +74,8 @@ static void check_row(const wt_table *table, const char *choice, const char *tri
     check_cell(table, row, "friction", key_estimate(f.friction, "friction_at_reference").value);
     check_cell(table, row, "friction_with_layer",
                key_estimate(f.friction, "friction_with_layer_at_reference").value);
-    wt_layer_tables_clear(&l);
-    wt_friction_tables_clear(&f);
+    wt_table_free(l.layer);
+    wt_table_free(f.friction);
     set_up();
 }
 

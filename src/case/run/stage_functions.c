@@ -101,7 +101,8 @@ static wt_status compare_case_groups(flow_run *run, bool groups_only, wt_error *
     flow_run_store_table(run, FLOW_MODULUS_BUDGET, &tables.modulus_budget);
     flow_run_store_table(run, FLOW_COMPARISON, &tables.comparison);
     flow_run_store_table(run, FLOW_MODULUS_RATE, &tables.modulus_rate);
-    wt_compare_tables_clear(&tables); /* The stage of the DMA comparison creates its own tables. */
+    wt_tables_clear(&tables,
+                    sizeof tables); /* The stage of the DMA comparison creates its own tables. */
     return status;
 }
 
@@ -149,7 +150,7 @@ wt_status flow_step_dma_comparison(flow_run *run, wt_error *err)
         report_row_count(run, tables.dma_comparison);
         flow_run_store_table(run, FLOW_DMA_COMPARISON, &tables.dma_comparison);
     }
-    wt_compare_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     return status;
 }
 
