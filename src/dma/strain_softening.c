@@ -1,6 +1,6 @@
 /* The job of strain sweeps, and the strain softening of the rubber from them or from a table.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dma/strain_softening.h"
+#include "dma/rubber.h"
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"

@@ -4,7 +4,7 @@
 #include "core/base/clocale.h"
 #include "core/base/shared_params.h"
 #include "core/table/table_rows.h"
-#include "dma/strain_softening.h"
+#include "dma/rubber.h"
 #include "friction/replicates.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"

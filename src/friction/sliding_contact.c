@@ -8,7 +8,6 @@
 #include "core/math/students_t.h"
 #include "core/table/registry.h"
 #include "dma/rubber.h"
-#include "dma/strain_softening.h"
 #include "friction/counter_surface.h"
 #include "friction/numerics/friction_kernel.h"
 #include "friction/numerics/layered_moduli.h"

@@ -6,7 +6,7 @@
 #include "core/base/shared_params.h"
 #include "core/table/table_rows.h"
 #include "dma/law_parse.h"
-#include "dma/strain_softening.h"
+#include "dma/rubber.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
 #include "job/random_draws.h"
@@ -91,8 +91,7 @@ wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err)
     return WT_OK;
 }
 
-/* ---- energy density ----------------------------------------------------------------------------
- */
+/* ---- energy density -------------------------------------------------------------------------- */
 
 #define DEPTHS 121 /* resolution of a figure */
 

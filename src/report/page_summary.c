@@ -5,7 +5,7 @@
 #include "core/base/array.h"
 #include "core/table/finding.h"
 #include "core/table/result_row.h"
-#include "report/typography.h"
+#include "report/report_text.h"
 
 #include <math.h>
 #include <string.h>
