@@ -2,7 +2,6 @@
  * the modified layer, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
-#include "core/base/shared_params.h"
 #include "core/table/table_rows.h"
 #include "dma/rubber.h"
 #include "friction/replicates.h"

@@ -3,7 +3,6 @@
 #include "friction/sliding_contact.h"
 #include "core/base/clocale.h"
 #include "core/base/number.h"
-#include "core/base/quantity.h"
 #include "core/base/shared_params.h"
 #include "core/math/students_t.h"
 #include "core/table/registry.h"

@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/conditioning.h"
 #include "core/base/array.h"
-#include "core/base/memory.h"
 #include "core/math/splitmix64.h"
 #include "job/inputs.h"
 

@@ -5,7 +5,6 @@
 #include "core/base/param.h"
 #include "core/base/shared_params.h"
 #include "core/table/table_rows.h"
-#include "dma/law_parse.h"
 #include "dma/rubber.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"

@@ -11,7 +11,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* A value far above 0 has a log-normal interval, because its inputs (pressure, area, modulus ratio)
  * are factors. A smaller one has a normal interval that may include 0. */

@@ -4,7 +4,6 @@
 #include "report/page.h"
 
 #include "core/base/array.h"
-#include "report/figure_files.h"
 #include "report/report_files.h"
 
 #include <stdio.h>

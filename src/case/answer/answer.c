@@ -4,7 +4,6 @@
 #include "case/answer/answer.h"
 #include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/base/memory.h"
 #include "core/table/finding.h"
 #include "core/table/result_row.h"
 #include "core/table/table_rows.h"
