@@ -756,6 +756,9 @@ typedef enum wt_column_kind { WT_COLUMN_NUMBER, WT_COLUMN_TEXT } wt_column_kind;
  * title: plain text. */
 WT_API wt_table *wt_table_new(const char *name, const char *title);
 WT_API void wt_table_free(wt_table *table);
+/* Frees the tables of a structure that has only tables as members, such as wt_ramp_tables, and sets
+ * them to NULL. size: size of the structure. */
+WT_API void wt_tables_clear(void *tables, size_t size);
 WT_API const char *wt_table_name(const wt_table *table);
 WT_API const char *wt_table_title(const wt_table *table);
 WT_API wt_status wt_table_rename(wt_table *table, const char *name, wt_error *err) WT_NODISCARD;

@@ -539,7 +539,6 @@ typedef struct wt_ramp_tables {
     wt_table *ramp, *glass_transition;
     wt_table *moduli_at; /* NULL without temperatures */
 } wt_ramp_tables;
-WT_API void wt_ramp_tables_clear(wt_ramp_tables *tables);
 WT_API wt_status wt_ramp_compute(const wt_ramp_job *job, const wt_job *work, wt_ramp_tables *tables,
                                  wt_error *err) WT_NODISCARD;
 
@@ -588,7 +587,6 @@ WT_API wt_payne_job wt_payne_job_defaults(void);
 typedef struct wt_payne_tables {
     wt_table *payne, *payne_sweep;
 } wt_payne_tables;
-WT_API void wt_payne_tables_clear(wt_payne_tables *tables);
 WT_API wt_status wt_payne_compute(const wt_payne_job *job, const wt_job *work,
                                   wt_payne_tables *tables, wt_error *err) WT_NODISCARD;
 

@@ -226,7 +226,6 @@ typedef struct wt_friction_tables {
     wt_table *friction;
     double extrapolated_share; /* largest of all velocities */
 } wt_friction_tables;
-WT_API void wt_friction_tables_clear(wt_friction_tables *tables);
 
 /* Computes hysteresis friction, contact area and total friction at every velocity. Standard errors
  * come from replicates: spectrum, shifts and law are drawn jointly from the posterior of the

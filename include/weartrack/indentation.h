@@ -690,7 +690,6 @@ WT_API wt_status wt_modulation_moduli(const wt_modulation *modulation, const wt_
 typedef struct wt_dwell_tables {
     wt_table *dwell, *dwell_points, *dwell_moduli;
 } wt_dwell_tables;
-WT_API void wt_dwell_tables_clear(wt_dwell_tables *tables);
 /* Evaluates the first dwell after the approach of every curve, with the tip and options of an
  * indentation job. WT_E_EMPTY if no curve has one. */
 WT_API wt_status wt_dwell_compute(const wt_indent_job *job, const wt_job *work,
@@ -772,7 +771,6 @@ WT_API const wt_params *wt_sensitivity_job_params(void);
 typedef struct wt_sensitivity_tables {
     wt_table *sensitivity, *sensitivity_curves;
 } wt_sensitivity_tables;
-WT_API void wt_sensitivity_tables_clear(wt_sensitivity_tables *tables);
 /* WT_E_EMPTY if no file has a curve. If the surface is compliant or the signal is not straight
  * there is no sensitivity; the verdict has the reason. */
 WT_API wt_status wt_sensitivity_compute(const wt_sensitivity_job *job, const wt_job *work,

@@ -172,7 +172,6 @@ typedef struct wt_layer_tables {
     wt_estimate thickness; /* steady-state thickness [m]; infinite without wear */
     wt_layer_steady_state balance;
 } wt_layer_tables;
-WT_API void wt_layer_tables_clear(wt_layer_tables *tables);
 
 /* Computes the thickness of the layer at the reference velocity. Standard errors from the
  * replicates of the friction and the stated errors of k and U_c (or of the observed thickness). */

@@ -155,7 +155,6 @@ typedef struct wt_record_tables {
     wt_table *record, *record_cycles;
     wt_table *wear; /* NULL without data on wear */
 } wt_record_tables;
-WT_API void wt_record_tables_clear(wt_record_tables *tables);
 /* WT_E_EMPTY if no file has a record. */
 WT_API wt_status wt_record_compute(const wt_record_job *job, const wt_job *work,
                                    wt_record_tables *tables, wt_error *err) WT_NODISCARD;
@@ -183,7 +182,6 @@ WT_API const wt_params *wt_validation_job_params(void);
 typedef struct wt_validation_tables {
     wt_table *validation, *sources;
 } wt_validation_tables;
-WT_API void wt_validation_tables_clear(wt_validation_tables *tables);
 
 /* Compares measured with predicted friction at every step of the records, with both errors: the
  * verdict "explains", "does not" or "inconclusive" by the test in the key `test`; the shear stress
@@ -194,7 +192,6 @@ WT_API wt_status wt_validation_compute(const wt_validation_job *job, const wt_jo
 typedef struct wt_running_in_tables {
     wt_table *running_in, *running_in_curve; /* "validation_running_in", "validation_course" */
 } wt_running_in_tables;
-WT_API void wt_running_in_tables_clear(wt_running_in_tables *tables);
 
 /* Compares the running-in of the first step of every record with that predicted for the growing
  * layer of `layer` and `known` (not NULL): time to the steady state and change of friction, with

@@ -106,7 +106,6 @@ typedef struct wt_compare_tables {
     wt_table *dma_comparison; /* NULL without rubber or rates */
     wt_table *modulus_budget; /* NULL if no group states a systematic error */
 } wt_compare_tables;
-WT_API void wt_compare_tables_clear(wt_compare_tables *tables);
 /* Compares bulk and track. One of them may be NULL: then there is no table "comparison". A group
  * without a usable curve has a row without numbers. WT_E_RANGE if a curve is in both groups. */
 WT_API wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
@@ -146,7 +145,6 @@ typedef struct wt_collection_tables {
         *collected_force, *ratio_pairs, *shared_constants, *shared_members, *collected_constants,
         *shared_pairs;
 } wt_collection_tables;
-WT_API void wt_collection_tables_clear(wt_collection_tables *tables);
 /* Compares cases. Modulus ratios of pairs count as independent. For shared constants, errors from
  * the same files are fully correlated. WT_E_EMPTY without a case or a temperature sweep;
  * WT_E_AMBIGUOUS for two cases of one sample and condition. */

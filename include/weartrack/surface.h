@@ -222,7 +222,6 @@ typedef struct wt_topography_tables {
     wt_table *scan_spectra, *height_map,
         *height_profile; /* NULL unless requested; height_map NULL also for profiles */
 } wt_topography_tables;
-WT_API void wt_topography_tables_clear(wt_topography_tables *tables);
 /* Computes the power spectrum of a surface. Scans of several sizes are stitched, several positions
  * averaged, profiles inverted. If end or end_slope requires it, the self-affine law extends the
  * reliable range. WT_E_EMPTY if no file has heights or no wavenumber is reliable, WT_E_RANGE if the

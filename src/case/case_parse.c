@@ -1,5 +1,5 @@
 /* Parses a case file: XML, schema, sections. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "case/case_sections.h"
+#include "case/case_node.h"
 
 #include "core/base/array.h"
 #include "core/base/memory.h"
@@ -108,8 +108,7 @@ static wt_status validate_document(xmlDoc *doc, wt_error *err)
     return status;
 }
 
-/* ---- values to be filled in -------------------------------------------------------------------
- */
+/* ---- values to be filled in ------------------------------------------------------------------ */
 
 typedef struct open_values {
     size_t n;

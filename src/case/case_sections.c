@@ -1,6 +1,6 @@
 /* Reads the sections of a case file: their parameters and their nested elements.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "case/case_sections.h"
+#include "case/case_node.h"
 #include "core/table/table.h"
 #include "dma/rubber.h"
 #include "friction/counter_surface.h"

@@ -1,13 +1,13 @@
-/* Writes errors, warnings and progress on standard error. SPDX-License-Identifier: GPL-3.0-or-later
+/* Writes errors, warnings, progress and long text. SPDX-License-Identifier: GPL-3.0-or-later
  */
+#include "cmd/cmd.h"
+#include "core/base/utf8.h"
+#include "core/table/registry.h"
+
 #include <signal.h>
 #include <stdarg.h>
 #include <string.h>
 #include <unistd.h>
-
-#include "cmd/cmd.h"
-#include "core/base/utf8.h"
-#include "core/table/registry.h"
 
 /* True for a control character of a terminal. */
 static bool is_control(const char *text)
@@ -192,4 +192,131 @@ void cmd_progress_end(cmd_session *s)
     cmd_erase_progress();
     s->progress.active = false;
     restore_interruptions();
+}
+
+/* ---- screen ---------------------------------------------------------------------------------- */
+
+enum {
+    GAP = 2,
+    LINES_SHOWN = CMD_SCREEN_LINES - 5 /* remarks, where the rest is, the next command */
+};
+
+/* Text that goes to the terminal up to a number of lines. */
+typedef struct screen_text {
+    cmd_session *session;
+    size_t n_lines; /* of the whole text */
+    bool is_cut;    /* a line is wider than the terminal */
+    size_t used;
+    char line[4 * CMD_SCREEN_WIDTH]; /* UTF-8: up to four bytes a character */
+} screen_text;
+
+bool cmd_shows_first_lines(const cmd_session *s)
+{
+    return s->common.output == NULL && !s->common.verbose && isatty(STDOUT_FILENO);
+}
+
+static void end_line(screen_text *t)
+{
+    enum { DOTS = 3 };
+    const bool cut = cmd_text_width(t->line, t->used) > CMD_SCREEN_WIDTH;
+    if (t->n_lines < LINES_SHOWN) {
+        cmd_print_safely(stdout, t->line,
+                         cut ? cmd_text_fit(t->line, t->used, CMD_SCREEN_WIDTH - DOTS) : t->used);
+        fputs(cut ? "...\n" : "\n", stdout);
+        t->is_cut = t->is_cut || cut;
+    }
+    t->n_lines++;
+    t->used = 0;
+}
+
+static ssize_t write_screen(void *cookie, const char *bytes, size_t n)
+{
+    screen_text *const t = cookie;
+    for (size_t i = 0; i < n; i++) {
+        const size_t wide = bytes[i] == '\t' ? GAP : 1;
+        if (bytes[i] == '\n')
+            end_line(t);
+        for (size_t k = 0; bytes[i] != '\n' && k < wide && t->used < sizeof t->line; k++)
+            t->line[t->used++] = bytes[i] == '\t' ? ' ' : bytes[i];
+    }
+    return (ssize_t)n;
+}
+
+static int close_screen(void *cookie)
+{
+    screen_text *const t = cookie;
+    if (t->used > 0)
+        end_line(t);
+    if (t->n_lines > LINES_SHOWN)
+        printf("and %zu more lines: -o FILE, or -o - to print them\n", t->n_lines - LINES_SHOWN);
+    else if (t->is_cut)
+        puts("lines are cut: -o FILE, or -o - to print them");
+    const size_t shown = t->n_lines < LINES_SHOWN ? t->n_lines : LINES_SHOWN;
+    t->session->lines_left -= shown < t->session->lines_left ? shown : t->session->lines_left;
+    free(t);
+    return 0;
+}
+
+void cmd_show_first_lines(cmd_session *s, cmd_sink *sink)
+{
+    if (sink->file != NULL || !cmd_shows_first_lines(s))
+        return;
+    screen_text *const t = wt_alloc(1, sizeof *t);
+    t->session = s;
+    FILE *const stream =
+        fopencookie(t, "w", (cookie_io_functions_t){.write = write_screen, .close = close_screen});
+    if (stream == NULL)
+        cmd_exit_without_memory(sizeof *t);
+    sink->stream = sink->screen = stream;
+}
+
+/* ---- wrapped text ---------------------------------------------------------------------------- */
+
+/* Width that fits on small screens and in e-mails. */
+enum { LINE_WIDTH = 96 };
+
+size_t cmd_text_width(const char *text, size_t n)
+{
+    size_t width = 0;
+    for (size_t i = 0; i < n; i++)
+        width += ((unsigned char)text[i] & 0xC0) != 0x80;
+    return width;
+}
+
+size_t cmd_text_fit(const char *text, size_t length, size_t width)
+{
+    size_t n = 0;
+    for (size_t used = 0; n < length; n++) {
+        used += ((unsigned char)text[n] & 0xC0) != 0x80;
+        if (used > width)
+            break;
+    }
+    return n;
+}
+
+void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text)
+{
+    bool begin = true; /* the line has no text yet */
+    for (const char *p = text; *p != '\0';) {
+        const size_t blanks = strspn(p, " ");
+        const size_t word = strcspn(p + blanks, " \n");
+        const size_t width = cmd_text_width(p, blanks + word);
+        if (!begin && column + width > LINE_WIDTH) {
+            fprintf(out, "\n%*s", (int)indent, "");
+            column = indent;
+            begin = true;
+        }
+        const size_t skip = begin ? blanks : 0;
+        fwrite(p + skip, 1, blanks - skip + word, out);
+        column += width - skip;
+        begin = begin && word == 0;
+        p += blanks + word;
+        if (*p == '\n') {
+            fprintf(out, "\n%*s", (int)indent, "");
+            column = indent;
+            begin = true;
+            p++;
+        }
+    }
+    fputc('\n', out);
 }

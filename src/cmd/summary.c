@@ -1,5 +1,4 @@
 /* weartrack summary: one row for each result. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cmd/export.h"
 #include "cmd/table_output.h"
 
 /* Result of reading one file: headlines or failure. */

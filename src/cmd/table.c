@@ -1,5 +1,4 @@
 /* weartrack table: exports one table of a result. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cmd/export.h"
 #include "cmd/table_output.h"
 #include "core/base/spell_suggest.h"
 

@@ -28,4 +28,15 @@ wt_status cmd_check_sample(const wt_result *tables, const char *path, const char
 wt_status cmd_rubber_read(const char *path, const char *sample, double poisson_ratio,
                           const wt_job *work, wt_result **tables, wt_rubber *rubber, wt_error *err);
 
+/* Options of a subcommand that exports. */
+typedef struct export_options {
+    wt_export_form form;
+    bool formulas;
+} export_options;
+const wt_params *export_params(void);
+
+/* Writes the table to -o or standard output. Unless --format is among the options given, the end of
+ * the name after -o decides. */
+wt_status export_table(cmd_session *s, const cmd_option_group *part, const wt_table *table);
+
 #endif

@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/finite_elements.h"
 
-#include "core/base/array.h"
 #include "core/base/number.h"
 #include "dma/sweep_input.h"
 

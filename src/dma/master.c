@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/master.h"
 
-#include "core/base/array.h"
 #include "core/base/param.h"
 #include "core/table/table_rows.h"
 #include "dma/law/material.h"

@@ -44,16 +44,6 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_ramp_job_params, wt_ramp_job, rows, wt_ramp_job_defaults, NO_PARTS)
 
-void wt_ramp_tables_clear(wt_ramp_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->ramp);
-    wt_table_free(tables->glass_transition);
-    wt_table_free(tables->moduli_at);
-    *tables = (wt_ramp_tables){0};
-}
-
 /* ---- isotherms by frequency ------------------------------------------------------------------ */
 
 typedef struct ramp_point {
@@ -420,7 +410,7 @@ wt_status wt_ramp_compute(const wt_ramp_job *job, const wt_job *work, wt_ramp_ta
         *tables = t;
         t = (wt_ramp_tables){0};
     }
-    wt_ramp_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     wt_sweep_clear(&sweep);
     return status;
 }

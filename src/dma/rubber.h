@@ -27,4 +27,13 @@ wt_status flow_rubber_zener(const wt_zener *zener, double poisson_ratio, wt_rubb
 wt_status flow_rubber_read(flow_file *file, double poisson_ratio, const wt_job *work,
                            wt_rubber *rubber, wt_error *err) WT_NODISCARD;
 
+/* Returns true if at least one point has a standard error. */
+bool strain_softening_has_errors(const wt_strain_softening *softening);
+/* Describes the source and the error of the softening. */
+void strain_softening_describe(const wt_strain_softening *softening, char *text, size_t size);
+/* Creates a copy without errors for a replicate (WT_NO_REPLICATE: unchanged). The caller clears
+ * it. */
+wt_strain_softening strain_softening_draw(const wt_strain_softening *softening, uint64_t seed,
+                                          size_t replicate);
+
 #endif

@@ -1,6 +1,6 @@
 /* The job of strain sweeps, and the strain softening of the rubber from them or from a table.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dma/strain_softening.h"
+#include "dma/rubber.h"
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"
@@ -476,15 +476,6 @@ wt_payne_job wt_payne_job_defaults(void)
     return (wt_payne_job){.n_sets = 0};
 }
 
-void wt_payne_tables_clear(wt_payne_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->payne);
-    wt_table_free(tables->payne_sweep);
-    *tables = (wt_payne_tables){0};
-}
-
 /* Points with positive moduli, to which a law is fitted. */
 typedef struct usable_points {
     size_t n;
@@ -596,7 +587,7 @@ wt_status wt_payne_compute(const wt_payne_job *job, const wt_job *work, wt_payne
         *tables = t;
         t = (wt_payne_tables){0};
     }
-    wt_payne_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     wt_sweep_clear(&sweep);
     return status;
 }

@@ -279,7 +279,7 @@ wt_status flow_surface_measure(const wt_topography_job *job, const wt_job *work,
         *tables = made;
         return WT_OK;
     }
-    wt_topography_tables_clear(&made);
+    wt_tables_clear(&made, sizeof made);
     return status;
 }
 

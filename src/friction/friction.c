@@ -2,9 +2,8 @@
  * the modified layer, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
-#include "core/base/shared_params.h"
 #include "core/table/table_rows.h"
-#include "dma/strain_softening.h"
+#include "dma/rubber.h"
 #include "friction/replicates.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
@@ -478,15 +477,7 @@ wt_status wt_sliding_friction_compute(const wt_sliding *sliding, const wt_layer_
         t = (wt_friction_tables){0};
     }
     sliding_contact_clear(&c);
-    wt_friction_tables_clear(&t);
+    wt_table_free(t.friction);
     free_results(&task);
     return status;
-}
-
-void wt_friction_tables_clear(wt_friction_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->friction);
-    *tables = (wt_friction_tables){0};
 }

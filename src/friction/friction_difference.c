@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
 #include "core/table/table_rows.h"
-#include "dma/strain_softening.h"
+#include "dma/rubber.h"
 #include "friction/numerics/angular.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"

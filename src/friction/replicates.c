@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/replicates.h"
 #include "core/base/memory.h"
-#include "dma/strain_softening.h"
+#include "dma/rubber.h"
 #include "friction/numerics/angular.h"
 #include "friction/sliding_contact.h"
 

@@ -249,16 +249,6 @@ static wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson
 /* Customary significance level of the misfit. Below it wt_dwell states no standard errors. */
 static const double misfit_p_threshold = 0.01;
 
-void wt_dwell_tables_clear(wt_dwell_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->dwell);
-    wt_table_free(tables->dwell_points);
-    wt_table_free(tables->dwell_moduli);
-    *tables = (wt_dwell_tables){0};
-}
-
 typedef struct dwell_task {
     const wt_indent_job *job;
     const wt_job *work;
@@ -524,7 +514,7 @@ wt_status wt_dwell_compute(const wt_indent_job *job, const wt_job *work, wt_dwel
         *tables = result;
         result = (wt_dwell_tables){0};
     }
-    wt_dwell_tables_clear(&result);
+    wt_tables_clear(&result, sizeof result);
     wt_indent_workspace_free(task.workspace);
     wt_contact_table_free(task.contact);
     flow_files_clear(&files);

@@ -43,15 +43,6 @@ static const wt_param job_rows[] = {
 PARAM_TABLE(wt_sensitivity_job_params, wt_sensitivity_job, job_rows, wt_sensitivity_job_defaults,
             PARAM_PART(wt_slope_params, wt_sensitivity_job, options))
 
-void wt_sensitivity_tables_clear(wt_sensitivity_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->sensitivity);
-    wt_table_free(tables->sensitivity_curves);
-    *tables = (wt_sensitivity_tables){0};
-}
-
 /* ---- reading --------------------------------------------------------------------------------- */
 
 /* Slopes of the two branches of a curve. A force is divided by the spring constant to obtain the
@@ -592,7 +583,7 @@ wt_status wt_sensitivity_compute(const wt_sensitivity_job *job, const wt_job *wo
         *tables = result;
         result = (wt_sensitivity_tables){0};
     }
-    wt_sensitivity_tables_clear(&result);
+    wt_tables_clear(&result, sizeof result);
     free(task.items);
     flow_files_clear(&files);
     return status;

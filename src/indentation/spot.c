@@ -5,7 +5,6 @@
 #include "core/base/clocale.h"
 #include "core/base/number.h"
 #include "core/base/param.h"
-#include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "indentation/numerics/height_image.h"
 #include "job/cost.h"

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/inputs.h"
 #include "core/base/array.h"
-#include "core/base/memory.h"
 #include "core/math/splitmix64.h"
 #include "core/system/temporary.h"
 #include "core/table/table_rows.h"

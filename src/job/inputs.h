@@ -4,8 +4,9 @@
 #define WT_JOB_INPUTS_H
 
 #include "core/base/shared_params.h"
-#include "job/sample_set.h"
 #include "weartrack/job.h"
+#include <stddef.h>
+#include <stdint.h>
 
 /* Parameters of a job that a run also has. */
 #define JOB_ROWS(type)                                                                             \
@@ -15,6 +16,21 @@
         {PARAM("seed", type, seed, WT_Q_NONE, AT_LEAST(0)), .value = "N", .flags = PARAM_NO_CASE,  \
          .help = "seed of the draws behind the standard errors"},                                  \
         PARAM_THREADS(type)
+
+typedef struct sample_slot {
+    uint64_t hash;
+    const void *owner; /* NULL: the slot is free */
+} sample_slot;
+
+/* Hash table with open addressing: a map has a million curves, of which each is looked up once. */
+typedef struct sample_set {
+    sample_slot *slot; /* [size] */
+    size_t size, n;    /* size is 0 or a power of two */
+} sample_set;
+
+/* Adds samples of `owner`, unless there are some of the same hash. Returns the first owner. */
+const void *sample_set_add(sample_set *set, uint64_t hash, const void *owner);
+void sample_set_clear(sample_set *set);
 
 /* Input file of a job. */
 typedef struct flow_file {

@@ -2,8 +2,6 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "core/base/array.h"
-#include "core/math/students_t.h"
 #include "report/drawing.h"
 
 #include <math.h>

@@ -5,8 +5,7 @@
 #include "core/base/param.h"
 #include "core/base/shared_params.h"
 #include "core/table/table_rows.h"
-#include "dma/law_parse.h"
-#include "dma/strain_softening.h"
+#include "dma/rubber.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
 #include "job/random_draws.h"
@@ -90,8 +89,7 @@ wt_status wt_layer_job_check(const wt_layer_job *job, wt_error *err)
     return WT_OK;
 }
 
-/* ---- energy density ----------------------------------------------------------------------------
- */
+/* ---- energy density -------------------------------------------------------------------------- */
 
 #define DEPTHS 121 /* resolution of a figure */
 
@@ -189,14 +187,6 @@ typedef struct layer_task {
     size_t n;
     replicates replicates;
 } layer_task;
-
-void wt_layer_tables_clear(wt_layer_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->layer);
-    *tables = (wt_layer_tables){0};
-}
 
 /* Estimate of a quantity proportional to the total power, with its relative numerical error. */
 static wt_estimate power_estimate(const layer_run *run, double value)
@@ -438,7 +428,7 @@ wt_status wt_layer_thickness_compute(const wt_sliding *sliding, const wt_layer_j
         t = (wt_layer_tables){0};
     }
     clear_run(&centre);
-    wt_layer_tables_clear(&t);
+    wt_table_free(t.layer);
     free(task.time);
     replicates_clear(&task.replicates);
     return status;

@@ -49,16 +49,6 @@ static const double fewest_samples = 20;
 /* Tolerance between the coefficient of a file and its forces: the digits of a display. */
 static const double same_friction = 0.01;
 
-void wt_record_tables_clear(wt_record_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->record);
-    wt_table_free(tables->record_cycles);
-    wt_table_free(tables->wear);
-    *tables = (wt_record_tables){0};
-}
-
 /* ---- one step -------------------------------------------------------------------------------- */
 
 static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
@@ -589,6 +579,6 @@ wt_status wt_record_compute(const wt_record_job *job, const wt_job *work, wt_rec
         *tables = made;
         made = (wt_record_tables){0};
     }
-    wt_record_tables_clear(&made);
+    wt_tables_clear(&made, sizeof made);
     return status;
 }

@@ -87,15 +87,6 @@ static wt_status running_in_curve_tabulate(const run_set *all, const char *verdi
     return table_end(&t, table);
 }
 
-void wt_running_in_tables_clear(wt_running_in_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->running_in);
-    wt_table_free(tables->running_in_curve);
-    *tables = (wt_running_in_tables){0};
-}
-
 static const wt_interval unknown_interval = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 static const wt_estimate unknown_estimate = {(double)NAN, (double)NAN, (double)NAN, NULL};
 
@@ -445,6 +436,6 @@ wt_status wt_running_in_validation_compute(const wt_validation_job *job, const w
         *tables = made;
         made = (wt_running_in_tables){0};
     }
-    wt_running_in_tables_clear(&made);
+    wt_tables_clear(&made, sizeof made);
     return status;
 }

@@ -4,11 +4,9 @@
 #include "record/validation.h"
 
 #include "core/base/clocale.h"
-#include "core/math/students_t.h"
 #include "job/random_draws.h"
 
 #include <math.h>
-#include <string.h>
 
 /* With a larger share of draws without a layer, the existence of the layer is inconclusive. */
 static const double least_doubt = 0.025;

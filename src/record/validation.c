@@ -11,7 +11,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* A value far above 0 has a log-normal interval, because its inputs (pressure, area, modulus ratio)
  * are factors. A smaller one has a normal interval that may include 0. */
@@ -191,15 +190,6 @@ static const wt_param rows[] = {
              "figures or results are listed"},
 };
 PARAM_TABLE(wt_validation_job_params, wt_validation_job, rows, wt_validation_job_defaults, NO_PARTS)
-
-void wt_validation_tables_clear(wt_validation_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->validation);
-    wt_table_free(tables->sources);
-    *tables = (wt_validation_tables){0};
-}
 
 /* ---- the steps ------------------------------------------------------------------------------- */
 
@@ -512,6 +502,6 @@ wt_status wt_validation_compute(const wt_validation_job *job, const wt_job *work
         *tables = made;
         made = (wt_validation_tables){0};
     }
-    wt_validation_tables_clear(&made);
+    wt_tables_clear(&made, sizeof made);
     return status;
 }

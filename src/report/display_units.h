@@ -1,10 +1,12 @@
-/* Display units: the only conversion of SI values to the units shown (nm, nN, MPa, °C).
+/* Display units: the only conversion of SI values to the units shown (nm, nN, MPa, °C), and
+ * the formats of numbers.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_REPORT_DISPLAY_UNITS_H
 #define WT_REPORT_DISPLAY_UNITS_H
 
 #include "weartrack/core.h"
+#include <stdbool.h>
 
 /* displayed value = SI value * factor + offset */
 typedef struct display_unit {
@@ -29,5 +31,23 @@ display_value_text format_display_estimate(const wt_estimate *estimate);
 
 #define VALUE(quantity, unit, value) format_display_value(quantity, unit, value).chars
 #define ESTIMATE(estimate) format_display_estimate(estimate).chars
+
+/* A formatted number, returned by value for use within one expression: text_format(text, "%s",
+ * NUMBER(x, 3)). */
+typedef struct number_text {
+    char chars[352]; /* at most 309 digits before the decimal mark */
+} number_text;
+
+/* Rounds to `significant` digits (but never left of the decimal point): "12.3", "−0.0046", 1.2e-7
+ * as "1.2×10⁻⁷". "not known" for NaN, "∞". `trimmed` removes zeros at the end of the decimals. */
+number_text number_rounded(double value, int significant, bool trimmed);
+number_text number_fixed(double value, int decimals);   /* with a fixed number of decimals */
+number_text number_literal(double value);               /* for gnuplot, 10 digits */
+double number_to_digits(double value, int significant); /* rounds to significant digits */
+
+#define NUMBER(value, significant) number_rounded(value, significant, false).chars
+#define SHORT_NUMBER(value, significant) number_rounded(value, significant, true).chars
+#define FIXED(value, decimals) number_fixed(value, decimals).chars
+#define LITERAL(value) number_literal(value).chars
 
 #endif

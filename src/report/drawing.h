@@ -7,7 +7,6 @@
 
 #include "report/display_units.h"
 #include "report/figure.h"
-#include "report/number_format.h"
 #include "report/report_tables.h"
 #include "report/report_text.h"
 

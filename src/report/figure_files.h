@@ -4,8 +4,8 @@
 #ifndef WT_REPORT_FIGURE_FILES_H
 #define WT_REPORT_FIGURE_FILES_H
 
-#include "report/folder.h"
 #include "report/page.h"
+#include "report/report_files.h"
 #include "weartrack/report.h"
 
 /* Returns the suffix of the i-th format, "svg", "pdf", "png", which is bit i of the options; NULL

@@ -4,9 +4,7 @@
 #include "report/page.h"
 
 #include "core/base/array.h"
-#include "report/folder.h"
 #include "report/report_files.h"
-#include "report/svg.h"
 
 #include <stdio.h>
 #include <string.h>

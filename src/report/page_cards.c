@@ -4,7 +4,7 @@
 
 #include "core/base/array.h"
 #include "core/table/finding.h"
-#include "report/typography.h"
+#include "report/report_text.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 
 #include "core/table/finding.h"
 #include "core/table/result_row.h"
-#include "report/typography.h"
+#include "report/report_text.h"
 
 #include <math.h>
 #include <stdlib.h>

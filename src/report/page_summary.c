@@ -2,12 +2,10 @@
  * that were used. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
 
-#include "core/base/array.h"
 #include "core/table/finding.h"
 #include "core/table/result_row.h"
-#include "report/typography.h"
+#include "report/report_text.h"
 
-#include <math.h>
 #include <string.h>
 
 /* ---- more certain ---------------------------------------------------------------------------- */

@@ -5,7 +5,6 @@
 
 #include "core/base/param.h"
 #include "report/figure_files.h"
-#include "report/folder.h"
 #include "report/gnuplot.h"
 #include "report/page.h"
 #include "report/report_files.h"

@@ -1,4 +1,4 @@
-/* Growing text buffer with functions that append HTML and gnuplot text.
+/* Growing text buffer with functions that append HTML, gnuplot text and typography.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_REPORT_REPORT_TEXT_H
@@ -39,5 +39,9 @@ void text_quoted(text_buffer *text, const char *string);
 void text_tic_label(text_buffer *text, const char *string);
 /* Appends a comment line for a gnuplot script, with "# " and line break. */
 void text_comment(text_buffer *text, const char *string);
+
+/* Appends an ASCII text as escaped HTML with the signs of the page: "−2.9 °C" for "-2.9 degC",
+ * "µm" for "um", "m³" for "m^3", "8.9×10⁻¹³" for "8.9e-13". Other text is not changed. */
+void text_typographic(text_buffer *text, const char *ascii);
 
 #endif

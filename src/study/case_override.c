@@ -58,7 +58,7 @@ static wt_status compute_layer(const case_variant *s, const wt_job *work,
     const wt_status status = wt_layer_thickness_compute(&s->sliding, &job, work, &tables, err);
     if (status == WT_OK)
         observation->thickness = tables.thickness;
-    wt_layer_tables_clear(&tables);
+    wt_table_free(tables.layer);
     return status;
 }
 
@@ -79,7 +79,7 @@ static wt_status compute_variant_friction(case_variant *s, const wt_layer_observ
         snprintf(s->statement, sizeof s->statement, "%s", statement != NULL ? statement : "");
         s->extrapolated_share = friction_get(&view, 0, FRICTION_EXTRAPOLATED_SHARE);
     }
-    wt_friction_tables_clear(&tables);
+    wt_table_free(tables.friction);
     return status;
 }
 

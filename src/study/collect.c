@@ -257,23 +257,6 @@ static const wt_param rows[] = {
              "several cases is said only if all of them lie within it"}};
 PARAM_TABLE(wt_collect_job_params, wt_collect_job, rows, wt_collect_job_defaults, NO_PARTS)
 
-void wt_collection_tables_clear(wt_collection_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->collection);
-    wt_table_free(tables->collected_modulus);
-    wt_table_free(tables->collected_friction);
-    wt_table_free(tables->collected_ramp);
-    wt_table_free(tables->collected_force);
-    wt_table_free(tables->ratio_pairs);
-    wt_table_free(tables->shared_constants);
-    wt_table_free(tables->shared_members);
-    wt_table_free(tables->collected_constants);
-    wt_table_free(tables->shared_pairs);
-    *tables = (wt_collection_tables){0};
-}
-
 TABLE_ROW(collection, COLLECTION, const char *sample, *condition; wt_interval ratio;
           stated_verdict differs; wt_interval thickness, change; const char *file;)
 TABLE_KEYS(collection, COLLECTION, double cases, samples, conditions;)
@@ -519,6 +502,6 @@ wt_status wt_collection_compute(const wt_collected_result *from, size_t n,
     free(paired);
     free(cases);
     if (status != WT_OK)
-        wt_collection_tables_clear(tables);
+        wt_tables_clear(tables, sizeof *tables);
     return status;
 }

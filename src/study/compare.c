@@ -461,19 +461,7 @@ wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
         *tables = t;
         t = (wt_compare_tables){0};
     }
-    wt_compare_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     compare_pair_clear(&p);
     return status;
-}
-
-void wt_compare_tables_clear(wt_compare_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->modulus_groups);
-    wt_table_free(tables->comparison);
-    wt_table_free(tables->modulus_rate);
-    wt_table_free(tables->dma_comparison);
-    wt_table_free(tables->modulus_budget);
-    *tables = (wt_compare_tables){0};
 }

@@ -1,7 +1,7 @@
 /* Error budget: standard errors with one drawn source at a time, the numerical error, the error due
  * to the number of replicates, and the range over the model choices.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dma/strain_softening.h"
+#include "dma/rubber.h"
 #include "job/cost.h"
 #include "study/case_override.h"
 #include "weartrack/study.h"

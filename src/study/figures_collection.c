@@ -3,7 +3,6 @@
  * critical energy and wear rate by each method of determination.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/array.h"
 #include "report/drawing.h"
 
 #include <math.h>

@@ -6,7 +6,6 @@
 
 #include "core/base/clocale.h"
 #include "core/math/root.h"
-#include "indentation/law/tip.h"
 
 #include <math.h>
 #include <stdlib.h>

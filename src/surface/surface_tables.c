@@ -369,20 +369,6 @@ static wt_status build_scan_table(const surface_scan *scans, size_t n, wt_table 
     return table_end(&t, table);
 }
 
-void wt_topography_tables_clear(wt_topography_tables *tables)
-{
-    if (tables == NULL)
-        return;
-    wt_table_free(tables->power_spectrum);
-    wt_table_free(tables->place_errors);
-    wt_table_free(tables->angular_spectrum);
-    wt_table_free(tables->surfaces);
-    wt_table_free(tables->scan_spectra);
-    wt_table_free(tables->height_map);
-    wt_table_free(tables->height_profile);
-    *tables = (wt_topography_tables){.power_spectrum = NULL};
-}
-
 wt_status surface_tables_make(const wt_params *params, const wt_topography_job *job,
                               const surface_scan *scans, size_t n, const surface_result *whole,
                               wt_topography_tables *tables, wt_error *err)
@@ -407,6 +393,6 @@ wt_status surface_tables_make(const wt_params *params, const wt_topography_job *
     if (status == WT_OK)
         *tables = made;
     else
-        wt_topography_tables_clear(&made);
+        wt_tables_clear(&made, sizeof made);
     return status;
 }

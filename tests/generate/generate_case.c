@@ -118,8 +118,8 @@ done:
         result = -1;
     if (result != 0)
         fprintf(stderr, "%s: %s: %s; %s\n", err.file, err.place, err.message, err.found);
-    wt_layer_tables_clear(&layer);
-    wt_friction_tables_clear(&friction);
+    wt_table_free(layer.layer);
+    wt_table_free(friction.friction);
     wt_case_free(c);
     free(path);
     return result;

@@ -3,7 +3,7 @@
 #ifndef TESTS_PARAMS_SECTIONS_H
 #define TESTS_PARAMS_SECTIONS_H
 
-#include "case/case_sections.h"
+#include "case/case_node.h"
 #include "core/base/param.h"
 #include "dma/rubber.h"
 #include "friction/counter_surface.h"

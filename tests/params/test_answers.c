@@ -268,7 +268,7 @@ static wt_status call_compare(const void *structure, wt_error *err)
     wt_table *table = wt_table_new("indentation/bulk", "");
     job.bulk = table;
     const wt_status status = wt_compare_groups(&job, &work, &tables, err);
-    wt_compare_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     wt_table_free(table);
     return status;
 }

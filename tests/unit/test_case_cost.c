@@ -341,7 +341,7 @@ static void test_shared_or_not(void **state)
             assert_near(number_cell(alone.friction, i, columns[k]), x, 1e-12 * x);
         }
     }
-    wt_friction_tables_clear(&alone);
+    wt_table_free(alone.friction);
     wt_result_free(result);
 }
 

@@ -41,7 +41,7 @@ static wt_estimate friction(const char *key)
     if (wt_sliding_friction_compute(&sliding, &layer, &work, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     wt_estimate e = key_estimate(tables.friction, key);
-    wt_friction_tables_clear(&tables);
+    wt_table_free(tables.friction);
     return e;
 }
 
@@ -52,7 +52,7 @@ static wt_estimate thickness(const char *key)
     if (wt_layer_thickness_compute(&sliding, &layer_job, &work, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     wt_estimate e = key_estimate(tables.layer, key);
-    wt_layer_tables_clear(&tables);
+    wt_table_free(tables.layer);
     return e;
 }
 

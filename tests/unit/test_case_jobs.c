@@ -275,7 +275,7 @@ static void test_one_spot(void **state)
     assert_string_equal(text_cell(tables.modulus_groups, 1, "group"), "track");
     assert_int_equal(wt_table_n_rows(tables.modulus_rate), 6);
     assert_null(tables.dma_comparison);
-    wt_compare_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
 
     /* the tables as another program reads them from the stream give the same comparison */
     FILE *file = tmpfile();
@@ -288,12 +288,12 @@ static void test_one_spot(void **state)
     assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
     assert_true(wt_table_estimate(tables.comparison, "modulus_ratio", &direct));
     const double value = direct.value;
-    wt_compare_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     job.bulk = again;
     assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
     assert_true(wt_table_estimate(tables.comparison, "modulus_ratio", &read_back));
     assert_near(read_back.value, value, 0);
-    wt_compare_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     wt_table_free(again);
 
     /* bulk alone: groups and rates, no comparison */
@@ -302,7 +302,7 @@ static void test_one_spot(void **state)
     assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
     assert_null(tables.comparison);
     assert_int_equal(wt_table_n_rows(tables.modulus_groups), 1);
-    wt_compare_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     wt_table_free(x);
     wt_table_free(y);
 }
@@ -549,14 +549,14 @@ static void test_calibration(void **state)
                         "nothing, for no error was measured or stated");
     assert_near(tables.thickness.standard_error, (double)NAN, 0);
     const double given = energy.value;
-    wt_layer_tables_clear(&tables);
+    wt_table_free(tables.layer);
 
     job.critical_energy.value = given;
     job.observed_thickness.value = (double)NAN;
     job.duty = 0.02; /* part-time contact slows the clock and leaves the balance */
     assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &common, &tables, NULL), WT_OK);
     assert_near(tables.thickness.value, 2.385e-6, 1e-8);
-    wt_layer_tables_clear(&tables);
+    wt_table_free(tables.layer);
 
     job.observed_thickness.value = 1e-6;
     assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &common, &tables, NULL), WT_E_ARG);
@@ -602,7 +602,7 @@ static void test_layer_numbers(void **state)
     assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &common, &other, NULL), WT_OK);
     assert_near(log(other.thickness.value / tables.thickness.value) / log(1.0001),
                 sensitivity.value, 1e-3);
-    wt_layer_tables_clear(&other);
+    wt_table_free(other.layer);
 
     job.specific_wear_rate.value = 1e-12;
     job.time = &settled.value;
@@ -613,8 +613,8 @@ static void test_layer_numbers(void **state)
     assert_true(wt_table_estimate(other.layer, "time_to_90_percent", &again));
     assert_near(again.value, settled.value, 0);
     assert_true(settled.numerical_error > 0 && settled.numerical_error < 1e-6 * settled.value);
-    wt_layer_tables_clear(&other);
-    wt_layer_tables_clear(&tables);
+    wt_table_free(other.layer);
+    wt_table_free(tables.layer);
     wt_master_tables_clear(&master);
     wt_rubber_clear(&rubber);
 }

@@ -354,7 +354,7 @@ static void test_no_replicates(void **state)
     assert_true(isnan(cell(tables.friction, 0, "hysteresis_standard_error")));
     assert_string_equal(wt_table_key(tables.friction, "standard_error_excludes"),
                         "material with its shift law, pressure, temperature, roughness");
-    wt_friction_tables_clear(&tables);
+    wt_table_free(tables.friction);
 }
 
 /* What a base makes of a cone at z = depth tan(angle) / thickness is 0.721 z and more (Dimitriadis'
@@ -389,11 +389,11 @@ static int clear(void **state)
 {
     (void)state;
     for (int way = 0; way < WAYS; way++) {
-        wt_friction_tables_clear(&friction[way]);
-        wt_layer_tables_clear(&layer[way]);
+        wt_table_free(friction[way].friction);
+        wt_table_free(layer[way].layer);
         wt_rubber_clear(&rubber[way]);
     }
-    wt_compare_tables_clear(&compared);
+    wt_tables_clear(&compared, sizeof compared);
     wt_master_tables_clear(&mastered);
     wt_indent_tables_clear(&indented);
     return 0;

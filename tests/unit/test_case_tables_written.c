@@ -361,7 +361,7 @@ static void test_collection(void **state)
     see(tables.shared_members);
     see(tables.collected_constants);
     see(tables.shared_pairs);
-    wt_collection_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     wt_collect_job job = wt_collect_job_defaults();
     job.constant_margin = 1e-9; /* which nothing meets */
     wt_result *labelled = fixture_labelled("HC", "mild", 0.6, 0.02);
@@ -373,7 +373,7 @@ static void test_collection(void **state)
     assert_null(tables.ratio_pairs);
     see(tables.collected_ramp);
     see(tables.shared_constants);
-    wt_collection_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     wt_result_free(labelled);
     fixture_free();
 }
@@ -466,7 +466,7 @@ static void test_one_spot_of_each(void **state)
     compared.spot_scatter = 0.1;
     assert_int_equal(wt_compare_groups(&compared, &common, &both, NULL), WT_OK);
     see(both.comparison);
-    wt_compare_tables_clear(&both);
+    wt_tables_clear(&both, sizeof both);
     for (int g = 0; g < 2; g++)
         wt_indent_tables_clear(&tables[g]);
 }
@@ -658,7 +658,7 @@ static void test_ramps(void **state)
         see(tables.ramp);
         see(tables.glass_transition);
         see(tables.moduli_at);
-        wt_ramp_tables_clear(&tables);
+        wt_tables_clear(&tables, sizeof tables);
     }
 }
 
@@ -682,14 +682,14 @@ static void test_layer_models(void **state)
     job.critical_energy = (wt_estimate){2e10, 1e9, 0, "J/m^3"};
     assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &work, &tables, &err), WT_OK);
     see(tables.layer);
-    wt_layer_tables_clear(&tables);
+    wt_table_free(tables.layer);
     wt_layer_observation sheared = observation;
     sheared.thickness = (wt_estimate){1e-6, 0, 0, "m"};
     wt_friction_tables friction = {0};
     assert_int_equal(wt_sliding_friction_compute(&sliding, &sheared, &work, &friction, &err),
                      WT_OK);
     see(friction.friction);
-    wt_friction_tables_clear(&friction);
+    wt_table_free(friction.friction);
 }
 
 /* So slow that nothing is lost: of no friction there is no share. */
@@ -787,14 +787,14 @@ static void test_strain_sweeps(void **state)
     assert_int_equal(wt_table_n_rows(tables.payne), 3);
     see(tables.payne);
     see(tables.payne_sweep);
-    wt_payne_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     wt_file_set named = set;
     named.read.sample_by = WT_SAMPLE_BY_FILE;
     job.sets = &named;
     assert_int_equal(wt_payne_compute(&job, &common, &tables, NULL), WT_OK);
     see(tables.payne);
     see(tables.payne_sweep);
-    wt_payne_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     convert(file[0], WT_KIND_SWEEP);
 }
 
@@ -838,7 +838,7 @@ static void test_calibration(void **state)
         fail_msg("%s %s", err.message, err.found);
     see(tables.sensitivity);
     see(tables.sensitivity_curves);
-    wt_sensitivity_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     (void)remove(path);
 }
 
@@ -948,7 +948,7 @@ static void test_record(void **state)
         see(tables.record);
         see(tables.record_cycles);
         see(tables.wear);
-        wt_record_tables_clear(&tables);
+        wt_tables_clear(&tables, sizeof tables);
     }
     (void)remove(strokes);
     (void)remove(disc);
@@ -1029,7 +1029,7 @@ static void test_dwell(void **state)
     made.n_draws = n_draws;
     wt_master_tables_clear(&fitted);
     wt_rubber_clear(&made);
-    wt_dwell_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     (void)remove(path);
 }
 
@@ -1115,7 +1115,7 @@ static void see_surfaces(const char *const *files, size_t n)
     see(tables.height_profile);
     see(tables.surfaces);
     see(tables.scan_spectra);
-    wt_topography_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
 }
 
 static void test_surface(void **state)
@@ -1196,8 +1196,8 @@ static void see_validation(const char *path, double shear, double wear, bool wit
         fail_msg("%s %s", err.message, err.found);
     see(tables.validation);
     see(tables.sources);
-    wt_validation_tables_clear(&tables);
-    wt_record_tables_clear(&measured);
+    wt_tables_clear(&tables, sizeof tables);
+    wt_tables_clear(&measured, sizeof measured);
 }
 
 /* The running-in of a case against a layer that grows, or against no layer that is known. */

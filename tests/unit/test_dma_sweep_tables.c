@@ -186,7 +186,7 @@ static void test_ramps(void **state)
                 cell(peaks, 0, "loss_modulus_peak_temperature"), 1e-9);
     check_rows(tables.glass_transition);
     tables.glass_transition = NULL;
-    wt_ramp_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
 }
 
 /* ---- strain sweeps --------------------------------------------------------------------------- */
@@ -295,7 +295,7 @@ static void test_strain(void **state)
         }
         assert_near(loss_start, scale * kraus_loss(percent[0]), 0.2);
     }
-    wt_payne_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
 }
 
 /* The range of the strains is that of the points that a sweep is left with. */
@@ -331,7 +331,7 @@ static void test_left_out(void **state)
         assert_near(cell(tables.payne, i, "strain_min"), percent[FIRST] / 100, 1e-9);
         assert_near(cell(tables.payne, i, "strain_max"), percent[LAST] / 100, 1e-9);
     }
-    wt_payne_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
 }
 
 int main(void)

@@ -72,7 +72,7 @@ static wt_table *friction(const wt_layer_observation *layer)
         fail_msg("%s %s", err.message, err.found);
     wt_table *table = t.friction;
     t.friction = NULL;
-    wt_friction_tables_clear(&t);
+    wt_table_free(t.friction);
     return table;
 }
 
@@ -278,7 +278,7 @@ static wt_table *layer_of(const wt_layer_job *job)
         fail_msg("%s %s", err.message, err.found);
     wt_table *table = t.layer;
     t.layer = NULL;
-    wt_layer_tables_clear(&t);
+    wt_table_free(t.layer);
     return table;
 }
 

@@ -34,7 +34,7 @@ static int make_sweeps(void **state)
         print_error("%s\n", err.message);
     payne_sweep = tables.payne_sweep;
     tables.payne_sweep = NULL;
-    wt_payne_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     return payne_sweep != NULL ? 0 : -1;
 }
 
@@ -279,8 +279,8 @@ static void test_same(void **state)
             assert_near(number_cell(without.friction, i, columns[c]),
                         number_cell(table, i, others[c]), 1e-13);
         }
-    wt_friction_tables_clear(&with);
-    wt_friction_tables_clear(&without);
+    wt_table_free(with.friction);
+    wt_table_free(without.friction);
     wt_table_free(table);
 }
 
@@ -310,7 +310,7 @@ static void test_drawn(void **state)
     includes = wt_table_key(t.friction, "standard_error_includes");
     assert_non_null(includes);
     assert_string_equal(includes, "softening with strain");
-    wt_friction_tables_clear(&t);
+    wt_table_free(t.friction);
     work.replicates = 0;
     for (size_t i = 0; i < 2; i++) {
         sliding.strain_softening = &moved[i];
@@ -319,7 +319,7 @@ static void test_drawn(void **state)
         lacks = wt_table_key(t.friction, "standard_error_excludes");
         assert_non_null(lacks);
         assert_non_null(strstr(lacks, "softening with strain"));
-        wt_friction_tables_clear(&t);
+        wt_table_free(t.friction);
     }
     /* 2,000 draws: 1.6 % */
     assert_near(error, hypot(change[0], change[1]), 0.07);
@@ -382,7 +382,7 @@ static void test_covered(void **state)
                              WT_OK);
             const double value = number_cell(found.friction, 0, "hysteresis"),
                          error = number_cell(found.friction, 0, "hysteresis_standard_error");
-            wt_friction_tables_clear(&found);
+            wt_table_free(found.friction);
             const wt_strain_softening other = {
                 .table = {.n = POINTS, .strain = x, .storage = f, .loss = g},
                 .temperature = (double)NAN};
@@ -391,7 +391,7 @@ static void test_covered(void **state)
             assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &found, NULL),
                              WT_OK);
             held += fabs(number_cell(found.friction, 0, "hysteresis") - value) <= 1.96 * error;
-            wt_friction_tables_clear(&found);
+            wt_table_free(found.friction);
             wt_strain_softening_clear(&s);
             wt_table_free(table);
         }

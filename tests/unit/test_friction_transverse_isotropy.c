@@ -82,13 +82,13 @@ static void test_ends(void **state)
     rubber.transverse.axial_loss = 1.5;
     rubber.poisson_ratio = 0.49;
     assert_int_equal(wt_transverse_isotropy_compute(&sliding, &work, &directed, NULL), WT_OK);
-    wt_friction_tables_clear(&plain);
+    wt_table_free(plain.friction);
     assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &work, &plain, NULL), WT_OK);
     for (size_t i = 0; i < 3; i++)
         assert_near(at(directed, "both", i, "hysteresis"),
                     number_cell(plain.friction, i, "hysteresis"), 1e-9);
     assert_non_null(strstr(wt_table_key(directed, "by_loss"), "hysteresis friction +"));
-    wt_friction_tables_clear(&plain);
+    wt_table_free(plain.friction);
     wt_table_free(directed);
 }
 

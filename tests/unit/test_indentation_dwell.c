@@ -276,7 +276,7 @@ static void test_relaxation(void **state)
     assert_true(loss.standard_error < 0.05 * loss.value);
     assert_near_abs(storage.value, true_size * cos(M_PI_2 * exponent), 3 * storage.standard_error);
     assert_true(storage.standard_error < 0.05 * storage.value);
-    wt_dwell_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     (void)remove(path);
     assert_int_equal(make(WT_SOURCE_DIR "/fixtures/case/bulk-1.jpk-force-map", tip, &t, &err),
                      WT_E_EMPTY);
@@ -309,7 +309,7 @@ static void test_lines(void **state)
     assert_true(seen >= CURVES - 1);
     assert_true(wt_table_estimate(t.dwell, "loss_modulus", &loss));
     assert_true(loss.value > 0 && isnan(loss.standard_error));
-    wt_dwell_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     (void)remove(path);
 }
 
@@ -407,7 +407,7 @@ static void test_modulation(void **state)
     assert_true(of_storage > 0 && of_storage < 0.02 * storage);
     assert_near(of_loss / CELL("loss_modulus"), of_storage / CELL("storage_modulus"), 1e-9);
 #undef CELL
-    wt_dwell_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     (void)remove(path);
 }
 
@@ -423,7 +423,7 @@ static void test_genuine(void **state)
         skip();
     assert_int_equal(make(path, tip, &t, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(t.dwell), 1);
-    wt_dwell_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* An adhesive way out: the neck holds until 4 um above the contact point, four times the depth, and

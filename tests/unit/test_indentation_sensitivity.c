@@ -310,7 +310,7 @@ static void test_volts(void **state)
     assert_string_equal(wt_table_key(t.sensitivity, "verdict"), "straight");
     assert_true(strncmp(wt_table_key(t.sensitivity, "indent_option"), "--sensitivity ", 14) == 0);
     assert_true(isnan(key(t.sensitivity, "factor").value));
-    wt_sensitivity_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     (void)remove(path[0]);
 }
 
@@ -331,7 +331,7 @@ static void test_calibrated(void **state)
                 number_cell(t.sensitivity, 2, "factor_standard_error"), 1e-9);
     assert_near(strtod(wt_table_key(t.sensitivity, "thermal_spring_constant_factor"), NULL),
                 1 / 1.44, 0.01);
-    wt_sensitivity_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     (void)remove(path[0]);
 }
 
@@ -365,7 +365,7 @@ static void test_forces(void **state)
     assert_true(isnan(key(t.sensitivity, "sensitivity").value));
     assert_null(wt_table_key(t.sensitivity, "indent_option"));
     assert_true(isnan(key(t.sensitivity, "factor").standard_error)); /* one curve */
-    wt_sensitivity_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     (void)remove(path[0]);
 }
 
@@ -391,7 +391,7 @@ static void test_files(void **state)
     assert_near(number_cell(t.sensitivity, 2, "sensitivity"), 60e-9, 0.001);
     assert_near(number_cell(t.sensitivity, 2, "scatter"), 0.01826, 0.05);
     assert_string_equal(wt_table_key(t.sensitivity, "n_left_out"), "1");
-    wt_sensitivity_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     for (size_t f = 0; f < MOST_FILES; f++)
         (void)remove(paths[f]);
 }
@@ -417,7 +417,7 @@ static void test_retract_and_one(void **state)
                             number_cell(t.sensitivity_curves, i, "curve") == 3
                                 ? "left out: far from the other curves"
                                 : "used");
-    wt_sensitivity_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     write_map(path[0], 1, (double)NAN, (double)NAN);
     t = made(path, 1);
     const wt_table *curves = t.sensitivity_curves, *all = t.sensitivity;
@@ -443,7 +443,7 @@ static void test_retract_and_one(void **state)
         assert_true(isnan(number_cell(all, row, "sensitivity_standard_error")));
     }
     assert_near(reach[2], fmax(reach[0], reach[1]), 1e-9);
-    wt_sensitivity_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     (void)remove(path[0]);
 }
 
@@ -465,7 +465,7 @@ static void test_equal(void **state)
     check_rows(&t);
     assert_near(number_cell(t.sensitivity, 2, "n"), 11, 0);
     assert_string_equal(wt_table_key(t.sensitivity, "n_left_out"), "1");
-    wt_sensitivity_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     (void)remove(path[0]);
 }
 
@@ -524,14 +524,14 @@ static void test_soft(void **state)
     assert_true(isnan(number_cell(t.sensitivity, 2, "sensitivity")));
     assert_near(number_cell(t.sensitivity, 2, "surface_share"),
                 2.4 * number_cell(t.sensitivity, 2, "slope_change_high"), 0.005);
-    wt_sensitivity_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     job.max_slope_change = 0.5;
     job.directions = WT_DIRECTION_RETRACT;
     assert_int_equal(make(&job, path, 1, &t, NULL), WT_OK);
     assert_string_equal(wt_table_key(t.sensitivity, "verdict"), "straight");
     assert_string_equal(wt_table_key(t.sensitivity, "direction"), "retract");
     assert_true(key(t.sensitivity, "sensitivity").value > 60e-9);
-    wt_sensitivity_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     (void)remove(path[0]);
 }
 
@@ -548,8 +548,8 @@ static void test_genuine(void **state)
     assert_true(number_cell(t.sensitivity, 2, "n") > 240);
     assert_near(key(t.sensitivity, "sensitivity").value, 30.2e-9, 0.01);
     assert_near(key(s.sensitivity, "sensitivity").value, 30.2e-9, 0.02);
-    wt_sensitivity_tables_clear(&t);
-    wt_sensitivity_tables_clear(&s);
+    wt_tables_clear(&t, sizeof t);
+    wt_tables_clear(&s, sizeof s);
 }
 
 int main(void)

@@ -42,7 +42,7 @@ static void energies_add_up(void **state)
     assert_near(key_number(shear, "shear_power"),
                 5e6 * number_cell(friction.friction, 0, "area_ratio") * velocity[VELOCITIES / 2],
                 1e-9);
-    wt_friction_tables_clear(&friction);
+    wt_table_free(friction.friction);
     wt_table_free(plain);
     wt_table_free(shear);
     wt_table_free(both);

@@ -71,7 +71,7 @@ static void test_disc(void **state)
     wt_estimate key;
     assert_true(wt_table_estimate(t.record, "friction_coefficient", &key));
     assert_near(key.value, number_cell(t.record, 0, "friction_coefficient"), 1e-12);
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* Each velocity has a row, and together there is no one coefficient. */
@@ -92,7 +92,7 @@ static void test_steps(void **state)
     }
     wt_estimate key;
     assert_false(wt_table_estimate(t.record, "friction_coefficient", &key));
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* The signs of two directions do not cancel; forces are of grams. */
@@ -107,7 +107,7 @@ static void test_two_directions(void **state)
     assert_near(number_cell(t.record, 1, "friction_coefficient"), 0.321357, 1e-5);
     assert_near(number_cell(t.record, 0, "normal_force"), 100.2 * 9.80665e-3, 1e-9);
     assert_true(number_cell(t.record, 0, "difference") < 1e-6);
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* Mass and area of one run are one measurement of its wear: two runs that are alike do not scatter,
@@ -135,7 +135,7 @@ static void test_wear_of_runs(void **state)
                               number_cell(t.wear, 1, "specific_wear_rate"));
     assert_near(key_estimate(t.wear, "specific_wear_rate").standard_error, apart / 2, 1e-6);
     assert_near(key_estimate(t.wear, "specific_wear_rate_df").value, 1, 0);
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     wt_error err = WT_ERROR_INIT;
     const char *const both[] = {RECORDS "disc.csv", again};
     if (make(&job, both, 2, NULL, &t, &err) != WT_OK)
@@ -143,7 +143,7 @@ static void test_wear_of_runs(void **state)
     assert_int_equal(wt_table_n_rows(t.wear), 4);
     assert_near(key_estimate(t.wear, "specific_wear_rate").standard_error, apart / 2 / sqrt(2),
                 1e-6);
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     unlink(again);
 }
 
@@ -176,7 +176,7 @@ static void test_wear(void **state)
     const wt_ball_contact ball = wt_ball_contact_compute(5, 3e-3, 20e6, 0.5);
     assert_near(number_cell(t.wear, 0, "pressure"), ball.pressure, 1e-12);
     assert_near(number_cell(t.wear, 0, "duty"), 3 * ball.contact_radius / (8 * 12e-3), 1e-12);
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     /* what was given without an error has none */
     job = disc_job();
     job.load.standard_error = 0;
@@ -186,7 +186,7 @@ static void test_wear(void **state)
     assert_true(isnan(number_cell(t.wear, 0, "specific_wear_rate_low")));
     assert_true(isnan(number_cell(t.wear, 0, "volume_standard_error")));
     assert_true(isnan(key_estimate(t.wear, "specific_wear_rate").standard_error));
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* A parabolic groove, 10 um deep and 0.2 mm wide: 2/3 of depth and width, times `size`. */
@@ -218,13 +218,13 @@ static void test_profiles(void **state)
     wt_record_tables t = made(&job, RECORDS "disc.csv", NULL);
     /* the groove ends between two samples of forty */
     assert_near(number_cell(t.wear, 0, "volume"), 0.9 * area * round, 1e-2);
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     write_groove(folder, "two.txt", 1.1);
     job.profile = folder;
     t = made(&job, RECORDS "disc.csv", NULL);
     assert_near(number_cell(t.wear, 0, "volume"), area * round, 1e-2);
     assert_near(number_cell(t.wear, 0, "volume_standard_error"), 0.1 * area * round, 1e-2);
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     (void)snprintf(command, sizeof command, "rm -r %s", folder);
     assert_int_equal(system(command), 0);
 
@@ -257,7 +257,7 @@ static void test_length_by_laps(void **state)
     const size_t n = wt_log_count(log);
     assert_true(n > 0);
     assert_non_null(strstr(wt_log_get(log, n - 1).text, "100 mm long by distance and laps"));
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     wt_log_free(log);
     assert_int_equal(remove(path), 0);
 }
@@ -284,12 +284,12 @@ static void test_rotation_alone(void **state)
     assert_true(isnan(number_cell(t.record, 1, "velocity")));
     assert_non_null(strstr(text_cell(t.record, 1, "note"), "--track-radius"));
     assert_non_null(strstr(text_cell(t.record, 2, "note"), "nothing slides"));
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     job.track_radius.value = 0.01;
     t = made(&job, path, NULL);
     assert_near(number_cell(t.record, 1, "velocity"), 0.04 * M_PI, 1e-12);
     assert_near(number_cell(t.record, 2, "velocity"), 0, 1e-12);
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     assert_int_equal(remove(path), 0);
 }
 
@@ -327,7 +327,7 @@ static void test_pause(void **state)
         for (size_t i = 0; i < wt_log_count(log); i++)
             said = said || strstr(wt_log_get(log, i).text, "1 pause of 60 s in mid-record");
         assert_true(said);
-        wt_record_tables_clear(&t);
+        wt_tables_clear(&t, sizeof t);
         wt_log_free(log);
         assert_int_equal(remove(path), 0);
     }
@@ -361,7 +361,7 @@ static void test_velocity_of_strokes(void **state)
             assert_true(isnan(number_cell(t.record, 0, "velocity")));
         assert_near(number_cell(t.wear, 0, "distance"), 0.02 * 39.99, 1e-3);
         assert_near(number_cell(t.wear, 0, "specific_wear_rate"), 3e-11 / (2 * 5 * 39.99), 2e-3);
-        wt_record_tables_clear(&t);
+        wt_tables_clear(&t, sizeof t);
         assert_int_equal(remove(path), 0);
     }
 }
@@ -389,7 +389,7 @@ static void test_unknown_velocity(void **state)
     assert_int_equal(make(&job, paths, 2, NULL, &t, &err), WT_OK);
     assert_int_equal(wt_table_n_rows(t.record), 3);
     assert_false(wt_table_estimate(t.record, "friction_coefficient", &key));
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     assert_int_equal(remove(unknown), 0);
     assert_int_equal(remove(known), 0);
 }
@@ -414,7 +414,7 @@ static void test_uneven_laps(void **state)
     assert_int_equal(fclose(out), 0);
     wt_record_tables t = made(&job, path, NULL);
     assert_near(number_cell(t.record, 0, "velocity"), 0.1 / 0.7, 2e-3);
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     assert_int_equal(remove(path), 0);
 }
 
@@ -442,7 +442,7 @@ static void test_depth_by_archard(void **state)
     assert_near(number_cell(t.wear, 0, "specific_wear_rate"), k, 0.01);
     assert_true(number_cell(t.wear, 0, "specific_wear_rate_low") < k);
     assert_true(number_cell(t.wear, 0, "specific_wear_rate_high") > k);
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     assert_int_equal(remove(path), 0);
 }
 
@@ -489,7 +489,7 @@ static void test_a_contradiction(void **state)
     assert_true(said);
     assert_near(number_cell(t.record, 0, "difference"), 0.1, 1e-9);
     assert_near(number_cell(t.record, 0, "friction_coefficient"), 0.503, 1e-3);
-    wt_record_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     wt_log_free(log);
     (void)remove(path);
 }

@@ -81,7 +81,7 @@ static void make_record(double shear, double q1, double power, double error, boo
                                  {RECORD_FRICTION_HIGH, mu * (1 + 2 * error)}};
         put_row(&t, row, sizeof row / sizeof *row);
     }
-    wt_friction_tables_clear(&f);
+    wt_table_free(f.friction);
     wt_table_free(record);
     record = NULL;
     assert_int_equal(table_end(&t, &record), WT_OK);
@@ -162,7 +162,7 @@ static void test_needed(void **state)
             /* in the logarithm, as that of all steps */
             assert_true(low < needed && fabs(low * high / (needed * needed) - 1) < 1e-9);
         }
-        wt_validation_tables_clear(&t);
+        wt_tables_clear(&t, sizeof t);
     }
 }
 
@@ -177,7 +177,7 @@ static void test_endless_layer(void **state)
     wt_validation_tables t = made(&job);
     check_begins(t.validation, "judged", "friction without");
     assert_non_null(strstr(wt_table_key(t.validation, "remarks"), "grows without end"));
-    wt_validation_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* The shear stress of the bulk on a layer is in the prediction as it is in friction. */
@@ -195,7 +195,7 @@ static void test_layer_shear(void **state)
                              1) < 1e-9);
         if (layered)
             assert_true(fabs(key_of(t.validation, "shear_stress_needed") / 5e6 - 1) < 1e-6);
-        wt_validation_tables_clear(&t);
+        wt_tables_clear(&t, sizeof t);
     }
 }
 
@@ -230,7 +230,7 @@ static void test_slope(void **state)
     assert_true(number_cell(t.sources, row, "error") > 0.001);
     for (size_t i = 0; i < wt_table_n_rows(t.sources); i++)
         assert_string_not_equal(text_cell(t.sources, i, "source"), "observed thickness");
-    wt_validation_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* Of a few replicates no row says what it does not know. */
@@ -247,7 +247,7 @@ static void test_few_replicates(void **state)
     for (size_t i = 0; i < wt_table_n_rows(t.sources); i++)
         assert_true(number_cell(t.sources, i, "error") > 0);
     check_begins(t.sources, "advice", "more replicates");
-    wt_validation_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* One ratio at all frequencies needs no words. Where a slope asks for a loss modulus below 0, that
@@ -277,8 +277,8 @@ static void test_layer_said(void **state)
         n += strstr(wt_log_get(log, i).text, "is taken as 0") != NULL;
     assert_int_equal(n, 1);
     wt_log_free(log);
-    wt_validation_tables_clear(&plain);
-    wt_validation_tables_clear(&steep);
+    wt_tables_clear(&plain, sizeof plain);
+    wt_tables_clear(&steep, sizeof steep);
 }
 
 /* A cut-off that is moved is found where it was moved to. */
@@ -296,7 +296,7 @@ static void test_cutoff(void **state)
     assert_int_equal(wt_table_block(t.validation, STEPS - 1), 0); /* alike: one line of a figure */
     check_ends(t.validation, "ratio");
     check_ends(t.validation, "shear_stress_needed");
-    wt_validation_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* Of a spectrum none is tried beyond its last density; what stands behind that in memory is none.
@@ -327,7 +327,7 @@ static void test_cutoff_of_spectrum(void **state)
     assert_non_null(last);
     assert_int_equal(sscanf(last, " rad/m to %lf", &end), 1);
     assert_true(end > law.q1 && end <= q[POINTS - 1] * 1.005); /* by the digits of the words */
-    wt_validation_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     surface = law;
 }
 
@@ -351,7 +351,7 @@ static void test_verdicts(void **state)
         assert_true(i == 2 ? power < 0.8 : power > 0.99);
         check_begins(t.validation, "verdict_with_needed", cases[i].shape);
         assert_int_equal(wt_table_key(t.validation, "settled_by") != NULL, i == 2);
-        wt_validation_tables_clear(&t);
+        wt_tables_clear(&t, sizeof t);
     }
 }
 
@@ -372,7 +372,7 @@ static void test_sources(void **state)
     }
     assert_true(fabs(sum - 1) < 1e-9);
     assert_true(shear > 0.5 * 0.04 && shear < 0.04); /* more than half is shearing */
-    wt_validation_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* Without a shear stress there is no verdict, and the shear stress is told all the same. */
@@ -387,7 +387,7 @@ static void test_no_shear(void **state)
     check_begins(t.validation, "verdict", "inconclusive: no shear stress");
     assert_true(fabs(key_of(t.validation, "shear_stress_needed") / 4e6 - 1) < 1e-6);
     assert_true(isnan(number_cell(t.validation, 0, "ratio")));
-    wt_validation_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* Less than the hysteresis part alone. */
@@ -403,7 +403,7 @@ static void test_below_hysteresis(void **state)
     check_begins(t.validation, "verdict_with_needed", "does not");
     check_begins(t.validation, "shear_stress_plausible",
                  "no: the hysteresis part alone is more than was measured");
-    wt_validation_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* The same for any number of threads, and the order of the rows changes nothing. */
@@ -423,8 +423,8 @@ static void test_threads(void **state)
                       number_cell(three.validation, i, "ratio_low")) &&
                     !(number_cell(one.validation, i, "ratio_low") >
                       number_cell(three.validation, i, "ratio_low")));
-    wt_validation_tables_clear(&one);
-    wt_validation_tables_clear(&three);
+    wt_tables_clear(&one, sizeof one);
+    wt_tables_clear(&three, sizeof three);
 }
 
 /* A step at rest is told and not compared. */
@@ -443,7 +443,7 @@ static void test_rest(void **state)
         assert_string_equal(wt_table_key(t.validation, "n_left_out"), "1");
         assert_string_equal(text_cell(t.validation, STEPS - 1, "note"), "nothing slides in it");
         assert_true(fabs(key_of(t.validation, "shear_stress_needed") / 8e6 - 1) < 1e-6);
-        wt_validation_tables_clear(&t);
+        wt_tables_clear(&t, sizeof t);
     }
 }
 
@@ -479,9 +479,9 @@ static void test_temperatures(void **state)
                     1e-9);
     }
     assert_int_equal(n_hot, STEPS / 2);
-    wt_friction_tables_clear(&cold);
-    wt_friction_tables_clear(&hot);
-    wt_validation_tables_clear(&t);
+    wt_table_free(cold.friction);
+    wt_table_free(hot.friction);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* Without replicates the errors of the prediction are in nothing, which is said. */
@@ -495,7 +495,7 @@ static void test_no_replicates(void **state)
     wt_validation_tables t = made(&job);
     assert_non_null(strstr(wt_table_key(t.validation, "test"), "without replicates"));
     assert_non_null(strstr(wt_table_key(t.validation, "remarks"), "because they need replicates"));
-    wt_validation_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 static void test_refusals(void **state)

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
 
-#include "report/browse.h"
+#include "report/report_files.h"
 #include "weartrack/indentation.h"
 #include "weartrack/report.h"
 

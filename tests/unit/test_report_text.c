@@ -4,9 +4,8 @@
 #include "near.h"
 #include "report/display_units.h"
 #include "report/drawing.h"
+#include "report/figure_files.h"
 #include "report/report_text.h"
-#include "report/svg.h"
-#include "report/typography.h"
 
 #include <locale.h>
 #include <string.h>

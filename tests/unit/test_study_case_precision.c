@@ -33,7 +33,7 @@ static wt_estimate friction_at(double tolerance, size_t replicates, uint64_t see
     as.seed = seed;
     assert_int_equal(wt_sliding_friction_compute(&sliding, NULL, &as, &tables, NULL), WT_OK);
     assert_true(wt_table_estimate(tables.friction, "friction_at_reference", &e));
-    wt_friction_tables_clear(&tables);
+    wt_table_free(tables.friction);
     return e;
 }
 

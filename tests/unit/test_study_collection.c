@@ -135,7 +135,7 @@ static void check(told first, told second, const char *suffices, const char *key
     const char *said = wt_table_key(t.shared_constants, key);
     if (words != NULL && (said == NULL || strstr(said, words) == NULL))
         fail_msg("%s: %s", key, said != NULL ? said : "not said");
-    wt_collection_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* What scans are off by is one error of the two, and no reason to call them two: with none of it in
@@ -161,12 +161,12 @@ static void test_shared_file(void **state)
         wt_collection_tables t = collected(&one, &other);
         assert_near(log(number_cell(t.shared_constants, 0, "value_high") / 1e6), 0.05 * 1.959964,
                     1e-5);
-        wt_collection_tables_clear(&t);
+        wt_tables_clear(&t, sizeof t);
         other.digest = "another";
         t = collected(&one, &other);
         assert_near(log(number_cell(t.shared_constants, 0, "value_high") / 1e6),
                     0.05 * 1.959964 / sqrt(2), 1e-5);
-        wt_collection_tables_clear(&t);
+        wt_tables_clear(&t, sizeof t);
         other.digest = shear.digest;
     }
 }
@@ -326,14 +326,14 @@ static void test_spectrum(void **state)
     assert_int_equal(wt_table_n_rows(t.shared_constants), 1);
     assert_near(number_cell(t.shared_constants, 0, "value"), 2, 1e-12);
     assert_near(log(number_cell(t.shared_constants, 0, "value_high") / 2), 1.959964 * error, 1e-6);
-    wt_collection_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     t = rates_of(wide, 303.15); /* which of its frequencies the curves are at is not known */
     assert_near(log(number_cell(t.shared_constants, 0, "value_high") / 2), 20 * 1.959964 * error,
                 1e-5);
-    wt_collection_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     t = rates_of((double)NAN, 0);
     assert_null(t.shared_constants);
-    wt_collection_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 /* ---- critical energy and wear rate ----------------------------------------------------------- */
@@ -437,29 +437,29 @@ static void test_pairs(void **state)
     assert_near(number_cell(t.shared_pairs, 0, "critical_energy"), 1e10 * sqrt(1.5), 1e-6);
     assert_near(number_cell(t.shared_pairs, 0, "df"), 2, 1e-12);
     assert_string_equal(text_cell(t.shared_pairs, 0, "loose"), "U_c k^-1.00");
-    wt_collection_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     t = pairs(1.5e10, 1e-12 / 1.5, -0.99, 3, NULL); /* along what is known least */
     says(&t, "one", "one", "one");
     prints(&t, "one U_c and k of 2 cases|one||by thickness and wear rate",
            "critical energy U_c|12.2 GJ/m^3|9.28 to 16.2|one",
            "specific wear rate|0.000816 mm^3/(N m)|0.000619 to 0.001077|one; correlation -0.99");
-    wt_collection_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     t = pairs(1e11, 1e-12, 0, 0.5, NULL);
     says(&t, "differs", "one", "differs");
     prints(&t, "one U_c and k of 2 cases|differs||by thickness and wear rate",
            "critical energy U_c|not known||differs", "specific wear rate|not known||one");
-    wt_collection_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     t = pairs(1e10, 1e-12, -0.5, 0.1, NULL); /* alike, and too vague to be called one */
     says(&t, "inconclusive", "inconclusive", "inconclusive");
     assert_non_null(strstr(wt_table_key(t.shared_pairs, "settled_by"), "is known least"));
-    wt_collection_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     t = pairs(1e11, 1e-12, 0, 0.5, "temperature");
     says(&t, "inconclusive", "inconclusive", "inconclusive");
     assert_non_null(strstr(wt_table_key(t.shared_pairs, "settled_by"), "temperature"));
-    wt_collection_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
     t = pairs(1e11, 1e-12, (double)NAN, 0.5, NULL); /* no replicates */
     assert_null(t.shared_pairs);
-    wt_collection_tables_clear(&t);
+    wt_tables_clear(&t, sizeof t);
 }
 
 int main(void)

@@ -172,7 +172,7 @@ static void compare(double ratio, double temperature)
     wt_error err = WT_ERROR_INIT;
     wt_table_free(bulk_table);
     wt_table_free(track_table);
-    wt_compare_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     bulk_table = indentation("bulk", BULK);
     track_table = indentation("track", ratio * BULK);
     wt_compare_job job = wt_compare_job_defaults();
@@ -189,7 +189,7 @@ static int clean(void **state)
     (void)state;
     wt_table_free(bulk_table);
     wt_table_free(track_table);
-    wt_compare_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     return 0;
 }
 
@@ -253,7 +253,7 @@ static const char *verdict_of(wt_compare_job job, double ratio)
     wt_job common = wt_job_defaults();
     wt_table_free(bulk_table);
     wt_table_free(track_table);
-    wt_compare_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     bulk_table = indentation("bulk", BULK);
     track_table = indentation("track", ratio * BULK);
     job.bulk = bulk_table;
@@ -343,7 +343,7 @@ static void test_two_spots(void **state)
             said = said || strstr(text, words[i] != NULL ? words[i] : "the two spots") != NULL;
         }
         assert_int_equal(said, words[i] != NULL);
-        wt_compare_tables_clear(&made);
+        wt_tables_clear(&made, sizeof made);
         wt_table_free(bulk);
         wt_table_free(track);
         wt_log_free(common.log);
@@ -447,7 +447,7 @@ static const char *warmer(double ratio, bool temperature_known, const wt_rubber 
     wt_job common = wt_job_defaults();
     wt_table_free(bulk_table);
     wt_table_free(track_table);
-    wt_compare_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     bulk_table = indentation("bulk", BULK);
     track_table = indentation("track", ratio * change * BULK);
     wt_compare_job job = wt_compare_job_defaults();
@@ -521,7 +521,7 @@ static void test_out_of_reach(void **state)
 static const char *includes_of(wt_compare_job job)
 {
     wt_job common = wt_job_defaults();
-    wt_compare_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     job.bulk = bulk_table;
     job.track = track_table;
     assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
@@ -929,7 +929,7 @@ static void test_none_accepted(void **state)
         assert_int_equal(wt_table_n_rows(made.modulus_groups), 2);
         assert_near(cell(made.modulus_groups, (size_t)!empty, "geometric_mean"), BULK, 1e-9);
         assert_true(isnan(cell(made.modulus_groups, (size_t)empty, "geometric_mean")));
-        wt_compare_tables_clear(&made);
+        wt_tables_clear(&made, sizeof made);
         wt_table_free(groups[0]);
         wt_table_free(groups[1]);
     }

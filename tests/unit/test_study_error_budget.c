@@ -21,7 +21,7 @@ static double alone(const wt_sliding *of)
     wt_friction_tables tables = {0};
     assert_int_equal(wt_sliding_friction_compute(of, NULL, &work, &tables, NULL), WT_OK);
     const wt_estimate e = key_estimate(tables.friction, "friction_at_reference");
-    wt_friction_tables_clear(&tables);
+    wt_table_free(tables.friction);
     return e.standard_error / e.value;
 }
 

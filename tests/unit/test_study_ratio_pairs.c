@@ -138,7 +138,7 @@ static wt_table *drawn_pairs(double slope, double severe_slope)
         fail_msg("%s; %s", err.message, err.found);
     wt_table *pairs = tables.ratio_pairs;
     tables.ratio_pairs = NULL;
-    wt_collection_tables_clear(&tables);
+    wt_tables_clear(&tables, sizeof tables);
     for (int i = 0; i < COMPOUNDS * SEVERITIES; i++)
         wt_result_free(results[i]);
     return pairs;

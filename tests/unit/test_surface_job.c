@@ -55,7 +55,7 @@ static void make(making *m, const char *const *files, size_t n)
 
 static void clear(making *m)
 {
-    wt_topography_tables_clear(&m->tables);
+    wt_tables_clear(&m->tables, sizeof m->tables);
     wt_log_free(m->log);
 }
 

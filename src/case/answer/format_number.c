@@ -4,7 +4,6 @@
 
 #include "core/base/clocale.h"
 #include "core/base/number.h"
-#include "core/math/students_t.h"
 #include "weartrack/indentation.h"
 
 #include <math.h>

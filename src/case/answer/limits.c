@@ -4,7 +4,6 @@
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/base/memory.h"
 #include "core/table/table_rows.h"
 
 #include <math.h>

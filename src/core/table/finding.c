@@ -3,7 +3,6 @@
 
 #include <ctype.h>
 #include <math.h>
-#include <string.h>
 
 static finding_verdict difference_verdict(const result_value_tables *t, const result_value *f)
 {

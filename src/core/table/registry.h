@@ -16,7 +16,6 @@
 #include "indentation/tables.h"
 #include "indentation/tables_calibration.h"
 #include "indentation/tables_dwell.h"
-#include "indentation/tables_spot.h"
 #include "layer/tables.h"
 #include "record/tables.h"
 #include "record/tables_measured.h"

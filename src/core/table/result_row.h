@@ -4,7 +4,23 @@
 #define WT_CORE_TABLE_RESULT_ROW_H
 
 #include "core/table/result_value.h"
-#include "core/table/row_number.h"
+#include "weartrack/core.h"
+
+/* A number in SI units with the limits of its 95 % interval and of its range over model choices.
+ * NaN: unknown. */
+typedef struct row_number {
+    double value, low, high, range_low, range_high;
+    const char *unit; /* SI; "degC" for a temperature [K], "%" for a share or relative change */
+} row_number;
+
+/* ASCII texts, "" for limits that are unknown. The value has three significant digits or more, up
+ * to two digits of a narrow interval. Limits of the scale of the value have its unit, which is then
+ * not repeated: "7.98 MPa", "7.67 to 8.30". */
+typedef struct row_number_text {
+    char value[48], interval[80], range[80];
+} row_number_text;
+
+row_number_text row_number_format(const row_number *number);
 
 typedef enum result_row_kind { RESULT_ROW_NUMBER, RESULT_ROW_TEXT } result_row_kind;
 

@@ -208,10 +208,6 @@ static result_value_range model_choice_range(const table_view *what_if, what_if_
     }
     r.low = number(what_if, low);
     r.high = number(what_if, high);
-    r.low_choice = low == 0 ? "" : what_if_text(what_if, low, WHAT_IF_CHOICE);
-    r.low_tried = what_if_text(what_if, low, WHAT_IF_TRIED);
-    r.high_choice = high == 0 ? "" : what_if_text(what_if, high, WHAT_IF_CHOICE);
-    r.high_tried = what_if_text(what_if, high, WHAT_IF_TRIED);
     return r;
 }
 
@@ -256,8 +252,6 @@ result_value result_value_friction(const result_value_tables *t, friction_key ke
         f.neutral = friction_numbers[i].positive ? (double)NAN : 0;
         f.includes = friction_key_text(&t->friction, FRICTION_KEY_ERROR_INCLUDES);
         f.lacks = friction_key_text(&t->friction, FRICTION_KEY_ERROR_LACKS);
-        f.lacks_modulus_ratio = friction_key_items(&t->friction, FRICTION_KEY_ERROR_LACKS) &
-                                SCHEMA_BIT(SOURCE_MODULUS_RATIO);
         f.velocity = friction_value(&t->friction, FRICTION_KEY_REFERENCE_VELOCITY).value;
         f.pressure = friction_value(&t->friction, FRICTION_KEY_PRESSURE).value;
         f.range =
@@ -277,8 +271,6 @@ result_value result_value_thickness(const result_value_tables *t)
     f.number = layer_value(&t->layer, LAYER_KEY_BALANCE_THICKNESS);
     f.includes = layer_key_text(&t->layer, LAYER_KEY_ERROR_INCLUDES);
     f.lacks = layer_key_text(&t->layer, LAYER_KEY_ERROR_LACKS);
-    f.lacks_modulus_ratio =
-        layer_key_items(&t->layer, LAYER_KEY_ERROR_LACKS) & SCHEMA_BIT(SOURCE_MODULUS_RATIO);
     f.velocity = layer_value(&t->layer, LAYER_KEY_VELOCITY).value;
     f.pressure = layer_value(&t->layer, LAYER_KEY_PRESSURE).value;
     f.range = model_choice_range(&t->what_if, what_if_thickness, f.number.numerical_error);

@@ -10,9 +10,6 @@
  * table what_if, those of the ratio of the moduli in the keys of the comparison. */
 typedef struct result_value_range {
     double low, high; /* NaN: no choice was tried, or none changes the number */
-    const char *low_choice,
-        *low_tried; /* "" for the choices that were used; borrowed from the table */
-    const char *high_choice, *high_tried;
     const char *
         widest; /* the choice with the largest effect, which a measurement should decide; or NULL */
     const char *remedy; /* what to measure for the widest choice, or NULL */
@@ -30,8 +27,7 @@ typedef struct result_value {
     const char *verdict; /* "yes: ...", or NULL */
     const char *remedy;  /* how to decide an inconclusive verdict, or NULL */
     const char *includes,
-        *lacks;               /* error sources that the interval includes and excludes, or NULL */
-    bool lacks_modulus_ratio; /* true if it excludes the error of the modulus ratio */
+        *lacks;          /* error sources that the interval includes and excludes, or NULL */
     double frequency[2]; /* angular frequency range [rad/s]; NaN if unknown or not applicable */
     double velocity,
         pressure; /* sliding velocity [m/s] and pressure [Pa]; NaN if unknown or not applicable */

@@ -268,6 +268,15 @@ void wt_table_free(wt_table *table)
     free(table);
 }
 
+void wt_tables_clear(void *tables, size_t size)
+{
+    wt_table **const table = tables;
+    for (size_t i = 0; i < size / sizeof *table; i++) {
+        wt_table_free(table[i]);
+        table[i] = NULL;
+    }
+}
+
 const char *wt_table_name(const wt_table *table)
 {
     return table->name;

@@ -6,8 +6,8 @@
 #include "friction/numerics/angular.h"
 
 #include "core/base/array.h"
-#include "core/math/chebyshev.h"
 #include "core/math/simd.h"
+#include "core/math/special.h"
 
 #include <float.h>
 #include <math.h>

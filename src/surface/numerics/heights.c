@@ -1,6 +1,5 @@
 /* Heights of a surface before the transform: statistics, missing heights and form.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/memory.h"
 #include "core/math/cholesky.h"
 #include "surface/numerics/surface_analysis.h"
 

@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Width of a quadrature subinterval. cosh^(p - 1) is singular at i pi/2, so ten points are exact
  * to rounding for the slopes of spectra (tested to p = -8). */
