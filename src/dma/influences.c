@@ -13,9 +13,8 @@
 
 /* Changes by the fit without an isotherm; NaN: not known. */
 typedef struct influence {
-    double temperature;                  /* of the isotherm */
-    double change, change_at, interval;  /* largest change of log10 a, where, half width there */
-    double worst, worst_at, worst_width; /* the same of the shifts that leave their interval */
+    double temperature;                 /* of the isotherm */
+    double change, change_at, interval; /* largest change of log10 a, where, half width there */
     size_t outside, lost;
     double c1, c2, storage, loss;
     char note[128];
@@ -66,20 +65,16 @@ static void compare_shifts(const wt_master *all, const wt_master *fit, size_t wi
             continue;
         }
         const double change = other->log_a.value - common - shift->log_a.value;
-        const double width = 0.5 * (shift->log_a.high - shift->log_a.low);
-        const double now = shift->log_a.value + change;
+        const double width = 0.5 * (shift->log_a.high - shift->log_a.low),
+                     now = shift->log_a.value + change;
         const bool outside = now < shift->log_a.low || now > shift->log_a.high;
-        if (!(fabs(change) <= fabs(one->change))) {
+        /* one that leaves its interval stands before the larger changes that do not */
+        if (outside != (one->outside > 0) ? outside : !(fabs(change) <= fabs(one->change))) {
             one->change = change;
             one->change_at = shift->temperature;
             one->interval = width;
         }
         one->outside += outside;
-        if (outside && !(fabs(change) <= fabs(one->worst))) {
-            one->worst = change;
-            one->worst_at = shift->temperature;
-            one->worst_width = width;
-        }
     }
 }
 
@@ -91,20 +86,14 @@ static void leave_out(const wt_sweep *sweep, const wt_master_options *options, c
     wt_sweep rest = *sweep;
     wt_master fit = {0};
     wt_error failure = WT_ERROR_INIT;
-    *one = (influence){all->shifts[without].temperature,
-                       none,
-                       none,
-                       none,
-                       none,
-                       none,
-                       none,
-                       0,
-                       0,
-                       none,
-                       none,
-                       none,
-                       none,
-                       ""};
+    *one = (influence){.temperature = all->shifts[without].temperature,
+                       .change = none,
+                       .change_at = none,
+                       .interval = none,
+                       .c1 = none,
+                       .c2 = none,
+                       .storage = none,
+                       .loss = none};
     rest.n_isotherms = sweep->n_isotherms - 1;
     rest.isotherms = wt_alloc(sweep->n_isotherms, sizeof *rest.isotherms);
     memcpy(rest.isotherms, sweep->isotherms, without * sizeof *rest.isotherms);
@@ -142,8 +131,8 @@ static void warn_influence(const influence *worst, size_t n_such, wt_log *log)
     wt_log_add(log, WT_WARNING, NULL, NULL,
                "without the isotherm of %.2f °C, log aT at %.2f °C changes by %+.2g, its 95 %% "
                "interval is +-%.2g: measure %.2f °C again%s",
-               worst->temperature - WT_ZERO_CELSIUS, worst->worst_at - WT_ZERO_CELSIUS,
-               worst->worst, worst->worst_width, worst->temperature - WT_ZERO_CELSIUS,
+               worst->temperature - WT_ZERO_CELSIUS, worst->change_at - WT_ZERO_CELSIUS,
+               worst->change, worst->interval, worst->temperature - WT_ZERO_CELSIUS,
                n_such > 1 ? "; others move shifts out of their intervals, too" : "");
 }
 
@@ -152,7 +141,7 @@ wt_status flow_influence_table(const wt_sweep *sweep, const wt_master_options *o
 {
     const double frequency = middle_frequency(sweep);
     wt_master_options own = *options;
-    influence worst = {.worst = 0.0};
+    influence worst = {.change = 0.0};
     size_t n_such = 0;
     own.series_only = true;
     own.reference_at = WT_REFERENCE_TEMPERATURE;
@@ -161,12 +150,12 @@ wt_status flow_influence_table(const wt_sweep *sweep, const wt_master_options *o
     table_writer t = table_begin(&influences_schema, err);
     for (size_t i = 0; i < all->n_shifts && sweep->n_isotherms > 2; i++) {
         influence one;
-        if (!all->shifts[i].determined)
+        if (isnan(all->shifts[i].noise_factor)) /* it is in no fit */
             continue;
         leave_out(sweep, &own, all, frequency, i, &one);
         TABLE_ADD(influences, &t, one);
         n_such += one.outside > 0;
-        if (fabs(one.worst) > fabs(worst.worst))
+        if (one.outside > 0 && fabs(one.change) > fabs(worst.change))
             worst = one;
     }
     influences_set_value(&t, INFLUENCES_KEY_REFERENCE_TEMPERATURE, all->reference_temperature, 0,

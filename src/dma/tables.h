@@ -209,7 +209,8 @@
 #define INFLUENCES_COLUMNS(X)                                                                      \
     X(INFLUENCES_TEMPERATURE, IN(one, temperature), "temperature of the isotherm left out",        \
       SI(TEMPERATURE), LABEL("Isotherm left out"), DECIMALS(1))                                    \
-    X(INFLUENCES_CHANGE, "log_a_change", "largest change of log10 a of another isotherm", NUMBER,  \
+    X(INFLUENCES_CHANGE, "log_a_change",                                                           \
+      "largest change of log10 a of another one, first of those outside", NUMBER,                  \
       SHOWS(one.change), LABEL("Change of log₁₀ a"), DECIMALS(3), SPARSE)                          \
     X(INFLUENCES_CHANGE_AT, "log_a_change_at", "temperature of that isotherm", SI(TEMPERATURE),    \
       SHOWS(one.change_at), LABEL("at"), DECIMALS(1), SPARSE)                                      \
