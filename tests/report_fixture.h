@@ -388,7 +388,7 @@ static inline void fixture_accuracy(wt_case *read)
     wt_run_options few = wt_run_defaults();
     const fixture_change no_change = {.table = "error_budget"};
     static const char *const names[] = {"error_budget", "work_precision", "relaxation_spectrum",
-                                        "prony_reduced"};
+                                        "prony_reduced", "influences"};
     few.replicates = 3;
     few.precision.repeats = 1;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {

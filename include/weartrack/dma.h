@@ -472,7 +472,7 @@ WT_API const wt_params *wt_master_job_params(void);
 typedef struct wt_master_tables {
     wt_table *shift_factors, *master_curve, *prony, *material_draws, *series_draws;
     size_t n_isotherms;
-    wt_table *prony_reduced, *relaxation_spectrum;
+    wt_table *prony_reduced, *relaxation_spectrum, *influences;
     wt_master *fit; /* fit of these tables */
 } wt_master_tables;
 WT_API void wt_master_tables_clear(wt_master_tables *tables);

@@ -32,7 +32,8 @@ typedef enum wt_optional_output {
     WT_EXTRA_SYSTEMATIC_ERRORS = 512, /* force curves: effect of systematic errors */
     WT_EXTRA_DEPTH_CURVES = 1024,     /* force curves: values for the analysis of depth, else NaN */
     WT_EXTRA_MASTER_CURVE = 2048,     /* isotherms: fitted moduli and table master_curve */
-    WT_EXTRA_ALL = 4095
+    WT_EXTRA_INFLUENCES = 4096,       /* isotherms: fits without one of them, table influences */
+    WT_EXTRA_ALL = 8191
 } wt_optional_output;
 
 typedef struct wt_cost wt_cost;

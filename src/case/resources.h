@@ -65,6 +65,7 @@
     X(MASTER_CURVE, "master_curve", &master_curve_schema, "")                                      \
     X(PRONY, "prony", &prony_schema, "")                                                           \
     X(RELAXATION_SPECTRUM, "relaxation_spectrum", &relaxation_spectrum_schema, "")                 \
+    X(INFLUENCES, "influences", &influences_schema, "")                                            \
     X(PRONY_REDUCED, "prony_reduced", &prony_reduced_schema, "")                                   \
     X(MATERIAL_DRAWS, "material_draws", &material_draws_schema, "")                                \
     X(SERIES_DRAWS, "series_draws", &series_draws_schema, "")                                      \
@@ -124,7 +125,8 @@ __extension__ typedef unsigned __int128 flow_resource_set;
 #define FLOW_ONLY_REQUESTED                                                                        \
     (FLOW_BIT(FLOW_ERROR_BUDGET) | FLOW_BIT(FLOW_WORK_PRECISION) | FLOW_BIT(FLOW_RAMP) |           \
      FLOW_BIT(FLOW_GLASS_TRANSITION) | FLOW_BIT(FLOW_MODULI_AT) | FLOW_BIT(FLOW_PRONY_REDUCED) |   \
-     FLOW_BIT(FLOW_RELAXATION_SPECTRUM) | FLOW_BIT(FLOW_PAYNE) | FLOW_BIT(FLOW_PAYNE_SWEEP))
+     FLOW_BIT(FLOW_RELAXATION_SPECTRUM) | FLOW_BIT(FLOW_INFLUENCES) | FLOW_BIT(FLOW_PAYNE) |       \
+     FLOW_BIT(FLOW_PAYNE_SWEEP))
 
 /* Comparison of the case with its records. */
 #define FLOW_VALIDATIONS                                                                           \

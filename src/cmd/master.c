@@ -6,6 +6,7 @@
 
 typedef struct saved_shifts {
     const char *read, *written;
+    bool influence;
 } saved_shifts;
 
 static const wt_param saved_rows[] = {
@@ -16,6 +17,10 @@ static const wt_param saved_rows[] = {
          "ones; - is standard input"},
     {PARAM_TEXT_OF("save-shifts", saved_shifts, written), .value = "FILE", .unset = "",
      .flags = PARAM_WRITTEN, .help = "write the table shift_factors there too, as a text stream"},
+    {PARAM_FLAG_OF("influence", saved_shifts, influence),
+     .help =
+         "fit again without each of the isotherms: the table influences says how far that moves "
+         "the others, law and moduli"},
 };
 CMD_OPTIONS(saved_params, saved_shifts, saved_rows)
 
@@ -155,7 +160,7 @@ static wt_status read_saved_shifts(cmd_session *s, const char *path, const char 
  * reading. */
 /* ---- several samples ------------------------------------------------------------------------- */
 
-enum { TABLES = 7, NAME_SIZE = 48 };
+enum { TABLES = 8, NAME_SIZE = 48 };
 
 typedef struct sample_fit {
     wt_master_tables tables;
@@ -202,7 +207,7 @@ static wt_status rename_sample_tables(sample_fit *f, wt_error *err)
     wt_table **const made[TABLES] = {
         &f->tables.prony,         &f->tables.prony_reduced, &f->tables.relaxation_spectrum,
         &f->tables.shift_factors, &f->tables.master_curve,  &f->tables.material_draws,
-        &f->tables.series_draws};
+        &f->tables.series_draws,  &f->tables.influences};
     wt_status status = WT_OK;
     for (size_t k = 0; k < TABLES && status == WT_OK; k++) {
         char name[NAME_SIZE + 32];
@@ -291,7 +296,7 @@ static void fit_single_master(cmd_session *s, wt_status status, const wt_master_
     wt_table **const made_tables[] = {
         &tables.prony,         &tables.prony_reduced, &tables.relaxation_spectrum,
         &tables.shift_factors, &tables.master_curve,  &tables.material_draws,
-        &tables.series_draws};
+        &tables.series_draws,  &tables.influences};
     cmd_finish(s, status, made_tables, COUNT_OF(made_tables));
     wt_master_tables_clear(&tables);
 }
@@ -320,7 +325,7 @@ int cmd_master(int argc, char **argv)
         .n_files = CMD_ONE_OR_MORE};
     wt_master_job job = wt_master_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    saved_shifts saved = {NULL, NULL};
+    saved_shifts saved = {NULL, NULL, false};
     fem_exports exports_given = export_defaults();
     enum { EXPORTED = 2 };
     cmd_option_group parts[] = {
@@ -345,6 +350,8 @@ int cmd_master(int argc, char **argv)
     job.reduction = exports_given.reduction;
     if (!requests_reduced_series(&parts[EXPORTED], &exports_given))
         s.work.left_out |= WT_EXTRA_REDUCED_SERIES;
+    if (!saved.influence)
+        s.work.left_out |= WT_EXTRA_INFLUENCES;
     job.sets = &set;
     job.n_sets = 1;
     wt_cost_begin_stage(s.cost, "master_curve");

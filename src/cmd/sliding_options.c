@@ -112,7 +112,8 @@ static wt_status fit_sliding_material(cmd_sliding *s, wt_error *err)
     s->master.sets = &s->set;
     s->master.n_sets = 1;
     wt_job work = s->session.work;
-    work.left_out |= WT_EXTRA_REDUCED_SERIES | WT_EXTRA_SPECTRUM | WT_EXTRA_MASTER_CURVE;
+    work.left_out |=
+        WT_EXTRA_REDUCED_SERIES | WT_EXTRA_SPECTRUM | WT_EXTRA_MASTER_CURVE | WT_EXTRA_INFLUENCES;
     if (work.replicates < 2)
         work.left_out |= WT_EXTRA_DRAWS;
     wt_status status = wt_master_compute(&s->master, &work, &tables, &s->rubber, err);

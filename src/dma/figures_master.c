@@ -441,6 +441,20 @@ const figure_description figures_master[] = {
          "temperature alone would give.",
      .draw = draw_vertical_shifts,
      .caption = caption_vertical_shifts},
+    {.name = "influences",
+     .in_depth = true,
+     .title = "Influence of each isotherm",
+     .table = &influences_schema,
+     .data_title = "influence of each isotherm",
+     .x = {INFLUENCES_TEMPERATURE, AXIS_LINEAR, "Temperature of the isotherm left out"},
+     .y = {{INFLUENCES_CHANGE, AXIS_NUMBER, "Largest change of log₁₀ a_T"}},
+     .curves = {CURVE(INFLUENCES_CHANGE, OWN), CURVE(INFLUENCES_INTERVAL, DATA)},
+     .empty_reason = "no shift is known without one of the isotherms",
+     .caption_text =
+         "Largest change of a horizontal shift if one isotherm is left out, with the half width of "
+         "the 95 % interval of that shift. A bar above its mark: the isotherm moves another one by "
+         "more than the interval says; measure it again.",
+     .draw = draw_influences},
     {.name = "van_gurp_palmen",
      .in_depth = true,
      .title = "Superposition: van Gurp-Palmen plot",

@@ -1,4 +1,5 @@
-/* Figures of the horizontal shift factors with their law and of the vertical shift factors.
+/* Figures of the horizontal shift factors with their law, of the vertical shift factors and of the
+ * influence of each isotherm on them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
@@ -185,4 +186,25 @@ void caption_vertical_shifts(figure_drawing *d)
                 "of rubber elasticity; here they deviate from it by up to %s decade. A filler "
                 "that softens with temperature or a clamp that yields causes such a deviation.",
                 NUMBER(most, 2));
+}
+
+/* ---- influences ------------------------------------------------------------------------------ */
+
+void draw_influences(figure_drawing *d)
+{
+    if (!drawing_build_data(d))
+        return;
+    value_span span = EMPTY_SPAN;
+    span_add(&span, 0, false);
+    for (size_t row = 0; row < d->table->n_rows; row++) {
+        span_add(&span, fabs(influences_get(d->table, row, INFLUENCES_CHANGE)), false);
+        span_add(&span, influences_get(d->table, row, INFLUENCES_INTERVAL), false);
+    }
+    drawing_axes(d);
+    drawing_axis(d, "y", &d->figure->y[0], NULL, span);
+    text_add(&d->script, "set ylabel 'Largest change of log_{10} a_T' enhanced\n");
+    plot_item(d, d->data[0], "($1+x_offset):(abs($2)) with impulses ls 1 lw 6 title 'change'");
+    plot_item(d, d->data[0],
+              "($1+x_offset):3 with points ls 14 title 'half width of the 95 %% interval'");
+    plot_end(d);
 }

@@ -71,6 +71,7 @@ void wt_master_tables_clear(wt_master_tables *tables)
     wt_table_free(tables->prony);
     wt_table_free(tables->prony_reduced);
     wt_table_free(tables->relaxation_spectrum);
+    wt_table_free(tables->influences);
     wt_table_free(tables->material_draws);
     wt_table_free(tables->series_draws);
     wt_master_clear(tables->fit);
@@ -131,15 +132,21 @@ static bool needs_master_curve(const wt_job *work)
     return (work->left_out & WT_EXTRA_MASTER_CURVE) == 0;
 }
 
+static wt_master_options fit_options(const wt_master_job *job, const wt_job *work)
+{
+    wt_master_options options = job->fit;
+    options.skip_fitted_moduli = options.skip_fitted_moduli || !needs_master_curve(work);
+    options.keep_isotherms =
+        job->n_sets > 0 && job->sets[0].read.conditioning == WT_CONDITIONING_KEEP;
+    return options;
+}
+
 /* Fits the sweeps. Temperature sweeps are converted to isotherms of `sweep`. */
 static wt_status fit_master_curve(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
                                   wt_master *master, wt_error *err)
 {
     wt_shift_law law;
-    wt_master_options options = job->fit;
-    options.skip_fitted_moduli = options.skip_fitted_moduli || !needs_master_curve(work);
-    options.keep_isotherms =
-        job->n_sets > 0 && job->sets[0].read.conditioning == WT_CONDITIONING_KEEP;
+    const wt_master_options options = fit_options(job, work);
     wt_status status = prepare_sweep(job, work, &law, sweep, err);
     if (status != WT_OK)
         return status;
@@ -254,6 +261,14 @@ wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, w
     return status;
 }
 
+static wt_status build_influences(const wt_master_job *job, const wt_job *work,
+                                  const wt_sweep *sweep, const wt_master *m, wt_table **table,
+                                  wt_error *err)
+{
+    const wt_master_options options = fit_options(job, work);
+    return flow_influence_table(sweep, &options, m, work->log, table, err);
+}
+
 static void warn_unconverged(const wt_master *m, const wt_job *work)
 {
     if (!flow_fit_has_converged(m))
@@ -331,6 +346,8 @@ wt_status wt_master_compute(const wt_master_job *job, const wt_job *work, wt_mas
     if (status == WT_OK && has_modulus_level(&master) &&
         (work->left_out & WT_EXTRA_REDUCED_SERIES) == 0)
         status = flow_reduced_table(&master, job, work, &t.prony_reduced, err);
+    if (status == WT_OK && (work->left_out & WT_EXTRA_INFLUENCES) == 0)
+        status = build_influences(job, work, &sweep, &master, &t.influences, err);
     if (status == WT_OK && rubber != NULL && !has_modulus_level(&master))
         status = fail_no_modulus_level(&master, err);
     if (status == WT_OK && rubber != NULL) {

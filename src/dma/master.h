@@ -16,6 +16,11 @@ wt_status flow_spectrum_table(const wt_master *m, wt_table **table, wt_error *er
 wt_status flow_reduced_table(const wt_master *m, const wt_master_job *job, const wt_job *work,
                              wt_table **table, wt_error *err) WT_NODISCARD;
 
+/* Fits without each of the isotherms and warns if that moves a shift out of its interval. */
+wt_status flow_influence_table(const wt_sweep *sweep, const wt_master_options *options,
+                               const wt_master *all, wt_log *log, wt_table **table,
+                               wt_error *err) WT_NODISCARD;
+
 /* Returns false if a further step of the fit would visibly move a number. */
 bool flow_fit_has_converged(const wt_master *m);
 

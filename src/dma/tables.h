@@ -207,6 +207,36 @@
     X(RELAXATION_SPECTRUM_KEY_DEFORMATION, "deformation", ENUM(deformation))
 
 /* The reduced series for finite element programs. */
+#define INFLUENCES_COLUMNS(X)                                                                      \
+    X(INFLUENCES_TEMPERATURE, IN(one, temperature), "temperature of the isotherm left out",        \
+      SI(TEMPERATURE), LABEL("Isotherm left out"), DECIMALS(1))                                    \
+    X(INFLUENCES_CHANGE, "log_a_change",                                                           \
+      "largest change of log10 a of another one, first of those outside", NUMBER,                  \
+      SHOWS(one.change), LABEL("Change of log₁₀ a"), DECIMALS(3), SPARSE)                          \
+    X(INFLUENCES_CHANGE_AT, "log_a_change_at", "temperature of that isotherm", SI(TEMPERATURE),    \
+      SHOWS(one.change_at), LABEL("at"), DECIMALS(1), SPARSE)                                      \
+    X(INFLUENCES_INTERVAL, "log_a_half_width", "half width of the 95 % interval of its log10 a",   \
+      NUMBER, SHOWS(one.interval), LABEL("95 % interval, ±"), DECIMALS(3), SPARSE)                 \
+    X(INFLUENCES_OUTSIDE, IN(one, outside), "number of shifts that leave their 95 % interval",     \
+      NUMBER, LABEL("Shifts outside of their interval"))                                           \
+    X(INFLUENCES_LOST, IN(one, lost), "number of shifts that the others do not determine", NUMBER, \
+      LABEL("Shifts lost"))                                                                        \
+    X(INFLUENCES_C1, "wlf_c1_change", "change of the WLF constant C1", NUMBER, SHOWS(one.c1),      \
+      LABEL("Change of C₁"), DECIMALS(2), SPARSE)                                                  \
+    X(INFLUENCES_C2, "wlf_c2_change", "change of the WLF constant C2", SI(TEMPERATURE_DIFFERENCE), \
+      SHOWS(one.c2), LABEL("Change of C₂"), DECIMALS(1), SPARSE)                                   \
+    X(INFLUENCES_STORAGE, "storage_change",                                                        \
+      "relative change of the storage modulus at the reference temperature", NUMBER,               \
+      SHOWS(one.storage), LABEL("Relative change of E′"), DECIMALS(3), SPARSE)                     \
+    X(INFLUENCES_LOSS, "loss_change",                                                              \
+      "relative change of the loss modulus at the reference temperature", NUMBER, SHOWS(one.loss), \
+      LABEL("Relative change of E″"), DECIMALS(3), SPARSE)                                         \
+    X(INFLUENCES_NOTE, IN(one, note), "what else changes without the isotherm", TEXT, LABEL("Note"))
+#define INFLUENCES_KEYS(X)                                                                         \
+    X(INFLUENCES_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE))              \
+    X(INFLUENCES_KEY_ANGULAR_FREQUENCY, "angular_frequency", SI(ANGULAR_FREQUENCY),                \
+      LABEL("Angular frequency of the moduli"))
+
 #define PRONY_REDUCED_COLUMNS(X)                                                                   \
     X(PRONY_REDUCED_RELAXATION_TIME, AS(relaxation_time), "relaxation time", SI(TIME),             \
       LABEL("Relaxation time"))                                                                    \

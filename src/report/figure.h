@@ -99,5 +99,6 @@ void draw_shift_factors(struct figure_drawing *d);
 void caption_shift_factors(struct figure_drawing *d);
 void draw_vertical_shifts(struct figure_drawing *d);
 void caption_vertical_shifts(struct figure_drawing *d);
+void draw_influences(struct figure_drawing *d);
 
 #endif

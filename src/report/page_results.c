@@ -114,6 +114,8 @@ static const struct result_part {
     ROWS(collected_constants, "Critical energy and wear rate of each case, by what is known"),
     COLUMNS(shift_factors, "Shift factors", shift_columns),
     KEYS(shift_factors, "Shifting, law and superposition"),
+    ROWS(influences, "Influence of each isotherm: changes if it is left out"),
+    KEYS(influences, "Influence of each isotherm: reference"),
     ROWS(prony, "Prony series at the reference temperature"),
     KEYS(prony, "Prony series: constants"),
     ROWS(prony_reduced, "Prony series with few terms, for finite elements"),

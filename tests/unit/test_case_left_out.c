@@ -434,6 +434,7 @@ static void check_some(const char *asks, work which, bool needed)
 
 enum { LINES_OF_MAPS = 2 * (192 + 224) };
 enum { CURVES_OF_A_FILE = 12, FILES_OF_A_GROUP = 4, DEPTHS_SHOWN = 121, TIMES_SHOWN = 61 };
+enum { ISOTHERMS_LEFT_OUT = 12 }; /* one by one, each with a fit */
 
 static void check_curves(const char *asks, const ran *r)
 {
@@ -473,7 +474,8 @@ static void check_material(const char *asks, const ran *r)
      * for the friction and for what the layer adds. */
     const size_t precision = runs(r, FLOW_WORK_PRECISION), fewer = 2 * (1 + 4) * precision;
     check(asks, MASTERS,
-          runs(r, FLOW_PRONY) + 3 * (size_t)runs(r, FLOW_WHAT_IF) + precision + fewer);
+          runs(r, FLOW_PRONY) + 3 * (size_t)runs(r, FLOW_WHAT_IF) + precision + fewer +
+              ISOTHERMS_LEFT_OUT * (size_t)shown(r, FLOW_INFLUENCES));
     check(asks, VERDICTS, (size_t)runs(r, FLOW_PRONY));
     check(asks, DRAWS, 200 * (drawn + fewer) + 4000 * precision);
 }

@@ -276,6 +276,7 @@ static void test_joined_law(void **state)
     see(tables.prony);
     see(tables.prony_reduced);
     see(tables.relaxation_spectrum);
+    see(tables.influences);
     see(tables.material_draws);
     wt_master_tables_clear(&tables);
     job.fit.shift_by = WT_SHIFT_STORAGE;

@@ -397,6 +397,72 @@ static void the_reference_temperature_need_not_be_measured(void **state)
     wt_sweep_clear(&sweep);
 }
 
+/* A law that is not WLF: the shifts have a hump on top of it. */
+static double humped_law(double temperature)
+{
+    const double away = (temperature - 305.0) / 12.0;
+    return truth_at(temperature) + 0.8 * exp(-away * away);
+}
+
+/* The largest difference of two results between isotherms, beyond a constant [decade]. */
+static double spread_between(const wt_master *m, const wt_master *other)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (size_t i = 0; i < m->n_shifts; i++) {
+        const double off = m->shifts[i].log_a.value - other->shifts[i].log_a.value;
+        low = fmin(low, off);
+        high = fmax(high, off);
+    }
+    return high - low;
+}
+
+static void a_moved_reference_moves_all_shifts_alike(void **state)
+{
+    (void)state;
+    wt_sweep sweep = {0};
+    uint64_t seed = 5;
+    for (int i = 0; i <= 20; i++) {
+        const double temperature = 253.15 + 5.0 * i;
+        wt_isotherm *const one =
+            dma_add(&sweep, &dma_rubber, temperature, 0.1, 100.0, 16, false, 0.005, &seed);
+        const double hump = humped_law(temperature) - truth_at(temperature);
+        for (size_t k = 0; k < one->n; k++)
+            one->angular_frequency[k] *= pow(10.0, -hump);
+    }
+    wt_master_options options = at_reference(303.15, WT_VERTICAL_NONE);
+    wt_master base = fit_good(&sweep, &options, NULL);
+    assert_true(base.law_rms > 0.08); /* the law alone misses the shifts */
+    double before = 0.0;
+    for (double t = 255.65; t <= 350.15; t += t < 290.0 || t > 315.0 ? 12.5 : 1.25) {
+        options.reference_temperature = t;
+        wt_master m = fit_good(&sweep, &options, NULL);
+        assert_true(spread_between(&m, &base) < 0.05);
+        assert_near_abs(m.shifts[10].log_a.value, humped_law(303.15) - humped_law(t), 0.06);
+        assert_true(m.shifts[10].log_a.low <= humped_law(303.15) - humped_law(t) &&
+                    m.shifts[10].log_a.high >= humped_law(303.15) - humped_law(t));
+        assert_true(m.shifts[10].log_a.value > before || t < 290.0 || before == 0.0);
+        before = m.shifts[10].log_a.value;
+        wt_master_clear(&m);
+    }
+    /* continuous at an isotherm: two references, 0.2 K from it on either side */
+    for (int i = 1; i < 20; i += 3) {
+        const double at = 253.15 + 5.0 * i;
+        double own[2], position[2];
+        for (int side = 0; side < 2; side++) {
+            options.reference_temperature = at + (side == 0 ? -0.2 : 0.2);
+            wt_master m = fit_good(&sweep, &options, NULL);
+            own[side] = m.shifts[i].log_a.value;
+            position[side] = m.shifts[i].log_a.standard_error;
+            wt_master_clear(&m);
+        }
+        assert_near_abs(own[0], humped_law(at) - humped_law(at - 0.2), 0.012);
+        assert_near_abs(own[1], humped_law(at) - humped_law(at + 0.2), 0.012);
+        assert_true(position[0] < 0.03 && position[1] < 0.03);
+    }
+    wt_master_clear(&base);
+    wt_sweep_clear(&sweep);
+}
+
 static void thermal_expansion_enters_the_physical_shift(void **state)
 {
     (void)state;
@@ -700,6 +766,7 @@ int main(void)
         cmocka_unit_test(single_bad_points_have_little_weight),
         cmocka_unit_test(repeated_temperatures_get_one_shift),
         cmocka_unit_test(the_reference_temperature_need_not_be_measured),
+        cmocka_unit_test(a_moved_reference_moves_all_shifts_alike),
         cmocka_unit_test(thermal_expansion_enters_the_physical_shift),
         cmocka_unit_test(failing_superposition_is_said),
         cmocka_unit_test(mixed_strain_amplitudes_are_said),

@@ -191,6 +191,8 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"vertical_shifts", "title 'isotherms'", "temperature log_b log_b_standard_error"},
         {"vertical_shifts", "title 'material'", "temperature log_b_material"},
         {"vertical_shifts", "title 'rubber elasticity'", "temperature log_b_physical"},
+        {"influences", "with impulses ls 1", "temperature log_a_change"},
+        {"influences", "points ls 14", "temperature log_a_half_width"},
         {"relaxation_spectrum", "filledcurves ls 61", "relaxation_time density_low density_high"},
         {"relaxation_spectrum", "lines ls 11", "relaxation_time density"},
         {"van_gurp_palmen", "points ls 51", "storage_modulus loss_modulus temperature"},

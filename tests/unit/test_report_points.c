@@ -104,6 +104,7 @@ static void test_whole_tables(void **state)
                                            {"shift_factors", "shift_factors"},
                                            {"vertical_shifts", "shift_factors"},
                                            {"relaxation_spectrum", "relaxation_spectrum"},
+                                           {"influences", "influences"},
                                            {"van_gurp_palmen", "master_curve"},
                                            {"wicket", "master_curve"},
                                            {"cole_cole", "master_curve"},

@@ -28,8 +28,8 @@ typedef enum flow_optional_input_id {
 #define STAGES(X)                                                                                  \
     X(MASTER_CURVE, master_curve, "Shift factors, WLF law, master curve, Prony series",            \
       B(DMA_FILES), 0, FLOW_OPTIONAL_NONE,                                                         \
-      B(SHIFT_FACTORS) | B(MASTER_CURVE) | B(PRONY) | B(RELAXATION_SPECTRUM) | B(PRONY_REDUCED) |  \
-          B(MATERIAL_DRAWS) | B(SERIES_DRAWS) | B(RUBBER),                                         \
+      B(SHIFT_FACTORS) | B(MASTER_CURVE) | B(PRONY) | B(RELAXATION_SPECTRUM) | B(INFLUENCES) |     \
+          B(PRONY_REDUCED) | B(MATERIAL_DRAWS) | B(SERIES_DRAWS) | B(RUBBER),                      \
       flow_step_master)                                                                            \
     X(RAMP, ramp, "Glass transition and moduli against temperature", B(DMA_FILES), 0,              \
       FLOW_OPTIONAL_NONE, B(RAMP) | B(GLASS_TRANSITION) | B(MODULI_AT), flow_step_ramp)            \

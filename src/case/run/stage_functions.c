@@ -184,6 +184,7 @@ wt_status flow_step_master(flow_run *run, wt_error *err)
     flow_run_store_table(run, FLOW_PRONY, &tables.prony);
     flow_run_store_table(run, FLOW_PRONY_REDUCED, &tables.prony_reduced);
     flow_run_store_table(run, FLOW_RELAXATION_SPECTRUM, &tables.relaxation_spectrum);
+    flow_run_store_table(run, FLOW_INFLUENCES, &tables.influences);
     flow_run_store_table(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
     flow_run_store_table(run, FLOW_SERIES_DRAWS, &tables.series_draws);
     wt_master_tables_clear(&tables); /* the remaining members belong to the fit */

@@ -119,6 +119,7 @@
     X(prony, PRONY, "prony", "Prony series", "master")                                             \
     X(relaxation_spectrum, RELAXATION_SPECTRUM, "relaxation_spectrum", "Relaxation spectrum",      \
       "master")                                                                                    \
+    X(influences, INFLUENCES, "influences", "Influence of each isotherm", "master")                \
     X(prony_reduced, PRONY_REDUCED, "prony_reduced", "Prony series with few terms", "master")      \
     X(material_draws, MATERIAL_DRAWS, "material_draws", "Draws of the material, law and vertical", \
       "master")                                                                                    \

@@ -53,6 +53,30 @@ static void add_prony(rows_source *s)
     }
 }
 
+/* Adds the isotherm that moves a shift farthest out of its interval if it is left out. */
+static void add_influence(rows_source *s)
+{
+    table_view v;
+    size_t worst = SIZE_MAX;
+    if (!rows_bind(s, &influences_schema, &v))
+        return;
+    for (size_t i = 0; i < v.n_rows; i++)
+        if (influences_get(&v, i, INFLUENCES_OUTSIDE) > 0 &&
+            (worst == SIZE_MAX || fabs(influences_get(&v, i, INFLUENCES_CHANGE)) >
+                                      fabs(influences_get(&v, worst, INFLUENCES_CHANGE))))
+            worst = i;
+    if (worst == SIZE_MAX) {
+        rows_add_text(s, 1, "none", "isotherm to measure again");
+        return;
+    }
+    result_row *const row = rows_add_text(
+        s, 1, rows_short(influences_get(&v, worst, INFLUENCES_TEMPERATURE), "degC").value,
+        "isotherm to measure again");
+    rows_note(row, "without it log aT at %s changes by %.2g",
+              rows_short(influences_get(&v, worst, INFLUENCES_CHANGE_AT), "degC").value,
+              influences_get(&v, worst, INFLUENCES_CHANGE));
+}
+
 static void add_shifts(rows_source *s, const table_view *v)
 {
     const wt_estimate c1 = shift_factors_value(v, SHIFT_FACTORS_KEY_WLF_C1),
@@ -84,6 +108,7 @@ static void add_shifts(rows_source *s, const table_view *v)
         snprintf(text, sizeof text, "%zu of %zu", odd, v->n_rows);
         rows_add_text(s, 1, text, "isotherms not joined by overlap");
     }
+    add_influence(s);
     if (!isnan(c1.value)) {
         row = rows_add_number(s, 0, rows_estimate(c1), "WLF C1");
         rows_note(row, "at %s", rows_short(reference.value, "degC").value);

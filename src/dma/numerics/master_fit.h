@@ -24,10 +24,12 @@ typedef struct master_work {
     arena memory;
     wt_master_options options;
     shift_set set;
-    double reference;        /* [K] */
-    size_t anchor;           /* isotherm to which the fit refers; it depends on the data only */
-    size_t at;               /* isotherm at the reference temperature, or set.n: the law gives the
-                                reference */
+    double reference;         /* [K] */
+    size_t anchor;            /* isotherm to which the fit refers; it depends on the data only */
+    size_t at;                /* isotherm at the reference temperature, or set.n: the law gives the
+                                 reference */
+    bool is_reference_fitted; /* the isotherms of the spectrum give the reference, at `place` */
+    posterior_place place;
     size_t root;             /* isotherm to which the additional errors of the shifts refer */
     double *base_error;      /* [curves] those errors against the anchor, or NULL */
     bool flows;              /* creep of a liquid, fitted with an equilibrium modulus */
@@ -84,6 +86,11 @@ wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double ge
                             double departure, wt_error *err) WT_NODISCARD;
 /* Returns true if the spectrum contains the isotherm at the reference temperature. */
 bool master_reference_is_fitted(const master_work *work);
+/* Finds the isotherms of the spectrum around a reference temperature that is none of the isotherms.
+ * Returns false if it lies beyond them. */
+bool master_reference_neighbours(const master_work *work, size_t *cold, size_t *warm);
+/* Places the reference temperature at or between the isotherms of the spectrum. */
+void master_place_reference(master_work *work);
 /* Computes log_a [set->n], in decades, 0 at the anchor. It is NaN if no isotherm towards the
  * anchor shares enough height, or without a storage modulus. */
 void closed_form_shifts(const shift_set *set, size_t anchor, double *log_a);

@@ -358,6 +358,16 @@ bool master_reference_is_fitted(const master_work *work)
     return work->at < work->set.n && work->placed[work->at];
 }
 
+bool master_reference_neighbours(const master_work *work, size_t *cold, size_t *warm)
+{
+    const size_t n = work->set.n;
+    *cold = *warm = n;
+    for (size_t i = 0; i < n && *warm == n; i++)
+        if (work->placed[i])
+            *(work->set.curves[i].temperature <= work->reference ? cold : warm) = i;
+    return work->at == n && *cold < n && *warm < n;
+}
+
 bool master_shifts_agree(const master_work *work)
 {
     arena memory = {0};
@@ -522,6 +532,18 @@ void master_set_shift_errors(master_work *work)
                            fails ? pow(p->extra_error[work->curve[i]], 2) : 0.0);
 }
 
+/* Refers the additional errors to an isotherm. Returns false if no overlap places it. */
+static bool refer_errors_to(master_work *work, size_t root)
+{
+    if (!work->edge[root].placed)
+        return false;
+    if (root != work->root) {
+        work->root = root;
+        master_set_shift_errors(work);
+    }
+    return true;
+}
+
 void master_refer_errors(master_work *work)
 {
     wt_posterior *p = work->posterior;
@@ -530,11 +552,17 @@ void master_refer_errors(master_work *work)
     if (p->extra_error == NULL)
         return;
     work->base_error = p->extra_error;
-    const bool can_refer =
-        master_reference_is_fitted(work) && work->edge[work->at].placed && work->at != work->anchor;
-    if (can_refer) {
-        work->root = work->at;
-        master_set_shift_errors(work);
+    size_t cold, warm;
+    if (master_reference_is_fitted(work))
+        (void)refer_errors_to(work, work->at);
+    else if (master_reference_neighbours(work, &cold, &warm) && refer_errors_to(work, cold)) {
+        const double *const to_cold = p->extra_error;
+        const double t = work->set.curves[cold].temperature,
+                     share = (work->reference - t) / (work->set.curves[warm].temperature - t);
+        (void)refer_errors_to(work, warm);
+        for (size_t i = 0; i < work->s->n_curves; i++)
+            p->extra_error[i] = sqrt((1.0 - share) * to_cold[i] * to_cold[i] +
+                                     share * p->extra_error[i] * p->extra_error[i]);
     }
 }
 
@@ -577,8 +605,8 @@ bool master_shift_outside_part(const master_work *work, size_t i, double *a, dou
     if (!work->part || (i >= work->first && i <= work->last) || !edge[i].placed ||
         !edge[end].placed || !work->placed[end])
         return false;
-    const wt_interval at =
-        posterior_a(work->posterior, work->curve[end], work->curve[work->anchor]);
+    const posterior_place anchor = posterior_at_curve(work->curve[work->anchor]);
+    const wt_interval at = posterior_a(work->posterior, work->curve[end], &anchor);
     const double alike = hypot(edge[i].spread - edge[end].spread, edge[i].error - edge[end].error);
     *a = at.value + edge[i].a - edge[end].a;
     *error = sqrt(at.standard_error * at.standard_error + alike * alike +

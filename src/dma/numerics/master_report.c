@@ -355,20 +355,20 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     return status;
 }
 
-/* Sets the offset of the law against the shifts. Without an isotherm at the reference temperature
- * the law gives the shifts, so there is none. */
+/* Sets the offset of the law against the shifts. Outside the isotherms the law gives the shifts, so
+ * there is none. */
 static void set_offset(const master_work *work, wt_master *m)
 {
     const wt_interval of_law = m->offset;
     m->offset = (wt_interval){0};
-    if (m->law.kind == WT_LAW_NONE || work->at == work->set.n)
+    if (m->law.kind == WT_LAW_NONE)
         return;
     if (work->at == work->anchor) {
         m->offset = of_law;
-    } else if (master_reference_is_fitted(work)) {
-        const wt_interval a = posterior_a_to_reference(work->posterior, work->curve[work->at]);
+    } else if (work->is_reference_fitted) {
+        const wt_interval a = posterior_a_to_law(work->posterior, &work->place);
         m->offset = (wt_interval){-a.value, a.standard_error, -a.high, -a.low};
-    } else {
+    } else if (work->at < work->set.n) {
         m->offset = interval_offset(of_law, m->shifts[work->anchor].log_a.value);
     }
 }

@@ -360,8 +360,10 @@ static wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options 
         work.posterior->reference_a = master_reference_shift(&work);
         status = posterior_finish(work.posterior, work.reference, err);
     }
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        master_place_reference(&work);
         status = master_report(&work, sweep, log, master, err);
+    }
     const size_t steeper = status == WT_E_NO_OVERLAP ? master_steeper_isotherm(&work) : work.anchor;
     const bool elsewhere = status == WT_E_NO_OVERLAP && isnan(*base) && work.at < work.set.n &&
                            work.at != work.anchor; /* the fit may start at the reference */

@@ -233,16 +233,33 @@ double master_reference_shift(const master_work *work)
     return spectrum_a(work->s, work->curve[end]) / M_LN10 + work->edge[at].a - work->edge[end].a;
 }
 
+void master_place_reference(master_work *work)
+{
+    const wt_posterior *p = work->posterior;
+    size_t cold, warm;
+    work->is_reference_fitted = true;
+    if (master_reference_is_fitted(work))
+        work->place = posterior_at_curve(work->curve[work->at]);
+    else if (p->shape.kind != WT_LAW_NONE && master_reference_neighbours(work, &cold, &warm) &&
+             posterior_fit_error(p, work->curve[cold]) <= master_max_shift_error &&
+             posterior_fit_error(p, work->curve[warm]) <= master_max_shift_error)
+        work->place = posterior_between(p, work->curve[cold], work->reference);
+    else
+        work->is_reference_fitted = false;
+}
+
 /* Returns a fitted shift against the reference temperature. */
 static wt_interval shift_to_reference(const master_work *work, size_t curve)
 {
     const wt_posterior *p = work->posterior;
+    const posterior_place own = posterior_at_curve(curve),
+                          anchor = posterior_at_curve(work->curve[work->anchor]);
     double a, error;
-    if (master_reference_is_fitted(work))
-        return posterior_a(p, curve, work->curve[work->at]);
+    if (work->is_reference_fitted)
+        return posterior_a(p, curve, &work->place);
     if (work->at == work->set.n || !master_shift_outside_part(work, work->at, &a, &error))
-        return posterior_a_to_reference(p, curve);
-    wt_interval shift = posterior_a(p, curve, work->curve[work->anchor]);
+        return posterior_a_to_law(p, &own);
+    wt_interval shift = posterior_a(p, curve, &anchor);
     error = hypot(error, shift.standard_error);
     a = shift.value - a;
     return (wt_interval){a, error, a - NORMAL_95 * error, a + NORMAL_95 * error};

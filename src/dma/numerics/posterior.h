@@ -87,11 +87,24 @@ wt_status posterior_finish(wt_posterior *p, double reference, wt_error *err) WT_
 /* Finds the column of the shift of a curve. Returns false if it is fixed. */
 bool posterior_column(const wt_posterior *p, size_t curve, size_t *column);
 
-/* Shift of a curve against another one, in decades. */
-wt_interval posterior_a(const wt_posterior *p, size_t curve, size_t other);
+/* A curve, or a place between a curve and the next: log a of the place is that of the line between
+ * them at `share` of the way, minus `law`. */
+typedef struct posterior_place {
+    size_t cold, warm;
+    double share;
+    double law;      /* the law on that line, minus the law at the place [decade] */
+    double variance; /* of the place, beyond that of the curves [decade^2] */
+} posterior_place;
+posterior_place posterior_at_curve(size_t curve);
+/* Returns the place of a temperature between curve `cold` and the next. There must be a law whose
+ * reference is that temperature. */
+posterior_place posterior_between(const wt_posterior *p, size_t cold, double temperature);
+/* Shift of a curve against a place, in decades. */
+wt_interval posterior_a(const wt_posterior *p, size_t curve, const posterior_place *to);
 double posterior_fit_error(const wt_posterior *p,
                            size_t curve); /* standard error without the additional error */
-wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve);
+/* Shift of a place against the reference of the law. */
+wt_interval posterior_a_to_law(const wt_posterior *p, const posterior_place *place);
 wt_interval posterior_b(const wt_posterior *p, size_t curve);
 /* Returns d log a / d log b along equally good fits. */
 double posterior_a_per_b(const wt_posterior *p, size_t curve);

@@ -91,6 +91,9 @@ wt_interval interval_map(wt_interval x, double (*f)(double))
 /* ---- intervals ------------------------------------------------------------------------------- */
 
 enum { MAX_COMPONENTS = POSTERIOR_CELLS * LAW_SPREADS };
+/* Squared distance of a curve from the middle of the line between its neighbours, against the
+ * squared scatter of each about the law. */
+static const double line_deviation = 1.5;
 
 /* Returns the additional variance of a shift. */
 static double extra_variance(const wt_posterior *p, size_t curve)
@@ -113,41 +116,107 @@ static wt_interval column_interval(const wt_posterior *p, long column, double he
     return mixture_interval(component, n);
 }
 
-/* Returns the value of a shift in a cell and its covariance with that of another curve, in ln. */
-static double cell_shift(const wt_posterior *p, const posterior_cell *cell, size_t curve,
-                         size_t other, double *covariance)
+/* A linear combination of shifts: those of `curve` with their weights. */
+enum { MOST_SHIFTS = 3 };
+typedef struct shift_combination {
+    size_t n, curve[MOST_SHIFTS];
+    double weight[MOST_SHIFTS];
+} shift_combination;
+
+/* Computes the value of a combination in a cell and its variance, in decades. */
+static double combined_shift(const wt_posterior *p, const posterior_cell *cell,
+                             const shift_combination *c, double *variance)
 {
-    size_t at, with;
-    const bool fitted = posterior_column(p, curve, &at);
-    *covariance = fitted && posterior_column(p, other, &with)
-                      ? gsl_matrix_get(cell->covariance, at, with)
-                      : 0.0;
-    return fitted ? cell->value[at] : p->frame.given_a[curve];
+    double value = 0.0;
+    *variance = 0.0;
+    for (size_t i = 0; i < c->n; i++) {
+        size_t at, with;
+        const bool fitted = posterior_column(p, c->curve[i], &at);
+        value += c->weight[i] * (fitted ? cell->value[at] : p->frame.given_a[c->curve[i]]);
+        for (size_t k = 0; fitted && k < c->n; k++)
+            if (posterior_column(p, c->curve[k], &with))
+                *variance +=
+                    c->weight[i] * c->weight[k] * gsl_matrix_get(cell->covariance, at, with);
+    }
+    *variance = fmax(*variance, 0.0) / (M_LN10 * M_LN10);
+    return value / M_LN10;
 }
 
-wt_interval posterior_a(const wt_posterior *p, size_t curve, size_t other)
+/* Returns the interval of a combination with an additional variance. */
+static wt_interval combination_interval(const wt_posterior *p, const shift_combination *c,
+                                        double extra)
 {
     mixture_component component[MAX_COMPONENTS];
     size_t n = 0;
-    if (curve == other)
-        return (wt_interval){0};
     for (size_t i = 0; i < p->n_cells; i++) {
-        double own, others, both;
+        double variance;
         if (!(p->cells[i].weight > 0.0))
             continue;
-        (void)cell_shift(p, &p->cells[i], curve, other, &both);
-        const double a = cell_shift(p, &p->cells[i], curve, curve, &own) -
-                         cell_shift(p, &p->cells[i], other, other, &others);
-        const double variance = fmax(own + others - 2.0 * both, 0.0) / (M_LN10 * M_LN10);
-        component[n++] = (mixture_component){p->cells[i].weight, a / M_LN10,
-                                             sqrt(variance + extra_variance(p, curve))};
+        const double a = combined_shift(p, &p->cells[i], c, &variance);
+        component[n++] = (mixture_component){p->cells[i].weight, a, sqrt(variance + extra)};
     }
     if (n == 0) /* no cell has a weight */
         return (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     if (component[0].deviation > 0.0)
         return mixture_interval(component, n);
-    const double a = component[0].mean; /* both shifts are stated */
+    const double a = component[0].mean; /* all shifts are stated */
     return (wt_interval){a, 0.0, a, a};
+}
+
+wt_interval posterior_a(const wt_posterior *p, size_t curve, const posterior_place *to)
+{
+    if (to->cold == curve && to->warm == curve)
+        return (wt_interval){0};
+    const shift_combination c = {
+        3, {curve, to->cold, to->warm}, {1.0, to->share - 1.0, -to->share}};
+    return interval_offset(combination_interval(p, &c, extra_variance(p, curve) + to->variance),
+                           to->law);
+}
+
+posterior_place posterior_at_curve(size_t curve)
+{
+    return (posterior_place){.cold = curve, .warm = curve};
+}
+
+/* Returns the squared deviation of a curve from the law and the line between its neighbours
+ * [decade^2], above that of its errors. */
+static double deviation_between(const wt_posterior *p, const double *unknown, size_t curve)
+{
+    const double *t = p->temperature;
+    const double share = (t[curve] - t[curve - 1]) / (t[curve + 1] - t[curve - 1]);
+    const shift_combination c = {3, {curve, curve - 1, curve + 1}, {1.0, share - 1.0, -share}};
+    double off = 0.0, variance;
+    for (size_t k = 0; k < c.n; k++)
+        off -= c.weight[k] * law_value(&p->shape, unknown, t[c.curve[k]], NULL);
+    off += combined_shift(p, posterior_best(p), &c, &variance);
+    return fmax(off * off - variance, 0.0);
+}
+
+/* The line between the neighbours carries (1 - 2 s (1 - s)) of the squared scatter of an isotherm
+ * about the law, so the rest is that of the place. A curve is off the line between its neighbours
+ * by 1.5 times that square. */
+posterior_place posterior_between(const wt_posterior *p, size_t cold, double temperature)
+{
+    const double *t = p->temperature;
+    posterior_place place = {
+        .cold = cold, .warm = cold + 1, .share = (temperature - t[cold]) / (t[cold + 1] - t[cold])};
+    double unknown[LAW_MAX_UNKNOWNS], square = 0.0, near = 0.0;
+    int n = 0, n_near = 0;
+    posterior_mean_law(p, unknown);
+    place.law = (1.0 - place.share) * law_value(&p->shape, unknown, t[cold], NULL) +
+                place.share * law_value(&p->shape, unknown, t[cold + 1], NULL);
+    for (size_t k = 1; k + 1 < p->frame.n_curves; k++)
+        if (t[k - 1] < t[k + 1]) {
+            const double one = deviation_between(p, unknown, k);
+            square += one;
+            near += k == cold || k == cold + 1 ? one : 0.0;
+            n_near += k == cold || k == cold + 1;
+            n++;
+        }
+    if (n_near > 0) /* the neighbours alone are few, all may deviate elsewhere */
+        square = 0.5 * (square / n + near / n_near);
+    place.variance = 2.0 * place.share * (1.0 - place.share) * square / line_deviation;
+    return place;
 }
 
 double posterior_fit_error(const wt_posterior *p, size_t curve)
@@ -315,33 +384,45 @@ void posterior_moduli(const wt_posterior *p, double x, bool measured,
         modulus[q] = mixture_interval(component[q], p->n_components);
 }
 
-/* Interval of an unknown of the spectrum times `scale`, minus the offset of the law times
- * `offset`. A fixed unknown has the value `given` and `variance`. */
-static wt_interval offset_unknown_interval(const wt_posterior *p, long column, double given,
-                                           double variance, double scale, double offset)
+/* Interval of two unknowns of the spectrum times `scale`, plus `given` with a variance, minus the
+ * offset of the law times `offset`. A negative column has no unknown. */
+static wt_interval offset_unknown_interval(const wt_posterior *p, const long column[2],
+                                           const double scale[2], double given, double variance,
+                                           double offset)
 {
     mixture_component component[MAX_COMPONENTS];
     double *by_unknown = p->scratch + p->frame.n_curves;
     memset(by_unknown, 0, p->frame.n_unknowns * sizeof *by_unknown);
-    if (column >= 0)
-        by_unknown[column] = scale;
+    for (int k = 0; k < 2; k++)
+        if (column[k] >= 0)
+            by_unknown[column[k]] += scale[k];
     for (size_t i = 0; i < p->n_components; i++) {
         const posterior_cell *cell = p->components[i].cell;
-        struct linear_quantity x = {-offset * p->components[i].law.unknown[0],
+        struct linear_quantity x = {given - offset * p->components[i].law.unknown[0],
                                     {-offset},
                                     cell_variance(p, cell, by_unknown, p->scratch),
                                     p->scratch};
-        x.value += scale * (column >= 0 ? cell->value[column] : given);
+        for (int k = 0; k < 2; k++)
+            x.value += column[k] >= 0 ? scale[k] * cell->value[column[k]] : 0.0;
         component[i] = component_moments(p, &p->components[i], &x);
         component[i].deviation = sqrt(component[i].deviation * component[i].deviation + variance);
     }
     return mixture_interval(component, p->n_components);
 }
 
-wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
+wt_interval posterior_a_to_law(const wt_posterior *p, const posterior_place *place)
 {
-    return offset_unknown_interval(p, p->frame.column_a[curve], p->frame.given_a[curve],
-                                   extra_variance(p, curve), 1.0 / M_LN10, 1.0);
+    const size_t curve[] = {place->cold, place->warm};
+    const double share[] = {1.0 - place->share, place->share},
+                 scale[] = {share[0] / M_LN10, share[1] / M_LN10};
+    long column[2];
+    double given = -place->law, variance = place->variance;
+    for (int k = 0; k < 2; k++) {
+        column[k] = p->frame.column_a[curve[k]];
+        given += column[k] < 0 ? scale[k] * p->frame.given_a[curve[k]] : 0.0;
+        variance += share[k] * share[k] * extra_variance(p, curve[k]);
+    }
+    return offset_unknown_interval(p, column, scale, given, variance, 1.0);
 }
 
 /* Returns the moments of a quantity with the value and these derivatives, without the law. */
@@ -407,7 +488,8 @@ wt_interval posterior_term(const wt_posterior *p, size_t term, double slope)
 {
     double mean[LAW_MAX_UNKNOWNS];
     posterior_mean_law(p, mean);
-    return interval_offset(offset_unknown_interval(p, (long)term, 0.0, 0.0, 1.0, slope * M_LN10),
+    return interval_offset(offset_unknown_interval(p, (long[]){(long)term, -1},
+                                                   (double[]){1.0, 0.0}, 0.0, 0.0, slope * M_LN10),
                            slope * M_LN10 * mean[0]);
 }
 
