@@ -6,7 +6,7 @@
 
 #include "cmd/cmd.h"
 
-enum { INDENT = 2, GAP = 3, NAME_MAX_WIDTH = 34, ROWS_SHOWN = 9 };
+enum { INDENT = 2, GAP = 3, NAME_MAX_WIDTH = 34, ROWS_SHOWN = 13 };
 
 typedef enum table_column {
     COLUMN_NAME,

@@ -147,11 +147,30 @@ static void add_points(const directions *d, size_t k, table_writer *t)
         TABLE_ADD(transverse_isotropy, t, factor_sets[k].words, d->points[k * d->n + i]);
 }
 
+/* Factors on the modulus that a set changes, of Ez, Ep and shear; equal ones as one. */
+static void describe_factors(const wt_transverse *t, size_t k, char *text, size_t size)
+{
+    const char *const moduli[] = {[LOSS] = "E″", [STORAGE] = "E′", [BOTH] = "E′ and E″"};
+    const double loss[] = {t->axial_loss, t->plane_loss, t->shear_loss},
+                 storage[] = {t->axial_storage, t->plane_storage, t->shear_storage};
+    static const char *const of[] = {"Ez", "Ep", "shear"};
+    clocale_print(text, size, "%s of", moduli[k]);
+    for (size_t i = 0; i < COUNT_OF(of); i++) {
+        const double first = factor_sets[k].storage ? storage[i] : loss[i];
+        clocale_append(text, size, "%s %s times %g", i > 0 ? "," : "", of[i], first);
+        if (k == BOTH && storage[i] != loss[i])
+            clocale_append(text, size, " and %g", loss[i]);
+    }
+    clocale_append(text, size, ": ");
+}
+
 static void describe_factor_change(const directions *d, size_t k, table_writer *t)
 {
-    char text[192];
+    char text[384];
+    describe_factors(&d->sliding->rubber->transverse, k, text, sizeof text);
+    const size_t used = strlen(text);
     describe_change(&d->points[k * d->n + d->n - 1], &d->points[d->n - 1], "the isotropic material",
-                    text, sizeof text);
+                    text + used, sizeof text - used);
     transverse_isotropy_set_text(t, factor_sets[k].key, text);
 }
 

@@ -184,6 +184,7 @@ wt_status layer_job_calibrate(const layer_context *context, wt_layer_job *calibr
 #define TIME_SPAN 100
 #define FIRST_OVER_LAST 1e-3
 #define LAST_OVER_FIRST 1e6
+#define LEAST_OVER_LAST 1e-15 /* an incubation far below this is none */
 
 /* Times from well before the first change to well after the last one. */
 double *layer_times_choose(const wt_layer_job *job, const wt_layer_steady_state *b, size_t *n)
@@ -199,8 +200,8 @@ double *layer_times_choose(const wt_layer_job *job, const wt_layer_steady_state 
         first = isfinite(last) && last > 0 ? FIRST_OVER_LAST * last : 1;
     if (!(last > 0) || !isfinite(last))
         last = LAST_OVER_FIRST * first;
-    first /= 2;
-    last = TIME_SPAN * fmax(last, first);
+    last = TIME_SPAN * fmax(last, first / 2);
+    first = fmax(first / 2, LEAST_OVER_LAST * last);
     for (size_t i = 0; i < *n; i++)
         time[i] = first * pow(last / first, (double)i / (double)(*n - 1));
     return time;

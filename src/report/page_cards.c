@@ -168,7 +168,14 @@ static void write_card(page_writer *page, const finding *f)
     text_add(&page->out, "</p>\n");
     write_card_warnings(page, f->question);
     if (value->range.widest != NULL)
-        text_html(&page->out, "<p class=\"widest\">Widest choice: %s.</p>\n", value->range.widest);
+        text_html(&page->out, "<p class=\"widest\">Widest choice: %s", value->range.widest);
+    if (value->range.widest != NULL && isfinite(f->rest) && f->remedy[0] != '\0')
+        text_format(&page->out,
+                    "; without it %.0f %% of the range remain: <a href=\"#certain\">what to "
+                    "measure</a>",
+                    100 * f->rest);
+    if (value->range.widest != NULL)
+        text_add(&page->out, ".</p>\n");
     write_card_links(page, f);
     text_add(&page->out, "</section>\n");
 }

@@ -21,7 +21,6 @@ static void add_range(text_buffer *out, const result_value *f)
 static void write_remedy_row(page_writer *page, const finding *f)
 {
     const result_value *const value = &f->value;
-    const char *const remedy = value->remedy != NULL ? value->remedy : value->range.remedy;
     text_html(&page->out, "<tr><th scope=\"row\">%s</th><td data-label=\"Held back by\">",
               finding_subject_text(f->question));
     if (value->remedy == NULL) {
@@ -30,7 +29,7 @@ static void write_remedy_row(page_writer *page, const finding *f)
     } else
         text_add(&page->out, "the 95 % interval");
     text_add(&page->out, "</td><td data-label=\"Do this\">");
-    text_typographic(&page->out, remedy);
+    text_typographic(&page->out, f->remedy);
     text_add(&page->out, "</td></tr>\n");
 }
 

@@ -304,6 +304,9 @@ typedef struct number_summary {
     choice_range widest;
 } number_summary;
 
+/* Relative scatter of replicates that are equal but for their arithmetic. */
+static const double rounding = 1e-12;
+
 static void add_measured_rows(const error_budget_run *b, case_quantity k, number_summary *v,
                               table_writer *t)
 {
@@ -316,7 +319,7 @@ static void add_measured_rows(const error_budget_run *b, case_quantity k, number
     }
     for (size_t i = 0; i < SOURCES; i++) {
         const double error = b->of[i].number[k].standard_error;
-        if (!b->of[i].computed || !(error > 0))
+        if (!b->of[i].computed || !(error > rounding * fabs(value)))
             continue;
         const double part = error / sum, share = part * part;
         add_budget_row(case_quantity_names[k], value,

@@ -1,6 +1,6 @@
 /* Figures of collected cases: a panel per sample with moduli against the rate and with force
- * curves, a panel per condition with friction, a panel per shared constant, and the 95 % region of
- * critical energy and wear rate by each method of determination.
+ * curves, a panel per condition with friction, a line per value of a shared constant, and the 95 %
+ * region of critical energy and wear rate by each method of determination.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
@@ -37,13 +37,18 @@ static panel_names find_collection_panels(const table_view *table, unsigned colu
 /* Common layout of all figures: adjacent panels with one scale. */
 typedef struct panel_grid {
     panel_names of;
-    unsigned panel, group; /* columns of the table */
-    unsigned data[4];
-    size_t n_data;
-    bool joined;   /* points with intervals, connected by lines */
-    bool signed_x; /* linear x axis */
+    unsigned panel; /* column of the table with the names of the panels */
+    bool joined;    /* points with intervals, connected by lines */
     int section[PANELS][DRAWING_GROUPS];
 } panel_grid;
+
+/* Column of the panels of each table; the others follow from the description of the figure. */
+static const struct {
+    const table_schema *table;
+    unsigned panel;
+} grids[] = {{&collected_modulus_schema, COLLECTED_MODULUS_SAMPLE},
+             {&collected_friction_schema, COLLECTED_FRICTION_CONDITION},
+             {&collected_force_schema, COLLECTED_FORCE_SAMPLE}};
 
 /* False if there is nothing to draw. */
 static bool find_panel_sections(figure_drawing *d, panel_grid *g)
@@ -51,11 +56,12 @@ static bool find_panel_sections(figure_drawing *d, panel_grid *g)
     d->x = d->y[0] = EMPTY_SPAN;
     for (size_t i = 0; i < g->of.n; i++)
         for (size_t k = 0; k < d->n_groups; k++) {
-            const row_filter rows = {{g->panel, g->group}, {g->of.name[i], d->groups[k]}, NULL};
+            const row_filter rows = {
+                {g->panel, d->figure->group}, {g->of.name[i], d->groups[k]}, NULL};
             g->section[i][k] =
-                drawing_section(d, d->table, d->groups[k], &rows, g->data, g->n_data, 2);
-            span_add_section(&d->x, d, g->section[i][k], 0, !g->signed_x);
-            for (size_t c = 1; c < g->n_data; c++)
+                drawing_section(d, d->table, d->groups[k], &rows, d->columns, d->n_columns, 2);
+            span_add_section(&d->x, d, g->section[i][k], 0, d->figure->x.scale == AXIS_LOG);
+            for (size_t c = 1; c < d->n_columns; c++)
                 span_add_section(&d->y[0], d, g->section[i][k], c, g->joined);
         }
     return d->status == WT_OK && !span_is_empty(&d->x) && !span_is_empty(&d->y[0]);
@@ -76,7 +82,7 @@ static void begin_grid(figure_drawing *d, const panel_grid *g)
                  lines = (g->of.n + columns - 1) / columns;
     /* margin for the legend above the first panel, two names in a line; the other panels have the
      * same size */
-    text_format(&d->script, "set tmargin %zu\nset multiplot layout %zu,%zu\n",
+    text_format(&d->script, "set tmargin %zu\nset key width 1\nset multiplot layout %zu,%zu\n",
                 3 + (d->n_groups + 1) / 2, lines, columns);
     drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
@@ -110,46 +116,20 @@ static void draw_collection_panel(figure_drawing *d, const panel_grid *g, size_t
     plot_end(d);
 }
 
-static void draw_grid(figure_drawing *d, panel_grid *g)
+static void draw_grid(figure_drawing *d)
 {
-    g->of = find_collection_panels(d->table, g->panel);
-    if (!find_panel_sections(d, g))
+    panel_grid g = {.joined = d->n_columns > 2};
+    for (size_t i = 0; i < COUNT_OF(grids); i++)
+        g.panel = grids[i].table == d->table->schema ? grids[i].panel : g.panel;
+    g.of = find_collection_panels(d->table, g.panel);
+    if (!find_panel_sections(d, &g))
         return;
-    begin_grid(d, g);
-    for (size_t i = 0; i < g->of.n; i++)
-        draw_collection_panel(d, g, i);
+    begin_grid(d, &g);
+    for (size_t i = 0; i < g.of.n; i++)
+        draw_collection_panel(d, &g, i);
     text_add(&d->script, "unset multiplot\n");
-    if (g->of.too_many)
+    if (g.of.too_many)
         text_format(&d->caption, " The first %d only.", PANELS);
-}
-
-static void draw_moduli(figure_drawing *d)
-{
-    panel_grid g = {.panel = COLLECTED_MODULUS_SAMPLE,
-                    .group = COLLECTED_MODULUS_PLACE,
-                    .data = {COLLECTED_MODULUS_RATE, COLLECTED_MODULUS_MODULUS,
-                             COLLECTED_MODULUS_MODULUS_LOW, COLLECTED_MODULUS_MODULUS_HIGH},
-                    .n_data = 4,
-                    .joined = true};
-    draw_grid(d, &g);
-}
-
-static void draw_friction(figure_drawing *d)
-{
-    panel_grid g = {.panel = COLLECTED_FRICTION_CONDITION,
-                    .group = COLLECTED_FRICTION_SAMPLE,
-                    .data = {COLLECTED_FRICTION_VELOCITY, COLLECTED_FRICTION_FRICTION},
-                    .n_data = 2};
-    draw_grid(d, &g);
-}
-
-static void draw_area(figure_drawing *d)
-{
-    panel_grid g = {.panel = COLLECTED_FRICTION_CONDITION,
-                    .group = COLLECTED_FRICTION_SAMPLE,
-                    .data = {COLLECTED_FRICTION_VELOCITY, COLLECTED_FRICTION_AREA_RATIO},
-                    .n_data = 2};
-    draw_grid(d, &g);
 }
 
 /* The upper panel shows the storage modulus, the lower panel the loss modulus. */
@@ -179,106 +159,108 @@ static void draw_ramps(figure_drawing *d)
     text_add(&d->script, "unset multiplot\n");
 }
 
-static void draw_force(figure_drawing *d)
-{
-    panel_grid g = {.panel = COLLECTED_FORCE_SAMPLE,
-                    .group = COLLECTED_FORCE_PLACE,
-                    .data = {COLLECTED_FORCE_INDENTATION, COLLECTED_FORCE_FORCE},
-                    .n_data = 2,
-                    .signed_x = true};
-    draw_grid(d, &g);
-}
-
 /* ---- shared constants ------------------------------------------------------------------------ */
 
-/* Rows of one constant and one name, shown in a panel. */
-typedef struct constant_panel {
+/* Rows of one constant and one name, below a line with both. */
+typedef struct constant_block {
     const char *constant, *of;
     int section;
-} constant_panel;
+    size_t line; /* of the heading */
+} constant_block;
 
-static size_t find_constants(figure_drawing *d, constant_panel shown[PANELS], bool *too_many)
+/* Lines of the figure, and sizes in parts of a panel of the style. */
+enum { CONSTANT_LINES = 120, CONSTANT_BLOCKS = 30 };
+static const double line_height = 0.05, axis_height = 0.25;
+
+typedef struct constant_blocks {
+    constant_block of[CONSTANT_BLOCKS];
+    size_t n, lines;
+    bool too_many;
+} constant_blocks;
+
+static void find_constants(figure_drawing *d, constant_blocks *b)
 {
     static const unsigned data[] = {SHARED_MEMBERS_NUMBER, SHARED_MEMBERS_RATIO,
                                     SHARED_MEMBERS_RATIO_LOW, SHARED_MEMBERS_RATIO_HIGH};
-    size_t n = 0;
-    *too_many = false;
     for (size_t row = 0; row < d->table->n_rows; row++) {
         const char *constant = shared_members_text(d->table, row, SHARED_MEMBERS_CONSTANT),
                    *of = shared_members_text(d->table, row, SHARED_MEMBERS_OF);
         bool seen = false;
-        for (size_t i = 0; i < n && !seen; i++)
-            seen = strcmp(shown[i].constant, constant) == 0 && strcmp(shown[i].of, of) == 0;
-        *too_many = *too_many || (!seen && n == PANELS);
-        if (seen || n == PANELS)
+        for (size_t i = 0; i < b->n && !seen; i++)
+            seen = strcmp(b->of[i].constant, constant) == 0 && strcmp(b->of[i].of, of) == 0;
+        b->too_many =
+            b->too_many || (!seen && (b->n == CONSTANT_BLOCKS || b->lines > CONSTANT_LINES));
+        if (seen || b->too_many)
             continue;
         const row_filter rows = {
             {SHARED_MEMBERS_CONSTANT, SHARED_MEMBERS_OF}, {constant, of}, NULL};
-        shown[n] = (constant_panel){constant, of,
-                                    drawing_section(d, d->table, constant, &rows, data, 4, 2)};
+        const int section = drawing_section(d, d->table, constant, &rows, data, 4, 2);
         for (size_t c = 1; c < 4; c++)
-            span_add_section(&d->y[0], d, shown[n].section, c, true);
-        n++;
+            span_add_section(&d->y[0], d, section, c, true);
+        b->of[b->n++] = (constant_block){constant, of, section, b->lines};
+        b->lines += 1 + (section == NO_SECTION ? 0 : drawing_row_count(d, section));
     }
-    return n;
 }
 
-/* Longest names below and above a panel of three in a row [bytes]. */
-enum { NAME = 22, HEADING = 32 };
+/* Longest name of a member [bytes]. */
+enum { NAME = 32 };
 
-static void name_members(figure_drawing *d, const constant_panel *panel)
+/* Writes the names of the members beside their lines and the heading above them, and the mark of
+ * the shared value. */
+static void draw_names(figure_drawing *d, const constant_blocks *b, size_t i)
 {
-    const char *before = "";
-    text_add(&d->script, "set xtics (");
+    const constant_block *block = &b->of[i];
+    const size_t next = i + 1 < b->n ? b->of[i + 1].line : b->lines;
+    text_buffer heading = {0};
+    text_format(&heading, "%s%s%s", block->constant, block->of[0] != '\0' ? ", " : ", all cases",
+                block->of);
+    text_add(&d->script, "set label ");
+    text_quoted(&d->script, text_string(&heading));
+    text_format(&d->script,
+                " at graph 0.01, first %zu left noenhanced\n"
+                "set arrow from x_unit, first %zu.5 to x_unit, first %zu.5 nohead back ls 12\n",
+                block->line, block->line, next - 1);
+    text_free(&heading);
     for (size_t row = 0; row < d->table->n_rows; row++) {
-        if (strcmp(shared_members_text(d->table, row, SHARED_MEMBERS_CONSTANT), panel->constant) !=
+        if (strcmp(shared_members_text(d->table, row, SHARED_MEMBERS_CONSTANT), block->constant) !=
                 0 ||
-            strcmp(shared_members_text(d->table, row, SHARED_MEMBERS_OF), panel->of) != 0)
+            strcmp(shared_members_text(d->table, row, SHARED_MEMBERS_OF), block->of) != 0)
             continue;
-        text_add(&d->script, before);
         text_buffer name = {0};
         text_file_name(&name, shared_members_text(d->table, row, SHARED_MEMBERS_MEMBER), NAME);
+        text_add(&d->script, "set ytics add (");
         text_tic_label(&d->script, text_string(&name));
         text_free(&name);
-        text_format(&d->script, " %.0f", shared_members_get(d->table, row, SHARED_MEMBERS_NUMBER));
-        before = ", ";
+        text_format(&d->script, " %.0f)\n",
+                    (double)block->line + shared_members_get(d->table, row, SHARED_MEMBERS_NUMBER));
     }
-    text_add(&d->script, ") noenhanced rotate by -40 scale 0\n");
 }
 
+/* One below the other, as the names of cases are long. */
 static void draw_constants(figure_drawing *d)
 {
-    constant_panel shown[PANELS];
-    bool too_many;
+    constant_blocks b = {.n = 0};
     d->y[0] = EMPTY_SPAN;
-    const size_t n = find_constants(d, shown, &too_many);
+    find_constants(d, &b);
     if (d->status != WT_OK || span_is_empty(&d->y[0]))
         return;
-    const size_t columns = set_grid_size(d, n, 1), lines = (n + columns - 1) / columns;
+    d->height = axis_height + line_height * (double)b.lines;
     text_format(&d->script,
-                "set bmargin 7\nset rmargin 6\nset multiplot layout %zu,%zu\n"
-                "unset key\n",
-                lines, columns);
-    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
-    for (size_t i = 0; i < n; i++) {
-        text_buffer of = {0};
-        text_file_name(&of, shown[i].of, HEADING);
-        text_add(&d->script, "set title ");
-        text_quoted(&d->script, shown[i].constant);
-        text_add(&d->script, ".\"\\n\".");
-        text_quoted(&d->script, text_string(&of));
-        text_add(&d->script, " noenhanced\n");
-        text_free(&of);
-        text_format(&d->script, "set xrange [0.5:%zu.5]\n", drawing_row_count(d, shown[i].section));
-        name_members(d, &shown[i]);
-        plot_expression(d, "y_unit with lines ls 12");
-        plot_item(d, shown[i].section,
-                  "1:($2*y_unit):($3*y_unit):($4*y_unit) with yerrorbars ls 1");
-        plot_end(d);
+                "unset key\nunset lmargin\nset ytics () noenhanced scale 0\n"
+                "set yrange [%zu.5:-0.8]\n",
+                b.lines - 1);
+    drawing_axis(d, "x", &d->figure->y[0], NULL, d->y[0]);
+    for (size_t i = 0; i < b.n; i++)
+        draw_names(d, &b, i);
+    for (size_t i = 0; i < b.n; i++) {
+        plot_item(d, b.of[i].section,
+                  "($2*x_unit):(%zu+$1):($3*x_unit):($4*x_unit) with xerrorbars ls 1",
+                  b.of[i].line);
+        plot_key(d, NULL);
     }
-    text_add(&d->script, "unset multiplot\n");
-    if (too_many)
-        text_format(&d->caption, " The first %d only.", PANELS);
+    plot_end(d);
+    if (b.too_many)
+        text_format(&d->caption, " The first %zu only.", b.n);
 }
 
 static void caption_collected_friction(figure_drawing *d)
@@ -300,7 +282,7 @@ const figure_description figures_collection[] = {
      .caption_text =
          "Geometric mean of the modulus at each indentation rate, a panel for each sample "
          "(bars: 95 % intervals, with what is stated of cantilevers and tips).",
-     .draw = draw_moduli},
+     .draw = draw_grid},
     {.name = "collected_friction",
      .title = "Friction of all samples against velocity",
      .table = &collected_friction_schema,
@@ -313,7 +295,7 @@ const figure_description figures_collection[] = {
      .caption_text =
          "Friction coefficient of every sample without the modified layer, a panel for each "
          "condition.",
-     .draw = draw_friction,
+     .draw = draw_grid,
      .caption = caption_collected_friction},
     {.name = "collected_area",
      .title = "Contact area of all samples against velocity",
@@ -327,7 +309,7 @@ const figure_description figures_collection[] = {
      .caption_text =
          "Real over nominal contact area of every sample without the modified layer, a panel for "
          "each condition.",
-     .draw = draw_area},
+     .draw = draw_grid},
     {.name = "collected_ramp",
      .title = "Moduli of all samples against temperature",
      .table = &collected_ramp_schema,
@@ -355,7 +337,7 @@ const figure_description figures_collection[] = {
      .caption_text =
          "Loading part of the curve with the median modulus of each group, counted from its "
          "contact point, a panel for each sample.",
-     .draw = draw_force},
+     .draw = draw_grid},
     {.name = "shared_constants",
      .title = "Constants that cases may have in common",
      .table = &shared_members_schema,
@@ -364,9 +346,9 @@ const figure_description figures_collection[] = {
      .curves = {CURVE(SHARED_MEMBERS_RATIO, OWN, .with_errors = true)},
      .empty_reason = "no two cases tell a constant",
      .caption_text =
-         "Value of each case over the one that they share, a panel for each constant and what "
-         "it may be common to (bars: intervals that hold together in 95 %). Whether one value "
-         "suffices is in the table.",
+         "Value of each case over the one that they share, for each constant and what it may be "
+         "common to (bars: intervals that hold together in 95 %; dotted: the shared value). "
+         "Whether one value suffices is in the table.",
      .draw = draw_constants},
     {.name = NULL},
 };

@@ -31,9 +31,13 @@ double truth_normal(uint64_t *state);
  * rate by `travel`, and back. */
 typedef struct truth_press {
     const wt_tip *tip;
-    double spring_constant, travel, rate, factor;
+    double spring_constant, travel, rate, factor, temperature;
 } truth_press;
 enum { TRUTH_STEPS = 400 }; /* each way */
+/* Travel that presses to about a depth: by |E*| at 1/(loading time). */
+double truth_travel(const wt_material *material, const truth_press *p, double depth);
+/* Force at a time in steps. */
+double truth_force_after(const double force[2 * TRUTH_STEPS + 1], double steps);
 /* Forces [N] at the ends of the steps. */
 void truth_indent(const truth_press *p, const wt_rubber *rubber, double force[2 * TRUTH_STEPS + 1]);
 

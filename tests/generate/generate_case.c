@@ -11,26 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* splitmix64 and Box-Muller. */
-static double uniform(uint64_t *state)
-{
-    uint64_t z = (*state += UINT64_C(0x9e3779b97f4a7c15));
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return ((double)((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-53;
-}
-
-double truth_normal(uint64_t *state)
-{
-    double radius = sqrt(-2 * log(uniform(state)));
-    return radius * cos(2 * 3.14159265358979323846 * uniform(state));
-}
-
-double truth_vertical(double temperature)
-{
-    return TRUTH_REFERENCE / temperature;
-}
-
 /* Two terms for each decade from 1e-8 s to 1e3 s: the transition, and a slow process on the
  * plateau, without which horizontal and vertical shifts could not be told apart there. */
 wt_rubber truth_rubber(double relaxation_time[TRUTH_TERMS], double modulus[TRUTH_TERMS])

@@ -39,32 +39,6 @@ static wt_tip the_tip(void)
     return tip;
 }
 
-/* |E*| of the rubber at a frequency and the temperature of the curves. */
-static double complex_modulus(const wt_material *material, double omega)
-{
-    double storage, loss;
-    material->law->modulus(material, &omega, 1, &storage, &loss);
-    return hypot(storage, loss);
-}
-
-/* Travel of the piezo from contact that presses to about DEPTH: by |E*| at 1/(loading time). */
-static double travel_at(const wt_material *material, const wt_tip *tip, double rate, double factor)
-{
-    double travel = DEPTH, g, slope;
-    wt_contact_function(tip, DEPTH, &g, &slope);
-    for (int i = 0; i < 60; i++)
-        travel = DEPTH + factor * complex_modulus(material, rate / travel) / (1 - 0.25) * g /
-                             SPRING_CONSTANT;
-    return travel;
-}
-
-/* At a time in steps. */
-static double force_after(const double force[2 * TRUTH_STEPS + 1], double steps)
-{
-    const int i = (int)fmin(fmax(steps, 0), 2 * TRUTH_STEPS - 1);
-    return force[i] + fmin(fmax(steps - i, 0), 1) * (force[i + 1] - force[i]);
-}
-
 static void fill_curve(buffers *b, size_t i, const truth_press *p, const wt_rubber *rubber,
                        uint64_t *seed)
 {
@@ -75,13 +49,14 @@ static void fill_curve(buffers *b, size_t i, const truth_press *p, const wt_rubb
     for (size_t k = 0; k < APPROACH; k++) {
         double z = end * (double)k / (APPROACH - 1);
         b->height[i][0][k] = top - z;
-        b->force[i][0][k] = offset + tilt * z + force_after(force, (z - contact) / step) +
+        b->force[i][0][k] = offset + tilt * z + truth_force_after(force, (z - contact) / step) +
                             NOISE * truth_normal(seed);
     }
     for (size_t k = 0; k < RETRACT; k++) {
         double back = end * (double)k / (RETRACT - 1), z = end - back;
         b->height[i][1][k] = top - z;
-        b->force[i][1][k] = offset + tilt * z + force_after(force, TRUTH_STEPS + back / step) +
+        b->force[i][1][k] = offset + tilt * z +
+                            truth_force_after(force, TRUTH_STEPS + back / step) +
                             NOISE * truth_normal(seed);
     }
     double duration = end / p->rate;
@@ -128,8 +103,12 @@ int generate_curves(const wt_rubber *rubber, const char *folder, uint64_t varian
                 double rate = piezo_rate[i / COLUMNS];
                 double factor =
                     (g == 1 ? ratio : 1) * exp(of_spot + CURVE_SCATTER * truth_normal(&seed));
-                truth_press press = {&tip, SPRING_CONSTANT, travel_at(material, &tip, rate, factor),
-                                     rate, factor};
+                truth_press press = {.tip = &tip,
+                                     .spring_constant = SPRING_CONSTANT,
+                                     .rate = rate,
+                                     .factor = factor,
+                                     .temperature = TRUTH_TEMPERATURE};
+                press.travel = truth_travel(material, &press, DEPTH);
                 fill_curve(b, i, &press, rubber, &seed);
             }
             snprintf(name, sizeof name, "%s-%d.jpk-force-map", zone[g], spot + 1);

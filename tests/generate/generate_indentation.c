@@ -7,17 +7,61 @@
 
 #include <math.h>
 
-/* E(t) at the temperature of the curves, as its mean from one time to another. */
-static double mean_relaxation(const wt_rubber *rubber, double from, double to)
+/* splitmix64 and Box-Muller. */
+static double uniform(uint64_t *state)
 {
-    const double a = pow(10, wt_wlf_log_shift(&rubber->law.wlf, TRUTH_TEMPERATURE));
+    uint64_t z = (*state += UINT64_C(0x9e3779b97f4a7c15));
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return ((double)((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-53;
+}
+
+double truth_normal(uint64_t *state)
+{
+    double radius = sqrt(-2 * log(uniform(state)));
+    return radius * cos(2 * 3.14159265358979323846 * uniform(state));
+}
+
+double truth_vertical(double temperature)
+{
+    return TRUTH_REFERENCE / temperature;
+}
+
+/* |E*| of the rubber at a frequency and the temperature of the curves. */
+static double complex_modulus(const wt_material *material, double omega)
+{
+    double storage, loss;
+    material->law->modulus(material, &omega, 1, &storage, &loss);
+    return hypot(storage, loss);
+}
+
+double truth_travel(const wt_material *material, const truth_press *p, double depth)
+{
+    double travel = depth, g, slope;
+    wt_contact_function(p->tip, depth, &g, &slope);
+    for (int i = 0; i < 60; i++)
+        travel = depth + p->factor * complex_modulus(material, p->rate / travel) / (1 - 0.25) * g /
+                             p->spring_constant;
+    return travel;
+}
+
+double truth_force_after(const double force[2 * TRUTH_STEPS + 1], double steps)
+{
+    const int i = (int)fmin(fmax(steps, 0), 2 * TRUTH_STEPS - 1);
+    return force[i] + fmin(fmax(steps - i, 0), 1) * (force[i + 1] - force[i]);
+}
+
+/* E(t) at a temperature, as its mean from one time to another. */
+static double mean_relaxation(const wt_rubber *rubber, double temperature, double from, double to)
+{
+    const double a = pow(10, wt_wlf_log_shift(&rubber->law.wlf, temperature));
     double shear = rubber->prony.equilibrium_modulus;
     for (size_t k = 0; k < rubber->prony.n; k++) {
         const double tau = a * rubber->prony.relaxation_time[k];
         shear += rubber->prony.modulus[k] * tau / (to - from) * exp(-from / tau) *
                  -expm1((from - to) / tau);
     }
-    return 2 * (1 + rubber->poisson_ratio) * shear / truth_vertical(TRUTH_TEMPERATURE);
+    return 2 * (1 + rubber->poisson_ratio) * shear / truth_vertical(temperature);
 }
 
 static double force_at(const truth_press *p, double depth)
@@ -80,7 +124,7 @@ void truth_indent(const truth_press *p, const wt_rubber *rubber, double force[2 
     const double step = p->travel / p->rate / TRUTH_STEPS;
     int top = 0, t1 = 0; /* steps of the way in, once that is over */
     for (int i = 0; i < 2 * TRUTH_STEPS; i++)
-        e[i] = factor * mean_relaxation(rubber, i * step, (i + 1) * step);
+        e[i] = factor * mean_relaxation(rubber, p->temperature, i * step, (i + 1) * step);
     force[0] = 0;
     for (int i = 1; i <= 2 * TRUTH_STEPS; i++) {
         const double travel = p->travel * (1 - fabs(1 - (double)i / TRUTH_STEPS));

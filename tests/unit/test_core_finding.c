@@ -120,6 +120,62 @@ static void test_change_without_a_layer(void **state)
     }
 }
 
+/* The widest choice, what settles it, how much of the range the others leave, and the curves that
+ * would tell a thickness. */
+static void test_what_to_measure(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *choice, *remedy;
+        double thickness;
+    } rows[] = {{"as used", "", 3e-6},
+                {"one", "Measure one.", 2e-6},
+                {"other", "Measure other.", 12e-6},
+                {"other", "Measure other.", 6e-6},
+                {"third", "Measure third.", 4e-6}};
+    wt_error err = WT_ERROR_INIT;
+    table_writer w = table_begin(&what_if_schema, &err);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        table_row(&w);
+        for (size_t c = 0; c < what_if_schema.n_columns; c++)
+            if (what_if_schema.columns[c].kind == SCHEMA_TEXT)
+                what_if_put_text(&w, (what_if_column)c,
+                                 c == WHAT_IF_CHOICE   ? rows[i].choice
+                                 : c == WHAT_IF_REMEDY ? rows[i].remedy
+                                                       : "");
+            else
+                what_if_put(&w, (what_if_column)c,
+                            c == WHAT_IF_THICKNESS ? rows[i].thickness : (double)NAN);
+    }
+    wt_table *table = NULL;
+    if (table_end(&w, &table) != WT_OK)
+        fail_msg("%s: %s", err.place, err.message);
+    wt_table *const layer = table_of_key("layer", "balance_thickness", 3e-6, 1e-6, "m"),
+                    *const curves = wt_table_new("track_layer", "curves");
+    assert_int_equal(wt_table_set_key(curves, "settled_by", "deeper curves", &err), WT_OK);
+    result_value_tables tables = {
+        .comparison = {.schema = &comparison_schema, .suffix = ""},
+        .friction = {.schema = &friction_schema, .suffix = ""},
+        .layer = {.table = layer, .schema = &layer_schema, .suffix = ""},
+        .track_layer = {.table = curves, .schema = &track_layer_schema, .suffix = ""}};
+    assert_int_equal(table_bind(table, &what_if_schema, "", &tables.what_if, NULL), WT_OK);
+    finding findings[FINDING_QUESTIONS];
+    assert_true(findings_compute(&tables, findings));
+    const finding *f = &findings[FINDING_LAYER_THICKNESS];
+    assert_string_equal(f->value.range.widest, "other");
+    assert_near(f->value.range.rest_low, 2e-6, 0);
+    assert_near(f->value.range.rest_high, 4e-6, 0);
+    assert_near(f->rest, 0.2, 1e-12);
+    assert_string_equal(f->remedy,
+                        "Measure other. If it confirms the choice that was made, 20 % of the range "
+                        "over model choices remain: 2.00 um to 4.00 um. For a thickness by "
+                        "indentation: deeper curves.");
+    assert_string_equal(findings[FINDING_TRACK_DIFFERS].remedy, "");
+    wt_table_free(table);
+    wt_table_free(layer);
+    wt_table_free(curves);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -128,6 +184,7 @@ int main(void)
         cmocka_unit_test(test_former_answer),
         cmocka_unit_test(test_verdicts),
         cmocka_unit_test(test_change_without_a_layer),
+        cmocka_unit_test(test_what_to_measure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

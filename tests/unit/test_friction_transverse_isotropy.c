@@ -87,7 +87,12 @@ static void test_ends(void **state)
     for (size_t i = 0; i < 3; i++)
         assert_near(at(directed, "both", i, "hysteresis"),
                     number_cell(plain.friction, i, "hysteresis"), 1e-9);
-    assert_non_null(strstr(wt_table_key(directed, "by_loss"), "hysteresis friction +"));
+    const char *by_loss = wt_table_key(directed, "by_loss"),
+               *by_both = wt_table_key(directed, "by_both");
+    assert_non_null(strstr(by_loss, "hysteresis friction +"));
+    assert_ptr_equal(strstr(by_loss, "E″ of Ez times 1.5, Ep times 1, shear times 1: at "),
+                     by_loss);
+    assert_ptr_equal(strstr(by_both, "E′ and E″ of Ez times 1 and 1.5, Ep times 1,"), by_both);
     wt_table_free(plain.friction);
     wt_table_free(directed);
 }

@@ -604,7 +604,7 @@ static void test_cases_beside_one_another(void **state)
                   {.table = "collected_friction", .keep = first_row}},
                  {"shared_members",
                   "out/plots/shared_constants.gp",
-                  "...below_a_panel.h5, bulk",
+                  "...s_no_room_below_a_panel.h5, bulk",
                   {.table = "shared_members", .edit = long_name}},
                  {"contact_area",
                   "out/plots/contact_area.gp",

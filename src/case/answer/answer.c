@@ -88,11 +88,10 @@ static void add_finding(table_writer *t, const flow_plan *plan, const finding *f
         reason = explain_outcome(plan, stage, plan->full_outcome[stage],
                                  plan->lower_level_reason[stage]);
     const result_value *const v = &f->value;
-    const char *const remedy = v->remedy != NULL ? v->remedy : v->range.remedy;
     TABLE_ADD(answer, t, finding_question_text(f->question), finding_verdict_text(f->verdict),
               finding_basis_text(f->basis), v->number.value, v->low, v->high, v->range.low,
               v->range.high, v->number.unit, v->range.widest,
-              reason.text[0] != '\0' ? reason.text : f->sentence, remedy);
+              reason.text[0] != '\0' ? reason.text : f->sentence, f->remedy);
 }
 
 wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *result,

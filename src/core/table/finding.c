@@ -1,5 +1,7 @@
 /* Computes the findings from the result values. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/finding.h"
+#include "core/base/clocale.h"
+#include "core/table/result_rows_parts.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -90,6 +92,31 @@ static void write_sentence(finding *f)
                  stated + 3);
 }
 
+/* What to measure for the widest choice, how much of the range over model choices would remain,
+ * and for a thickness the indentations that would tell it. */
+static void write_remedy(const result_value_tables *t, finding *f)
+{
+    const result_value *v = &f->value;
+    const result_value_range *r = &v->range;
+    const char *const stated = v->remedy != NULL ? v->remedy : r->remedy;
+    const char *const unit = v->neutral == 0 ? "%" : v->number.unit;
+    f->rest = (r->rest_high - r->rest_low) / (r->high - r->low);
+    snprintf(f->remedy, sizeof f->remedy, "%s", stated != NULL ? stated : "");
+    if (stated == NULL || v->remedy != NULL || !isfinite(f->rest))
+        return;
+    clocale_append(f->remedy, sizeof f->remedy,
+                   " If it confirms the choice that was made, %.0f %% of the range over model "
+                   "choices remain: %s to %s.",
+                   100 * f->rest, rows_short(r->rest_low, unit).value,
+                   rows_short(r->rest_high, unit).value);
+    const char *const curves =
+        f->question == FINDING_LAYER_THICKNESS && t->track_layer.table != NULL
+            ? track_layer_key_text(&t->track_layer, TRACK_LAYER_KEY_SETTLED_BY)
+            : NULL;
+    if (curves != NULL && curves[0] != '\0')
+        clocale_append(f->remedy, sizeof f->remedy, " For a thickness by indentation: %s.", curves);
+}
+
 bool findings_compute(const result_value_tables *t, finding findings[FINDING_QUESTIONS])
 {
     finding *differs = &findings[FINDING_TRACK_DIFFERS],
@@ -123,6 +150,8 @@ bool findings_compute(const result_value_tables *t, finding findings[FINDING_QUE
             findings[i].sign = result_value_sign(&findings[i].value);
     for (size_t i = 0; i < FINDING_QUESTIONS; i++)
         write_sentence(&findings[i]);
+    for (size_t i = 0; i < FINDING_QUESTIONS; i++)
+        write_remedy(t, &findings[i]);
     return t->comparison.table != NULL || t->layer.table != NULL;
 }
 

@@ -19,8 +19,10 @@ typedef struct finding {
     finding_basis basis;
     sign_verdict sign;  /* side of the reference; SIGN_UNDECIDED unless the verdict is yes */
     bool as_if_layer;   /* true if the track is not shown to differ, so that a layer is assumed */
-    result_value value; /* number, interval, range over model choices, remedy */
+    result_value value; /* number, interval, range over model choices */
+    double rest;        /* share of the range over model choices without the widest; NaN: unknown */
     char sentence[400]; /* explains the verdict */
+    char remedy[1000];  /* what to measure next, and what that is worth; "" if unknown */
 } finding;
 
 /* Computes the findings in the order of the questions; those without a number are "not computed".

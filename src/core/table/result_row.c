@@ -39,7 +39,7 @@ static void add_finding_number(rows_source *s, const finding *f)
 
 bool result_rows_of_findings(const wt_result *result, result_rows *rows)
 {
-    finding findings[FINDING_QUESTIONS];
+    finding *const findings = rows->findings;
     rows_source s = {.result = result, .rows = rows};
     *rows = (result_rows){.n = 0};
     if (result_values_bind(result, &s.values, NULL) != WT_OK) {
@@ -62,8 +62,7 @@ bool result_rows_of_findings(const wt_result *result, result_rows *rows)
             rows_note(row, "as if there were a layer");
         rows_reason(row, finding_basis_text(f->basis),
                     stated ? answer_text(&answer, i, ANSWER_ANSWER) : f->sentence);
-        rows_reason(row, "to settle it",
-                    f->value.remedy != NULL ? f->value.remedy : f->value.range.remedy);
+        rows_reason(row, "to settle it", f->remedy);
         add_finding_number(&s, f);
     }
     rows_of_records(&s);

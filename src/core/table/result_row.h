@@ -3,6 +3,7 @@
 #ifndef WT_CORE_TABLE_RESULT_ROW_H
 #define WT_CORE_TABLE_RESULT_ROW_H
 
+#include "core/table/finding.h"
 #include "core/table/result_value.h"
 #include "weartrack/core.h"
 
@@ -24,7 +25,8 @@ row_number_text row_number_format(const row_number *number);
 
 typedef enum result_row_kind { RESULT_ROW_NUMBER, RESULT_ROW_TEXT } result_row_kind;
 
-/* A whole text behind a row, such as the reason of a verdict; borrowed from the result. */
+/* A whole text behind a row, such as the reason of a verdict; borrowed from the result or
+ * the rows. */
 typedef struct result_row_reason {
     const char *heading, *text;
 } result_row_reason;
@@ -44,6 +46,7 @@ typedef struct result_rows {
     char heading[160]; /* "0.3 m/s, 400 kPa, 30.0 degC", or "" */
     result_row *rows;
     size_t n;
+    finding findings[FINDING_QUESTIONS]; /* of a result that has some */
 } result_rows;
 
 /* Computes the rows of a result, which must exist as long as the rows. A table that lacks a

@@ -307,6 +307,32 @@ static bool add_collection(rows_source *s, const table_view *v)
     return any;
 }
 
+/* How many pairs of ratios differ, and those that do with the softer track. */
+static void add_ratio_pairs(rows_source *s, const table_view *v)
+{
+    char said[64];
+    const double pairs = (double)v->n_rows,
+                 differ = ratio_pairs_value(v, RATIO_PAIRS_KEY_DIFFERENT).value,
+                 undecided = ratio_pairs_value(v, RATIO_PAIRS_KEY_UNDECIDED).value;
+    clocale_print(said, sizeof said, "%.0f of %.0f pairs", differ, pairs);
+    result_row *row = rows_add_text(s, 0, said, "ratios that differ");
+    rows_note(row, "%.0f alike, %.0f undecided", pairs - differ - undecided, undecided);
+    rows_reason(row, "how to decide the others",
+                ratio_pairs_key_text(v, RATIO_PAIRS_KEY_SETTLED_BY));
+    for (size_t i = 0; i < v->n_rows; i++) {
+        if (ratio_pairs_enum(v, i, RATIO_PAIRS_DIFFER) != VERDICT_YES)
+            continue;
+        const double ratio = ratio_pairs_get(v, i, RATIO_PAIRS_RATIO);
+        const char *first = ratio_pairs_text(v, i, RATIO_PAIRS_FIRST),
+                   *second = ratio_pairs_text(v, i, RATIO_PAIRS_SECOND);
+        row = rows_add_number(s, 1,
+                              rows_number(ratio, ratio_pairs_get(v, i, RATIO_PAIRS_RATIO_LOW),
+                                          ratio_pairs_get(v, i, RATIO_PAIRS_RATIO_HIGH), "1"),
+                              "%s: %s / %s", ratio_pairs_text(v, i, RATIO_PAIRS_OF), first, second);
+        rows_note(row, "softer against its bulk: %s", ratio > 1 ? second : first);
+    }
+}
+
 /* The largest friction of each case, and the velocity at which it is. */
 static void add_collected_friction(rows_source *s, const table_view *v)
 {
@@ -396,6 +422,8 @@ void rows_of_collection(rows_source *s)
         indented = add_collection(s, &view);
     if (!indented && rows_bind(s, &collected_friction_schema, &view))
         add_collected_friction(s, &view);
+    if (rows_bind(s, &ratio_pairs_schema, &view))
+        add_ratio_pairs(s, &view);
     if (rows_bind(s, &shared_constants_schema, &view))
         add_constants(s, &view);
     if (rows_bind(s, &shared_pairs_schema, &view))

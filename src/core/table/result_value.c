@@ -17,7 +17,8 @@ static const struct {
                    {&comparison_schema, offsetof(result_value_tables, comparison)},
                    {&friction_schema, offsetof(result_value_tables, friction)},
                    {&layer_schema, offsetof(result_value_tables, layer)},
-                   {&what_if_schema, offsetof(result_value_tables, what_if)}};
+                   {&what_if_schema, offsetof(result_value_tables, what_if)},
+                   {&track_layer_schema, offsetof(result_value_tables, track_layer)}};
 
 const char *result_values_table(size_t i)
 {
@@ -50,17 +51,18 @@ static result_value empty_result_value(const char *name, const char *words, wt_q
                                        const char *unit)
 {
     const double unknown = (double)NAN;
-    return (result_value){.name = name,
-                          .words = words,
-                          .quantity = quantity,
-                          .number = {unknown, unknown, unknown, unit},
-                          .low = unknown,
-                          .high = unknown,
-                          .neutral = unknown,
-                          .range = {.low = unknown, .high = unknown},
-                          .frequency = {unknown, unknown},
-                          .velocity = unknown,
-                          .pressure = unknown};
+    return (result_value){
+        .name = name,
+        .words = words,
+        .quantity = quantity,
+        .number = {unknown, unknown, unknown, unit},
+        .low = unknown,
+        .high = unknown,
+        .neutral = unknown,
+        .range = {.low = unknown, .high = unknown, .rest_low = unknown, .rest_high = unknown},
+        .frequency = {unknown, unknown},
+        .velocity = unknown,
+        .pressure = unknown};
 }
 
 /* ---- groups ---------------------------------------------------------------------------------- */
@@ -165,18 +167,23 @@ static double what_if_relative_change(const table_view *what_if, size_t row)
     return what_if_with_layer(what_if, row) / what_if_total(what_if, row) - 1;
 }
 
-/* Returns the change of the number due to one model choice. The rows of a choice are adjacent. */
-static double choice_effect(const table_view *what_if, size_t *row, what_if_number *number)
+/* Smallest and largest number so far and of the rows from..to. */
+static void extend_range(const table_view *what_if, what_if_number *number, size_t from, size_t to,
+                         double *low, double *high)
 {
-    const char *choice = what_if_text(what_if, *row, WHAT_IF_CHOICE);
-    double low = number(what_if, 0), high = low;
-    for (;
-         *row < what_if->n_rows && strcmp(what_if_text(what_if, *row, WHAT_IF_CHOICE), choice) == 0;
-         ++*row) {
-        low = fmin(low, number(what_if, *row)); /* fmin and fmax ignore NaN */
-        high = fmax(high, number(what_if, *row));
+    for (size_t i = from; i < to; i++) {
+        *low = fmin(*low, number(what_if, i)); /* fmin and fmax ignore NaN */
+        *high = fmax(*high, number(what_if, i));
     }
-    return high - low;
+}
+
+/* The rows of a choice are adjacent. Returns the row after those of the choice of row i. */
+static size_t next_choice(const table_view *what_if, size_t i)
+{
+    const char *choice = what_if_text(what_if, i, WHAT_IF_CHOICE);
+    while (i < what_if->n_rows && strcmp(what_if_text(what_if, i, WHAT_IF_CHOICE), choice) == 0)
+        i++;
+    return i;
 }
 
 /* Computes the range over model choices. The first row has the choices that were used. A range
@@ -184,7 +191,8 @@ static double choice_effect(const table_view *what_if, size_t *row, what_if_numb
 static result_value_range model_choice_range(const table_view *what_if, what_if_number *number,
                                              double error)
 {
-    result_value_range r = {.low = (double)NAN, .high = (double)NAN};
+    const double none = (double)NAN;
+    result_value_range r = {.low = none, .high = none, .rest_low = none, .rest_high = none};
     size_t low = 0, high = 0;
     double widest = 0;
     if (what_if->n_rows < 2 || !isfinite(number(what_if, 0)))
@@ -196,15 +204,20 @@ static result_value_range model_choice_range(const table_view *what_if, what_if_
     }
     if (low == high || number(what_if, high) - number(what_if, low) <= error)
         return r; /* for example an observed thickness */
-    for (size_t i = 1; i < what_if->n_rows;) {
-        const char *choice = what_if_text(what_if, i, WHAT_IF_CHOICE),
-                   *remedy = what_if_text(what_if, i, WHAT_IF_REMEDY);
-        const double reach = choice_effect(what_if, &i, number);
-        if (reach > widest) {
-            widest = reach;
-            r.widest = choice;
-            r.remedy = remedy != NULL && remedy[0] != '\0' ? remedy : NULL;
-        }
+    for (size_t i = 1, next; i < what_if->n_rows; i = next) {
+        const char *remedy = what_if_text(what_if, i, WHAT_IF_REMEDY);
+        const double used = number(what_if, 0);
+        double least = used, most = used;
+        next = next_choice(what_if, i);
+        extend_range(what_if, number, i, next, &least, &most);
+        if (most - least <= widest)
+            continue;
+        widest = most - least;
+        r.widest = what_if_text(what_if, i, WHAT_IF_CHOICE);
+        r.remedy = remedy != NULL && remedy[0] != '\0' ? remedy : NULL;
+        r.rest_low = r.rest_high = used;
+        extend_range(what_if, number, 1, i, &r.rest_low, &r.rest_high);
+        extend_range(what_if, number, next, what_if->n_rows, &r.rest_low, &r.rest_high);
     }
     r.low = number(what_if, low);
     r.high = number(what_if, high);

@@ -12,7 +12,8 @@ typedef struct result_value_range {
     double low, high; /* NaN: no choice was tried, or none changes the number */
     const char *
         widest; /* the choice with the largest effect, which a measurement should decide; or NULL */
-    const char *remedy; /* what to measure for the widest choice, or NULL */
+    const char *remedy;         /* what to measure for the widest choice, or NULL */
+    double rest_low, rest_high; /* range of the other choices; NaN if unknown */
 } result_value_range;
 
 typedef struct result_value {
@@ -39,7 +40,7 @@ typedef enum sign_verdict { SIGN_BELOW = -1, SIGN_UNDECIDED = 0, SIGN_ABOVE = 1 
 
 /* Bound tables from which result values are computed. Each table may be absent. */
 typedef struct result_value_tables {
-    table_view groups, budget, rates, comparison, friction, layer, what_if;
+    table_view groups, budget, rates, comparison, friction, layer, what_if, track_layer;
 } result_value_tables;
 
 /* Returns the name of table i, NULL after the last one. */

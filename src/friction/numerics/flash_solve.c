@@ -353,7 +353,7 @@ static search_result iterate_to_fixed_point(flash_map *map, double goal, double 
  * regular for |arg k| below pi/4, plus the waves below and above the lattice. */
 static double lattice_error(const flash_grid *grid, double rise)
 {
-    return rise * (0.1 * exp(-0.5 * M_PI * M_PI / grid->step) + 2 * exp(-grid->below));
+    return rise * (0.1 * exp(-0.5 * M_PI * M_PI / grid->step) + 4 * exp(-grid->below));
 }
 
 static double sum_weighted(const flash_grid *grid, const double *value)

@@ -192,9 +192,9 @@ static void create_grids(wt_friction_workspace *ws, flash_law *law)
         flash_grid *grid = &law->grid[k];
         const double digits = -log(fmax(law->tolerance, min_tolerance));
         grid->step = ladders[ladder].step[k];
-        grid->below = digits + 3; /* the neglected part falls as k below the lattice and as k^-5
-                                     above it */
-        grid->first = log(ws->roughness->q1) + grid->below / 5;
+        grid->below = digits + 3; /* the neglected part falls as k below the lattice; above it as
+                                     k^-5, or k^-3 where the heat stays where it is made */
+        grid->first = log(ws->roughness->q1) + grid->below / 3;
         grid->rule = gauss_rule_get(ladders[ladder].nodes[k]);
         fill_grid(ws, grid, &plan, &ws->memory);
         create_lattice(law, grid, digits, &ws->memory);

@@ -50,8 +50,11 @@ static void warn_skipped_tables(wt_log *log, const char *name, const wt_result *
             used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", n > 1 ? ", " : "",
                                      table);
     }
+    /* the output of weartrack psd has its spectrum read, and tables about it */
+    const bool spectrum = wt_result_find(result, "power_spectrum") != NULL &&
+                          wt_result_find(result, "answer") == NULL;
     if (n > 0)
-        wt_log_add(log, WT_WARNING, name, NULL,
+        wt_log_add(log, spectrum ? WT_NOTE : WT_WARNING, name, NULL,
                    "tables that are no measurements are left out, %zu (%s%s); `weartrack "
                    "table` writes them",
                    n, names, used < sizeof names ? "" : "...");

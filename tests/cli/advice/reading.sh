@@ -96,9 +96,10 @@ cause '`weartrack table --list`' master three.h5
 helps table --list three.h5
 
 piece 'tables that are no measurements are left out'
-"$weartrack" psd -q "$road" -o road.h5 2> err
-cause '`weartrack table` writes them' convert road.h5 -o a.tsv
-helps table road.h5 surfaces -o a.csv
+printf '<case version="1"><roughness><files>%s</files></roughness></case>\n' "$road" > whole.xml
+"$weartrack" run -q --no-report whole.xml -o whole.h5 > out 2> err
+cause '`weartrack table` writes them' convert whole.h5 -o a.tsv
+helps table whole.h5 surfaces -o a.csv
 
 piece 'weartrack indent' 'weartrack master' 'weartrack spot' 'weartrack thermal' 'weartrack record' 'weartrack friction --roughness'
 cause '`weartrack indent` takes force curves' master "$curve"
