@@ -106,7 +106,7 @@ static wt_status describe_curve(wt_input *input, const wt_read_options *options,
     size_t n = 0;
     char text[IBW_TEXT];
     static const char *const keys[] = {"ImagingMode", "Date", "Time", "TriggerChannel"};
-    wt_status status = ibw_open(input, &file, err);
+    wt_status status = ibw_open(input, &file, NULL, err);
     if (status == WT_OK)
         status = ibw_read_segments(&file, segments, &n, err);
     if (status != WT_OK)
@@ -189,7 +189,7 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
 {
     ibw_source *source = (ibw_source *)base;
     (void)self;
-    wt_status status = ibw_open(input, &source->file, err);
+    wt_status status = ibw_open(input, &source->file, NULL, err);
     if (status == WT_OK)
         status = ibw_read_segments(&source->file, source->segments, &source->n_segments, err);
     source->metadata = ibw_metadata(
@@ -229,7 +229,7 @@ static wt_status ibw_images(const file_reader *self, wt_input *input,
     image_list list = {NULL, 0};
     (void)self;
     (void)options;
-    wt_status status = ibw_open_image(input, &file, &grid, err);
+    wt_status status = ibw_open(input, &file, &grid, err);
     for (size_t c = 0; status == WT_OK && c < file.n_channels; c++) {
         double *values = NULL;
         wt_image head = {.n_columns = grid.n_columns,

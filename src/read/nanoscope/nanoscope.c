@@ -297,12 +297,11 @@ static void add_identity(const nanoscope_file *f, table_writer *metadata)
                  {"instrument", "Equipment list", "Description"},
                  {"operating mode", "Ciao scan list", "Operating mode"},
                  {"trigger mode", "Ciao force list", "Trigger mode"}};
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        const char *text = nanoscope_get(
-            &f->header, nanoscope_section(&f->header, known[i].section, 0), known[i].key);
-        if (text != NULL && *text != '\0')
-            metadata_add(metadata, known[i].item, "", known[i].key, "%s", text);
-    }
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        metadata_add_text(metadata, known[i].item, known[i].key,
+                          nanoscope_get(&f->header,
+                                        nanoscope_section(&f->header, known[i].section, 0),
+                                        known[i].key));
 }
 
 static void add_curves(const nanoscope_file *f, const wt_read_options *options,

@@ -525,12 +525,12 @@ static recognition detect(const file_reader *self, file_peek *peek)
     (void)self;
     if (peek->length < 10 || memcmp(peek->bytes, "II*\0", 4) != 0)
         return match;
-    const wt_status status = window_open(&window, peek->input, NULL) == WT_OK
-                                 ? find_tags(&window, &tags, NULL)
+    const wt_status status = window_open(&window, peek->input, peek->err) == WT_OK
+                                 ? find_tags(&window, &tags, peek->err)
                                  : WT_E_IO;
     window_close(&window);
     if (status == WT_E_MEMORY) {
-        match.answer = ANSWER_NO_MEMORY;
+        match.answer = ANSWER_FAILED;
     } else if (has_park_tags(&tags)) {
         match.answer = ANSWER_YES;
         match.score = 90;
