@@ -64,6 +64,10 @@ typedef struct file_reader {
     wt_status (*read_record)(const struct file_reader *self, wt_input *input,
                              const wt_read_options *options, wt_log *log, wt_record *record,
                              wt_error *err);
+    /* Adds the rows of the curves of a reader that is described by images_describe (images.h), or
+     * NULL. */
+    wt_status (*describe_curves)(wt_input *input, const wt_read_options *options, wt_log *log,
+                                 table_writer *metadata, wt_error *err);
     /* Adds the rows for `info`: segments, channels, calibration and defects. Fails if the file
      * cannot be read. */
     wt_status (*describe)(const struct file_reader *self, wt_input *input,

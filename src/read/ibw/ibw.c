@@ -98,8 +98,8 @@ void ibw_describe_channels(const ibw_file *file, const force_metadata *read,
     force_describe_calibration(read, options, "note, SpringConstant", "note, InvOLS", metadata);
 }
 
-static wt_status describe_curve(wt_input *input, const wt_read_options *options, wt_log *log,
-                                table_writer *metadata, wt_error *err)
+static wt_status describe_curves(wt_input *input, const wt_read_options *options, wt_log *log,
+                                 table_writer *metadata, wt_error *err)
 {
     ibw_file file;
     ibw_segment segments[IBW_SEGMENTS];
@@ -124,14 +124,6 @@ static wt_status describe_curve(wt_input *input, const wt_read_options *options,
     }
     ibw_describe_channels(&file, &read, options, metadata);
     return WT_OK;
-}
-
-static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_log *log, table_writer *metadata)
-{
-    wt_error err = WT_ERROR_INIT;
-    const wt_status status = describe_curve(input, options, log, metadata, &err);
-    return images_add_metadata(self, input, options, log, metadata, status, &err);
 }
 
 /* ---- curves ---------------------------------------------------------------------------------- */
@@ -263,5 +255,6 @@ const file_reader reader_ibw = {
     .detect = detect,
     .force = &ibw_force,
     .read_images = ibw_images,
-    .describe = describe,
+    .describe_curves = describe_curves,
+    .describe = images_describe,
 };
