@@ -287,7 +287,7 @@ WT_API wt_log_entry wt_log_get(const wt_log *log, size_t i);
     X(WT_Q_MASS, "mass", "kg", "mass")                                                             \
     X(WT_Q_HEAT_CAPACITY, "heat_capacity", "J/(m^3 K)", "heat capacity per volume")                \
     X(WT_Q_DIFFUSIVITY, "diffusivity", "m^2/s", "thermal diffusivity")                             \
-    X(WT_Q_ENERGY, "energy", "J", "energy")                                                        \
+    X(WT_Q_TORQUE, "torque", "N m", "torque of a friction force about the axis of a track")        \
     X(WT_Q_MOLAR_ENERGY, "molar_energy", "J/mol", "energy per mole")
 
 typedef enum wt_quantity {
@@ -716,6 +716,7 @@ typedef enum wt_record_channel {
     WT_RECORD_PRESSURE,       /* [Pa] nominal */
     WT_RECORD_TEMPERATURE,    /* [K] */
     WT_RECORD_WEAR_DEPTH,     /* [m] */
+    WT_RECORD_TORQUE,         /* [N m] of the friction force, if the file has no force */
     WT_RECORD_CHANNELS
 } wt_record_channel;
 
@@ -727,6 +728,9 @@ typedef struct wt_record {
     double radius;                       /* stated radius of the track [m], NaN if unknown */
 } wt_record;
 WT_API void wt_record_clear(wt_record *record);
+/* Makes the torque the friction force on a track of a `radius` [m], unless the record has a force
+ * or the radius is unknown (NaN). */
+WT_API void wt_record_torque_to_force(wt_record *record, double radius);
 
 /* ---- Prony series --------------------------------------------------------------------------- */
 

@@ -166,16 +166,21 @@ static wt_status query_readers(const wt_formats *formats, wt_input *input, detec
     size_t want = FIRST_PEEK;
     resource_error_clear();
     while (n_open > 0) {
-        file_peek peek = {.name = wt_input_name(input), .input = input};
+        wt_error cause;
+        file_peek peek = {.name = wt_input_name(input), .input = input, .err = &cause};
         size_t need = 0, still_open = 0;
         for (size_t i = 0; i < n_open && status == WT_OK; i++) {
             /* the reader before may have moved the bytes of the input */
             status = wt_input_peek(input, want, &peek.bytes, &peek.length, &peek.whole, err);
             if (status != WT_OK)
                 break;
+            cause = (wt_error)WT_ERROR_INIT;
             const recognition answer = open[i]->detect(open[i], &peek);
-            if (answer.answer == ANSWER_NO_MEMORY)
-                status = wt_fail(err, WT_E_MEMORY, "no memory to detect the format");
+            if (answer.answer == ANSWER_FAILED) {
+                status = cause.status;
+                if (err != NULL)
+                    *err = cause;
+            }
             if (answer.answer == ANSWER_MORE && !peek.whole) {
                 need = answer.need > need ? answer.need : need;
                 open[still_open++] = open[i];

@@ -1,6 +1,8 @@
 /* Numbers in headers of files.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/header_number.h"
+#include "core/base/array.h"
+#include "core/base/clocale.h"
 #include "core/base/number.h"
 
 #include <math.h>
@@ -20,9 +22,7 @@ static size_t word_end(const char *text, size_t length, size_t i)
     return i;
 }
 
-/* Parses a number with the decimal mark that takes more of the text. Returns its length, 0 without
- * one. */
-static size_t parse(const char *text, size_t length, double *value)
+size_t header_number_parse(const char *text, size_t length, double *value)
 {
     const size_t point = number_prefix_length(text, length, '.'),
                  comma = number_prefix_length(text, length, ','), n = comma > point ? comma : point;
@@ -37,19 +37,37 @@ static bool differs(const char *text, size_t length, size_t from, double value)
     const size_t unit = skip(text, length, from, " \t"), unit_end = word_end(text, length, unit);
     double second;
     size_t at = skip(text, length, from, separators);
-    if (at > from && parse(text + at, length - at, &second) > 0)
+    if (at > from && header_number_parse(text + at, length - at, &second) > 0)
         return second < value || second > value;
     at = skip(text, length, unit_end, separators);
-    const size_t n = at < length ? parse(text + at, length - at, &second) : 0,
+    const size_t n = at < length ? header_number_parse(text + at, length - at, &second) : 0,
                  again = skip(text, length, at + n, " \t");
     return n > 0 && word_end(text, length, again) - again == unit_end - unit &&
            memcmp(text + again, text + unit, unit_end - unit) == 0 &&
            (second < value || second > value);
 }
 
+size_t header_number_error(const char *text, size_t length, double *error)
+{
+    static const char *const marks[] = {"+-", "+/-", "\u00b1"};
+    const size_t from = skip(text, length, 0, " \t");
+    for (size_t i = 0; i < COUNT_OF(marks); i++) {
+        const size_t n = strlen(marks[i]);
+        if (length - from < n || memcmp(text + from, marks[i], n) != 0)
+            continue;
+        const size_t at = skip(text, length, from + n, " \t");
+        const size_t digits = header_number_parse(text + at, length - at, error);
+        if (digits > 0 && *error >= 0)
+            return at + digits;
+    }
+    *error = (double)NAN;
+    return 0;
+}
+
 header_number header_number_read(const char *text, size_t length, double *value, size_t *end)
 {
-    const size_t from = skip(text, length, 0, " \t"), n = parse(text + from, length - from, value);
+    const size_t from = skip(text, length, 0, " \t"),
+                 n = header_number_parse(text + from, length - from, value);
     header_number found = HEADER_NUMBER_ONE;
     *end = from + n;
     if (n == 0)
@@ -64,10 +82,33 @@ header_number header_number_read(const char *text, size_t length, double *value,
     return found;
 }
 
+/* Names the error of a number, which stands before or behind the unit. */
+static void name_error(const char *text, size_t length, const char *name, const char *option,
+                       const char *file, const char *place, wt_log *log)
+{
+    double value, error;
+    size_t end;
+    if (header_number_read(text, length, &value, &end) != HEADER_NUMBER_ONE)
+        return;
+    if (header_number_error(text + end, length - end, &error) == 0) {
+        end = word_end(text, length, skip(text, length, end, " \t"));
+        if (header_number_error(text + end, length - end, &error) == 0)
+            return;
+    }
+    char advice[64] = "";
+    if (option != NULL && fabs(value) > 0)
+        clocale_print(advice, sizeof advice, "; %s-error %.3g states it", option,
+                      error / fabs(value));
+    wt_log_add(log, WT_WARNING, file, place, "%s: its error %.3g is not read%s", name, error,
+               advice);
+}
+
 void header_number_warn(header_number found, const char *text, size_t length, const char *name,
                         const char *option, const char *file, const char *place, wt_log *log)
 {
     const int shown = length < 60 ? (int)length : 60;
+    if (found == HEADER_NUMBER_ONE)
+        name_error(text, length, name, option, file, place, log);
     if (found != HEADER_NUMBER_GOES_ON && found != HEADER_NUMBER_DIFFER)
         return;
     wt_log_action(log, WT_WARNING, WT_CONTRADICTED, 1, option, file, place,

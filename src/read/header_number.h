@@ -12,12 +12,18 @@ typedef enum header_number {
     HEADER_NUMBER_DIFFER
 } header_number;
 
+/* Parses the number at the beginning of a text with the decimal mark, point or comma, that takes
+ * more of the text. Returns its length, 0 without one. */
+size_t header_number_parse(const char *text, size_t length, double *value);
 /* Reads the number at the beginning of a value such as "0.25 N/m", after blanks, with a decimal
  * point or comma. *end is the length of the blanks and the number. *value is NaN unless there is
  * one number. */
 header_number header_number_read(const char *text, size_t length, double *value, size_t *end);
-/* Warns of a value that is more than one number. `place` is the line, `name` what the number is and
- * `option` the option that states it, or NULL. */
+/* Reads the error behind a number or its unit, as in "0.12 +- 0.01 N/m". Returns the length of the
+ * mark and the error, 0 without one. */
+size_t header_number_error(const char *text, size_t length, double *error);
+/* Warns of a value that is more than one number, and of an error, which is not read. `place` is the
+ * line, `name` what the number is and `option` the option that states it, or NULL. */
 void header_number_warn(header_number found, const char *text, size_t length, const char *name,
                         const char *option, const char *file, const char *place, wt_log *log);
 /* Returns the option that states a value of the cantilever; NULL for another quantity. */

@@ -137,6 +137,47 @@ wt_status images_add(image_list *list, const wt_image *head, double **values, wt
     return WT_OK;
 }
 
+wt_status images_fail_header(wt_error *err, const char *message, const char *expected)
+{
+    wt_fail(err, WT_E_CORRUPT, "%s", message);
+    wt_error_place(err, "header of the file");
+    wt_error_expected(err, "%s", expected);
+    return WT_E_CORRUPT;
+}
+
+wt_status images_add_raster(image_list *list, wt_input *input, const wt_image *head,
+                            const image_raster *raster, double factor, wt_error *err)
+{
+    const size_t n = head->n_columns, n_rows = head->n_rows, size = sample_width(raster->type) * n;
+    input_window window = {.input = NULL};
+    double *values = NULL;
+    wt_status status = window_open(&window, input, err);
+    if (status == WT_OK &&
+        (raster->from > window.size || (window.size - raster->from) / size < n_rows ||
+         (raster->is_last && window.size - raster->from != size * n_rows))) {
+        status = images_fail_header(err, "the size of the file contradicts its header",
+                                    "a sample for each of the columns x rows");
+        wt_error_found(err, "%zu x %zu pixels in %zu bytes", n, n_rows, window.size);
+    }
+    if (status == WT_OK)
+        status = images_add(list, head, &values, err);
+    for (size_t row = 0; status == WT_OK && row < n_rows; row++) {
+        const unsigned char *bytes = NULL;
+        double *const line = values + n * (raster->is_from_top ? n_rows - 1 - row : row);
+        status = window_bytes(&window, raster->from + size * row, size, &bytes, err);
+        if (status != WT_OK)
+            break;
+        samples_decode(raster->type, false, bytes, n, factor, 0, line);
+        for (size_t i = 0; raster->is_from_right && i < n / 2; i++) {
+            const double left = line[i];
+            line[i] = line[n - 1 - i];
+            line[n - 1 - i] = left;
+        }
+    }
+    window_close(&window);
+    return status;
+}
+
 void images_set_size(wt_image *head, double width, double height)
 {
     head->width = width * (double)(head->n_columns - 1) / (double)head->n_columns;
@@ -301,5 +342,9 @@ wt_status images_add_metadata(const file_reader *reader, wt_input *input,
 wt_status images_describe(const file_reader *reader, wt_input *input,
                           const wt_read_options *options, wt_log *log, table_writer *metadata)
 {
-    return images_add_metadata(reader, input, options, log, metadata, WT_E_EMPTY, NULL);
+    wt_error err = WT_ERROR_INIT;
+    if (reader->describe_curves == NULL)
+        return images_add_metadata(reader, input, options, log, metadata, WT_E_EMPTY, NULL);
+    const wt_status status = reader->describe_curves(input, options, log, metadata, &err);
+    return images_add_metadata(reader, input, options, log, metadata, status, &err);
 }

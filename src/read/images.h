@@ -17,6 +17,19 @@ typedef struct image_list {
 /* Adds an image with the name, unit, pixels and size of `head`. The caller fills *values, row by
  * row. Returns WT_E_CORRUPT for no pixels or too many. */
 wt_status images_add(image_list *list, const wt_image *head, double **values, wt_error *err);
+/* Samples that stand in the file row by row. */
+typedef struct image_raster {
+    size_t from; /* offset of the first one */
+    sample_type type;
+    bool is_last; /* nothing follows them */
+    bool is_from_top,
+        is_from_right; /* the first row is the top one; a row begins at its right end */
+} image_raster;
+/* Adds an image whose values are `factor` times the samples of the file. */
+wt_status images_add_raster(image_list *list, wt_input *input, const wt_image *head,
+                            const image_raster *raster, double factor, wt_error *err);
+/* Reports a fault in the header of an image file as WT_E_CORRUPT. */
+wt_status images_fail_header(wt_error *err, const char *message, const char *expected);
 /* Sets the distances between the outer pixel centres from the width and height of the whole
  * area. */
 void images_set_size(wt_image *head, double width, double height);
@@ -44,7 +57,7 @@ struct file_reader;
 wt_status images_add_metadata(const struct file_reader *reader, wt_input *input,
                               const wt_read_options *options, wt_log *log, table_writer *metadata,
                               wt_status curves, const wt_error *curves_error);
-/* Variant of images_add_metadata for a reader of images alone. */
+/* Variant of images_add_metadata for a reader of images, with its describe_curves if it has one. */
 wt_status images_describe(const struct file_reader *reader, wt_input *input,
                           const wt_read_options *options, wt_log *log, table_writer *metadata);
 

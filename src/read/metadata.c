@@ -36,6 +36,12 @@ void metadata_add(table_writer *metadata, const char *item, const char *unit, co
     free(value);
 }
 
+void metadata_add_text(table_writer *metadata, const char *item, const char *key, const char *text)
+{
+    if (text != NULL && *text != '\0')
+        metadata_add(metadata, item, "", key, "%s", text);
+}
+
 void metadata_add_number(table_writer *metadata, const char *item, double value, const char *unit,
                          const char *source)
 {

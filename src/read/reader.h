@@ -15,7 +15,7 @@ typedef enum detector_answer {
     ANSWER_YES,         /* recognised, with a score */
     ANSWER_UNSUPPORTED, /* recognised, but damaged or unsupported; `reason` states why */
     ANSWER_MORE,        /* undecided; needs at least `need` bytes */
-    ANSWER_NO_MEMORY
+    ANSWER_FAILED       /* the cause is in the error of the peek */
 } detector_answer;
 
 typedef struct recognition {
@@ -32,6 +32,7 @@ typedef struct file_peek {
     bool whole;
     const char *name; /* as the user typed it; for messages only */
     wt_input *input;  /* for a detector that reads further parts; `bytes` may then become invalid */
+    wt_error *err;    /* cause of ANSWER_FAILED */
     struct text_peek *text; /* shared decoding of the text readers; text_peek_free frees it */
 } file_peek;
 
@@ -63,6 +64,10 @@ typedef struct file_reader {
     wt_status (*read_record)(const struct file_reader *self, wt_input *input,
                              const wt_read_options *options, wt_log *log, wt_record *record,
                              wt_error *err);
+    /* Adds the rows of the curves of a reader that is described by images_describe (images.h), or
+     * NULL. */
+    wt_status (*describe_curves)(wt_input *input, const wt_read_options *options, wt_log *log,
+                                 table_writer *metadata, wt_error *err);
     /* Adds the rows for `info`: segments, channels, calibration and defects. Fails if the file
      * cannot be read. */
     wt_status (*describe)(const struct file_reader *self, wt_input *input,

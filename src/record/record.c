@@ -458,6 +458,7 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
         status = flow_check_copy(file, condition_hash_record(file, &record), work);
     const wt_estimate stated = job->track_radius, read_radius = {record.radius, 0, 0, "m"},
                       radius = isnan(stated.value) ? read_radius : stated;
+    wt_record_torque_to_force(&record, radius.value);
     if (status == WT_OK && read.conditioning == WT_CONDITIONING_MEND) {
         condition_record(&record, file->name, work->log);
         pauses = record_remove_pauses(&record);

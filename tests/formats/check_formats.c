@@ -329,8 +329,8 @@ static void check_noise(reading *r, const wt_formats *formats, wt_input *input)
 static void check_record(reading *r, const wt_formats *formats, wt_input *input)
 {
     static const char *const names[WT_RECORD_CHANNELS] = {
-        "time", "distance", "laps",     "position", "friction_force", "normal_force",
-        "mu",   "velocity", "rotation", "pressure", "temperature",    "wear_depth"};
+        "time",     "distance", "laps",     "position",    "friction_force", "normal_force", "mu",
+        "velocity", "rotation", "pressure", "temperature", "wear_depth",     "torque"};
     wt_record record = {.n = 0};
     wt_error err = WT_ERROR_INIT;
     const wt_status status = wt_record_read(formats, input, &r->options, NULL, &record, &err);

@@ -257,7 +257,7 @@ static void largest_of_each(void **state)
         {"m/V", 1e3},    {"m^2/N", 1e3},     {"J/m^3", 1e30},     {"W/m^3", 1e30}, {"1/s", 1e30},
         {"byte", 1e30},  {"K", 1e5},         {"m.Hz^-0.5", 1},    {"m^2/Hz", 1},   {"V^2/Hz", 1e6},
         {"kg/m^3", 1e6}, {"V.Hz^-0.5", 1e3}, {"1/K", 1e3},        {"m^2", 1e12},   {"kg", 1e9},
-        {"m^2/s", 1e6},  {"J", 1e12},        {"J/(m^3 K)", 1e12}, {"J/mol", 1e12}};
+        {"m^2/s", 1e6},  {"N m", 1e9},       {"J/(m^3 K)", 1e12}, {"J/mol", 1e12}};
     for (int q = 1; q < (int)WT_Q_COUNT; q++) {
         const wt_quantity quantity = (wt_quantity)q;
         double most = (double)NAN;

@@ -315,6 +315,42 @@ static void known_before_they_are_read(void **state)
     wt_formats_free(formats);
 }
 
+/* A damaged description of the library is named, in the part that detects and in the rest. */
+static void damaged_in_the_library(void **state)
+{
+    static const struct {
+        const char *xml, *place;
+    } damaged[] = {
+        {"<format id=\"mine\" version=\"2\" kinds=\"sweep\" verified=\"false\">\n"
+         "  <title>a</title><evidence>b</evidence>\n"
+         "  <detect><require regex=\"a(b\" score=\"9\"/></detect>\n"
+         "  <table><column quantity=\"frequency\"><name>f</name></column></table></format>",
+         "line 3, element require"},
+        {"<format id=\"mine\" version=\"2\" kinds=\"sweep\" verified=\"false\">\n"
+         "  <title>a</title><evidence>b</evidence>\n"
+         "  <detect><names score=\"9\"/></detect>\n"
+         "  <table><column quantity=\"frequency\"><name>f</name></column></table></format>",
+         "element table"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof damaged / sizeof *damaged; i++) {
+        const embedded_text file = {"mine.xml", damaged[i].xml, strlen(damaged[i].xml)};
+        wt_formats *formats = NULL;
+        wt_input *input = NULL;
+        const wt_format_info *info = NULL;
+        wt_error err = WT_ERROR_INIT;
+        assert_int_equal(
+            formats_from_description(description_from_library(&file), "mine.xml", &formats, &err),
+            WT_OK);
+        assert_int_equal(wt_input_open_memory("f\n1\n", 4, "data.txt", &input, NULL), WT_OK);
+        assert_int_equal(wt_format_detect(formats, input, NULL, 0, &info, &err), WT_E_SCHEMA);
+        assert_string_equal(err.file, "mine.xml of the library");
+        assert_string_equal(err.place, damaged[i].place);
+        assert_non_null(strstr(err.advice, "--formats"));
+        wt_input_close(input);
+        wt_formats_free(formats);
+    }
+}
+
 static void checked_with_a_sample(void **state)
 {
     char path[128], xml[4096] = "";
@@ -432,6 +468,7 @@ int main(void)
         cmocka_unit_test(units_in_names),
         cmocka_unit_test(replaced_by_a_folder),
         cmocka_unit_test(known_before_they_are_read),
+        cmocka_unit_test(damaged_in_the_library),
         cmocka_unit_test(checked_with_a_sample),
         cmocka_unit_test(example_of_the_manual),
     };

@@ -7,6 +7,7 @@
 
 #include "read/text/text.h"
 
+#include <sqlite3.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -549,6 +550,25 @@ static void detection(void **state)
     free(deep);
 }
 
+/* SQLite, which parses the JSON, was not used in this process: it can still be configured. */
+static void json_in_the_sandbox(void **state)
+{
+    wt_input *input = NULL;
+    wt_sweep sweep = {0};
+    wt_error err = WT_ERROR_INIT;
+    (void)state;
+    assert_int_equal(wt_input_open(WT_SOURCE_DIR "/fixtures/formats/trios-json/two-isotherms.json",
+                                   &input, &err),
+                     WT_OK);
+    assert_int_equal(wt_sweep_read(formats, input, NULL, NULL, &sweep, &err), WT_OK);
+    assert_int_equal(sweep.n_isotherms, 2);
+    assert_int_equal(sqlite3_config(SQLITE_CONFIG_URI, 0), SQLITE_OK);
+    assert_int_equal(sqlite3_initialize(), SQLITE_OK);
+    assert_int_equal(sqlite3_config(SQLITE_CONFIG_URI, 0), SQLITE_MISUSE);
+    wt_sweep_clear(&sweep);
+    wt_input_close(input);
+}
+
 /* What the program writes it reads again: the same bits. */
 static void own_stream(void **state)
 {
@@ -654,6 +674,7 @@ int main(void)
         cmocka_unit_test(unknown_columns_are_named),
         cmocka_unit_test(detection),
         cmocka_unit_test(source_of_a_long_name),
+        cmocka_unit_test(json_in_the_sandbox),
         cmocka_unit_test(own_stream),
         cmocka_unit_test(long_files),
     };

@@ -4,7 +4,10 @@
 #include "cells.h"
 #include "made_file.h"
 
+#include "read/header_number.h"
 #include "read/text/text.h"
+
+#include <math.h>
 
 static const text_description plain = {.n_widths = 0};
 
@@ -269,12 +272,48 @@ static void test_wide_results(void **state)
     }
 }
 
+/* Numbers of headers and their errors, before and behind the unit. */
+static void test_header_errors(void **state)
+{
+    static const struct {
+        const char *text;
+        double value, error;
+        bool is_named;
+    } rows[] = {{"0.12 +- 0.01 N/m", 0.12, 0.01, true},
+                {"0,12+/-0,01 N/m", 0.12, 0.01, true},
+                {" 0.12\u00b10.01", 0.12, 0.01, true},
+                {"0.12 N/m \u00b1 0.01 N/m", 0.12, (double)NAN, true},
+                {"0.12 N/m", 0.12, (double)NAN, false},
+                {"0.12 +- N/m", 0.12, (double)NAN, false},
+                {"0.12 +- -0.01 N/m", 0.12, (double)NAN, false},
+                {"0.12 -0.01", (double)NAN, (double)NAN, false}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const char *const text = rows[i].text;
+        const size_t n = strlen(text);
+        wt_log *const log = wt_log_new();
+        double value, error;
+        size_t end;
+        const header_number found = header_number_read(text, n, &value, &end);
+        (void)header_number_error(text + end, n - end, &error);
+        header_number_warn(found, text, n, "k", "--spring-constant", "f", "line 1", log);
+        assert_true(value == rows[i].value || (isnan(value) && isnan(rows[i].value)));
+        assert_true(error == rows[i].error || (isnan(error) && isnan(rows[i].error)));
+        if (found == HEADER_NUMBER_ONE)
+            assert_int_equal(wt_log_count(log), rows[i].is_named);
+        if (rows[i].is_named)
+            assert_non_null(strstr(wt_log_get(log, 0).text, "--spring-constant-error 0.0833"));
+        wt_log_free(log);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_many_cells), cmocka_unit_test(test_separators),
-        cmocka_unit_test(test_values),     cmocka_unit_test(test_marks),
-        cmocka_unit_test(test_wide_files), cmocka_unit_test(test_wide_results),
+        cmocka_unit_test(test_many_cells),    cmocka_unit_test(test_separators),
+        cmocka_unit_test(test_values),        cmocka_unit_test(test_marks),
+        cmocka_unit_test(test_wide_files),    cmocka_unit_test(test_wide_results),
+        cmocka_unit_test(test_header_errors),
     };
     return cmocka_run_group_tests_name("cells of text", tests, set_up, clean);
 }

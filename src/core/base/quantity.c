@@ -82,7 +82,7 @@ static const unit_info *find_unit_info(wt_quantity quantity)
                                         {"kg", "3mg", 1e9},
                                         {"J/(m^3 K)", "2.2e6J/(m^3 K)", 1e12},
                                         {"m^2/s", "1e-7m^2/s", 1e6},
-                                        {"J", "0.97eV", 1e12},
+                                        {"N m", "5N mm", 1e9},
                                         {"J/mol", "80kJ/mol", 1e12}};
     size_t i = 0;
     while (strcmp(by_unit[i].unit, wt_quantity_unit(quantity)) != 0)

@@ -17,6 +17,17 @@ void wt_record_clear(wt_record *record)
     *record = (wt_record){.n = 0};
 }
 
+void wt_record_torque_to_force(wt_record *record, double radius)
+{
+    double *const torque = record->channel[WT_RECORD_TORQUE];
+    if (torque == NULL || record->channel[WT_RECORD_FRICTION_FORCE] != NULL || !(radius > 0))
+        return;
+    for (size_t i = 0; i < record->n; i++)
+        torque[i] /= radius;
+    record->channel[WT_RECORD_FRICTION_FORCE] = torque;
+    record->channel[WT_RECORD_TORQUE] = NULL;
+}
+
 void wt_noise_spectrum_clear(wt_noise_spectrum *spectrum)
 {
     if (spectrum == NULL)

@@ -139,8 +139,9 @@ static const struct {
       Q(SPECTRAL_DENSITY) | Q(DEFLECTION_NOISE) | Q(VOLTAGE_DENSITY) | Q(VOLTAGE_NOISE)}},
     {WT_KIND_RECORD,
      "record",
-     "columns of time, distance or laps, and of friction force or coefficient",
-     {Q(TIME) | Q(SLIDING_DISTANCE) | Q(LAPS), Q(FRICTION_COEFFICIENT) | Q(FRICTION_FORCE)}},
+     "columns of time, distance or laps, and of friction force, torque or coefficient",
+     {Q(TIME) | Q(SLIDING_DISTANCE) | Q(LAPS),
+      Q(FRICTION_COEFFICIENT) | Q(FRICTION_FORCE) | Q(TORQUE)}},
 };
 enum { N_REQUIREMENTS = sizeof requirements / sizeof *requirements, N_REQUIRED_GROUPS = 3 };
 

@@ -189,14 +189,14 @@ text_description *description_from_library(const embedded_text *file)
 }
 
 /* Parses the document up to the description of the file content. */
-static wt_status parse_detection_part(const text_description *d, text_description **read,
-                                      wt_error *err)
+static wt_status parse_detection_part(const text_description *d, const char *name,
+                                      text_description **read, wt_error *err)
 {
     const char *end = strstr(d->xml, "\n  <header>");
     end = end != NULL ? end : strstr(d->xml, "\n  <table");
     char *const text = format_text("%.*s</format>", (int)(end - d->xml), d->xml);
     const wt_status status =
-        parse_document(NULL, text, strlen(text), d->id, parse_detect, read, err);
+        parse_document(NULL, text, strlen(text), name, parse_detect, read, err);
     free(text);
     return status;
 }
@@ -206,16 +206,21 @@ wt_status description_load(text_description *d, description_extent extent,
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
     wt_status status = WT_OK;
+    char name[96];
     *result = d;
     if (d->extent >= extent)
         return WT_OK;
+    (void)snprintf(name, sizeof name, "%s.xml of the library", d->id);
     (void)pthread_mutex_lock(&lock);
     text_description **const loaded = &d->loaded[extent];
     if (*loaded == NULL && extent == DESCRIPTION_DETECT)
-        status = parse_detection_part(d, loaded, err);
+        status = parse_detection_part(d, name, loaded, err);
     else if (*loaded == NULL)
-        status = parse_document(NULL, d->xml, strlen(d->xml), d->id, parse_format, loaded, err);
+        status = parse_document(NULL, d->xml, strlen(d->xml), name, parse_format, loaded, err);
     *result = *loaded;
     (void)pthread_mutex_unlock(&lock);
+    if (status == WT_E_SCHEMA)
+        wt_error_advice(err, "the library was built with this damaged description: install it "
+                             "again, or replace the description by one of the same id (--formats)");
     return status;
 }

@@ -20,14 +20,6 @@ typedef struct gsf_header {
     size_t data; /* offset of the samples */
 } gsf_header;
 
-static wt_status fail_gsf_header(wt_error *err, const char *message, const char *expected)
-{
-    wt_fail(err, WT_E_CORRUPT, "%s", message);
-    wt_error_place(err, "header of the file");
-    wt_error_expected(err, "%s", expected);
-    return WT_E_CORRUPT;
-}
-
 static double parse_number(const char *text, size_t n)
 {
     double value = (double)NAN;
@@ -92,8 +84,8 @@ static wt_status read_gsf_header(wt_input *input, gsf_header *h, wt_error *err)
     const char *end = memchr(bytes, 0, length);
     if (end == NULL || length < sizeof first_line - 1 ||
         memcmp(text, first_line, sizeof first_line - 1) != 0)
-        return fail_gsf_header(err, "the header has no end",
-                               "lines \"key = value\", then a zero byte");
+        return images_fail_header(err, "the header has no end",
+                                  "lines \"key = value\", then a zero byte");
     for (const char *line = text + sizeof first_line - 1; line < end;) {
         const char *next = memchr(line, '\n', (size_t)(end - line));
         const char *stop = next != NULL ? next : end;
@@ -108,7 +100,8 @@ static wt_status read_gsf_header(wt_input *input, gsf_header *h, wt_error *err)
     }
     h->data = ((size_t)(end - text) / 4 + 1) * 4;
     if (h->n_columns == 0 || h->n_rows == 0)
-        return fail_gsf_header(err, "the size of the image is missing", "XRes and YRes, integers");
+        return images_fail_header(err, "the size of the image is missing",
+                                  "XRes and YRes, integers");
     return WT_OK;
 }
 
@@ -126,35 +119,18 @@ static wt_status gsf_images(const file_reader *self, wt_input *input,
                             size_t *n_images, wt_error *err)
 {
     gsf_header h;
-    input_window window = {.input = NULL};
     image_list list = {NULL, 0};
-    wt_image head = {.n_columns = 0};
-    double factor = 1, *values = NULL;
+    wt_image head;
+    double factor = 1;
     (void)self;
     (void)options;
     wt_status status = read_gsf_header(input, &h, err);
-    if (status == WT_OK)
-        status = window_open(&window, input, err);
-    if (status == WT_OK &&
-        (h.data > window.size || (window.size - h.data) / 4 / h.n_columns != h.n_rows ||
-         window.size - h.data != 4 * h.n_columns * h.n_rows)) {
-        status = fail_gsf_header(err, "the size of the file contradicts its header",
-                                 "four bytes for each of XRes x YRes pixels");
-        wt_error_found(err, "%zu x %zu pixels in %zu bytes", h.n_columns, h.n_rows, window.size);
-    }
     if (status == WT_OK) {
+        const image_raster raster = {
+            .from = h.data, .type = SAMPLE_FLOAT32, .is_last = true, .is_from_top = true};
         fill_image_head(&h, &head, &factor);
-        status = images_add(&list, &head, &values, err);
+        status = images_add_raster(&list, input, &head, &raster, factor, err);
     }
-    for (size_t row = 0; status == WT_OK && row < h.n_rows; row++) {
-        const unsigned char *bytes = NULL;
-        status =
-            window_bytes(&window, h.data + 4 * h.n_columns * row, 4 * h.n_columns, &bytes, err);
-        if (status == WT_OK)
-            samples_decode(SAMPLE_FLOAT32, false, bytes, h.n_columns, factor, 0,
-                           values + (h.n_rows - 1 - row) * h.n_columns);
-    }
-    window_close(&window);
     return images_finish(&list, status, wt_input_name(input), log, images, n_images, err);
 }
 

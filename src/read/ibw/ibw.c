@@ -98,15 +98,15 @@ void ibw_describe_channels(const ibw_file *file, const force_metadata *read,
     force_describe_calibration(read, options, "note, SpringConstant", "note, InvOLS", metadata);
 }
 
-static wt_status describe_curve(wt_input *input, const wt_read_options *options, wt_log *log,
-                                table_writer *metadata, wt_error *err)
+static wt_status describe_curves(wt_input *input, const wt_read_options *options, wt_log *log,
+                                 table_writer *metadata, wt_error *err)
 {
     ibw_file file;
     ibw_segment segments[IBW_SEGMENTS];
     size_t n = 0;
     char text[IBW_TEXT];
     static const char *const keys[] = {"ImagingMode", "Date", "Time", "TriggerChannel"};
-    wt_status status = ibw_open(input, &file, err);
+    wt_status status = ibw_open(input, &file, NULL, err);
     if (status == WT_OK)
         status = ibw_read_segments(&file, segments, &n, err);
     if (status != WT_OK)
@@ -124,14 +124,6 @@ static wt_status describe_curve(wt_input *input, const wt_read_options *options,
     }
     ibw_describe_channels(&file, &read, options, metadata);
     return WT_OK;
-}
-
-static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_log *log, table_writer *metadata)
-{
-    wt_error err = WT_ERROR_INIT;
-    const wt_status status = describe_curve(input, options, log, metadata, &err);
-    return images_add_metadata(self, input, options, log, metadata, status, &err);
 }
 
 /* ---- curves ---------------------------------------------------------------------------------- */
@@ -189,7 +181,7 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
 {
     ibw_source *source = (ibw_source *)base;
     (void)self;
-    wt_status status = ibw_open(input, &source->file, err);
+    wt_status status = ibw_open(input, &source->file, NULL, err);
     if (status == WT_OK)
         status = ibw_read_segments(&source->file, source->segments, &source->n_segments, err);
     source->metadata = ibw_metadata(
@@ -229,7 +221,7 @@ static wt_status ibw_images(const file_reader *self, wt_input *input,
     image_list list = {NULL, 0};
     (void)self;
     (void)options;
-    wt_status status = ibw_open_image(input, &file, &grid, err);
+    wt_status status = ibw_open(input, &file, &grid, err);
     for (size_t c = 0; status == WT_OK && c < file.n_channels; c++) {
         double *values = NULL;
         wt_image head = {.n_columns = grid.n_columns,
@@ -263,5 +255,6 @@ const file_reader reader_ibw = {
     .detect = detect,
     .force = &ibw_force,
     .read_images = ibw_images,
-    .describe = describe,
+    .describe_curves = describe_curves,
+    .describe = images_describe,
 };

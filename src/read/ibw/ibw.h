@@ -46,16 +46,15 @@ typedef struct ibw_segment {
 bool ibw_is_wave(const unsigned char *bytes, size_t length, bool *big_endian);
 /* True if the bytes are a complete wave of version 2: its sizes add up to the file size. */
 bool ibw_is_version_2(const unsigned char *bytes, size_t length);
-/* Opens a wave of curves. All offsets are checked against the file size. */
-wt_status ibw_open(wt_input *input, ibw_file *file, wt_error *err) WT_NODISCARD;
 /* The grid of an image with three dimensions, the last of which is the channel; file.n = n_columns
  * * n_rows. */
 typedef struct ibw_grid {
     size_t n_columns, n_rows;
     double step_x, step_y, x_min, y_min; /* [m] */
 } ibw_grid;
-wt_status ibw_open_image(wt_input *input, ibw_file *file, ibw_grid *grid,
-                         wt_error *err) WT_NODISCARD;
+/* Opens a wave of curves, or of an image if its grid is requested. All offsets are checked against
+ * the file size. */
+wt_status ibw_open(wt_input *input, ibw_file *file, ibw_grid *grid, wt_error *err) WT_NODISCARD;
 /* Reads the value of a key of the note, cut to fit; false if it is absent. */
 bool ibw_note_text(const ibw_file *file, const char *key, char value[IBW_TEXT]);
 double ibw_note_number(const ibw_file *file, const char *key); /* NaN if it is absent */

@@ -57,6 +57,8 @@ static wt_status fail_wave(wt_error *err, wt_status status, const char *message,
     wt_error_expected(err, "%s", expected);
     if (status == WT_E_CORRUPT)
         wt_error_advice(err, "copy the file again from the instrument");
+    else if (status == WT_E_EMPTY)
+        wt_error_advice(err, "export the curve as text, with height and deflection");
     return status;
 }
 
@@ -248,22 +250,13 @@ static wt_status open_wave(wt_input *input, ibw_file *file, size_t *length, wt_e
     return status;
 }
 
-wt_status ibw_open(wt_input *input, ibw_file *file, wt_error *err)
+wt_status ibw_open(wt_input *input, ibw_file *file, ibw_grid *grid, wt_error *err)
 {
     size_t length = 0;
     wt_status status = open_wave(input, file, &length, err);
     if (status == WT_OK)
-        status = read_shape(file, err);
-    return status == WT_OK ? locate_parts(file, length, 1, err) : status;
-}
-
-wt_status ibw_open_image(wt_input *input, ibw_file *file, ibw_grid *grid, wt_error *err)
-{
-    size_t length = 0;
-    wt_status status = open_wave(input, file, &length, err);
-    if (status == WT_OK)
-        status = read_image_grid(file, grid, err);
-    return status == WT_OK ? locate_parts(file, length, 2, err) : status;
+        status = grid != NULL ? read_image_grid(file, grid, err) : read_shape(file, err);
+    return status == WT_OK ? locate_parts(file, length, grid != NULL ? 2 : 1, err) : status;
 }
 
 /* ---- the note -------------------------------------------------------------------------------- */

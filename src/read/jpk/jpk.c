@@ -309,11 +309,9 @@ static void add_identity(const jpk_file *file, table_writer *metadata)
     const char *version = properties_get(&file->header, "file-format-version");
     metadata_add(metadata, "format version", "", "file-format-version", "%s",
                  version != NULL ? version : "not stated");
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        const char *text = find_description(file, known[i].name);
-        if (text != NULL && *text != '\0')
-            metadata_add(metadata, known[i].item, "", known[i].name, "%s", text);
-    }
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        metadata_add_text(metadata, known[i].item, known[i].name,
+                          find_description(file, known[i].name));
 }
 
 static void add_curves(const jpk_file *file, table_writer *metadata)

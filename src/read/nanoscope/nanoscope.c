@@ -297,12 +297,11 @@ static void add_identity(const nanoscope_file *f, table_writer *metadata)
                  {"instrument", "Equipment list", "Description"},
                  {"operating mode", "Ciao scan list", "Operating mode"},
                  {"trigger mode", "Ciao force list", "Trigger mode"}};
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        const char *text = nanoscope_get(
-            &f->header, nanoscope_section(&f->header, known[i].section, 0), known[i].key);
-        if (text != NULL && *text != '\0')
-            metadata_add(metadata, known[i].item, "", known[i].key, "%s", text);
-    }
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        metadata_add_text(metadata, known[i].item, known[i].key,
+                          nanoscope_get(&f->header,
+                                        nanoscope_section(&f->header, known[i].section, 0),
+                                        known[i].key));
 }
 
 static void add_curves(const nanoscope_file *f, const wt_read_options *options,
@@ -337,18 +336,17 @@ static void add_curves(const nanoscope_file *f, const wt_read_options *options,
                      "PeakForce captures were not verified on a genuine file");
 }
 
-static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_log *log, table_writer *metadata)
+static wt_status describe_curves(wt_input *input, const wt_read_options *options, wt_log *log,
+                                 table_writer *metadata, wt_error *err)
 {
     nanoscope_file file;
-    wt_error err = WT_ERROR_INIT;
-    const wt_status status = nanoscope_file_open(input, log, &file, &err);
+    const wt_status status = nanoscope_file_open(input, log, &file, err);
     if (status == WT_OK) {
         add_identity(&file, metadata);
         add_curves(&file, options, metadata);
     }
     nanoscope_file_close(&file);
-    return images_add_metadata(self, input, options, log, metadata, status, &err);
+    return status;
 }
 
 const file_reader reader_nanoscope = {
@@ -366,5 +364,6 @@ const file_reader reader_nanoscope = {
     .detect = detect,
     .force = &nanoscope_force,
     .read_images = nanoscope_images,
-    .describe = describe,
+    .describe_curves = describe_curves,
+    .describe = images_describe,
 };

@@ -410,11 +410,9 @@ static void add_identity(const nid_file *file, table_writer *metadata)
                  {"time", "DataSet-Info", "Time"}};
     metadata_add(metadata, "text encoding", "", "the bytes of the header", "%s",
                  file->header.latin1 ? "Latin-1" : "UTF-8");
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        const char *text = nid_get(&file->header, known[i].section, known[i].key);
-        if (text != NULL && *text != '\0')
-            metadata_add(metadata, known[i].item, "", known[i].key, "%s", text);
-    }
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        metadata_add_text(metadata, known[i].item, known[i].key,
+                          nid_get(&file->header, known[i].section, known[i].key));
 }
 
 static void add_channels(const nid_file *file, table_writer *metadata)
@@ -443,11 +441,9 @@ static void describe_tune(const nid_file *file, table_writer *metadata)
         return;
     metadata_add(metadata, fact_item_text(FACT_NOISE), "", c->section, "%zu points up to %s Hz",
                  c->points, nid_get(&file->header, c->section, "Dim0Range"));
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        const char *text = nid_get(&file->header, "DataSet-Info", known[i].key);
-        if (text != NULL && *text != '\0')
-            metadata_add(metadata, known[i].item, "", known[i].key, "%s", text);
-    }
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        metadata_add_text(metadata, known[i].item, known[i].key,
+                          nid_get(&file->header, "DataSet-Info", known[i].key));
 }
 
 static void describe_phase(const nid_phase *phase, table_writer *metadata)

@@ -525,12 +525,12 @@ static recognition detect(const file_reader *self, file_peek *peek)
     (void)self;
     if (peek->length < 10 || memcmp(peek->bytes, "II*\0", 4) != 0)
         return match;
-    const wt_status status = window_open(&window, peek->input, NULL) == WT_OK
-                                 ? find_tags(&window, &tags, NULL)
+    const wt_status status = window_open(&window, peek->input, peek->err) == WT_OK
+                                 ? find_tags(&window, &tags, peek->err)
                                  : WT_E_IO;
     window_close(&window);
     if (status == WT_E_MEMORY) {
-        match.answer = ANSWER_NO_MEMORY;
+        match.answer = ANSWER_FAILED;
     } else if (has_park_tags(&tags)) {
         match.answer = ANSWER_YES;
         match.score = 90;
@@ -538,10 +538,11 @@ static recognition detect(const file_reader *self, file_peek *peek)
     return match;
 }
 
-static wt_status describe_curves(wt_input *input, const wt_read_options *options,
+static wt_status describe_curves(wt_input *input, const wt_read_options *options, wt_log *log,
                                  table_writer *metadata, wt_error *err)
 {
     park_file file;
+    (void)log;
     wt_status status = open_park_file(input, &file, err);
     if (status == WT_OK)
         status = load_curve(&file, 0, err);
@@ -570,14 +571,6 @@ static wt_status describe_curves(wt_input *input, const wt_read_options *options
     return WT_OK;
 }
 
-static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_log *log, table_writer *metadata)
-{
-    wt_error err = WT_ERROR_INIT;
-    const wt_status status = describe_curves(input, options, metadata, &err);
-    return images_add_metadata(self, input, options, log, metadata, status, &err);
-}
-
 const file_reader reader_park = {
     .info = {.id = "park",
              .title = "TIFF files of Park Systems with force curves, an image, or both (.tiff)",
@@ -589,5 +582,6 @@ const file_reader reader_park = {
     .detect = detect,
     .force = &park_force,
     .read_images = park_images,
-    .describe = describe,
+    .describe_curves = describe_curves,
+    .describe = images_describe,
 };

@@ -128,7 +128,7 @@ static size_t count_numeric_cells(const text_description *d, const text_cells *c
         const cell_kind kind = cell_parse(cells->cells[i], decimal, d, &value);
         if (kind == CELL_TEXT)
             return 0;
-        numbers += kind == CELL_NUMBER;
+        numbers += kind == CELL_NUMBER || kind == CELL_CLOCK;
     }
     return numbers;
 }
@@ -179,6 +179,16 @@ bool names_match_row(names_row *names, const text_description *d, text_span line
     return false;
 }
 
+/* True if tabs separate names of several words, such as "Friction power". */
+static bool has_names_of_words(text_span line)
+{
+    bool blank = false;
+    for (size_t i = 1; i + 1 < line.length; i++)
+        blank = blank || (line.text[i] == ' ' && strchr(" \t", line.text[i - 1]) == NULL &&
+                          strchr(" \t", line.text[i + 1]) == NULL);
+    return blank && memchr(line.text, '\t', line.length) != NULL;
+}
+
 bool names_match(names_row *names, const text_description *d, text_span line,
                  cell_separator separator, unsigned kinds)
 {
@@ -196,7 +206,7 @@ bool names_match(names_row *names, const text_description *d, text_span line,
     }
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         /* names of several words would give too many matches with blanks as separators */
-        if (all[i] == SEPARATOR_WHITESPACE && best > 0)
+        if (all[i] == SEPARATOR_WHITESPACE && (best > 0 || has_names_of_words(line)))
             break;
         size_t known = try_separator(names, d, line, all[i], kinds);
         if (known > best) {

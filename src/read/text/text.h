@@ -81,9 +81,16 @@ void cells_free(text_cells *cells);
 bool cells_are_blank(const text_cells *cells);
 bool cell_equals(text_span cell, const char *text);
 
-typedef enum cell_kind { CELL_NUMBER, CELL_MISSING, CELL_NOT_FINITE, CELL_TEXT } cell_kind;
-/* Classifies a cell: a number; a missing value ("", "--", 1e99 or a text of the description); an
- * unlisted "nan" or "inf"; or another text. *value is NaN unless it is a number. */
+typedef enum cell_kind {
+    CELL_NUMBER,
+    CELL_CLOCK, /* a time such as 1:05:30.5, hours, minutes and seconds, in seconds */
+    CELL_MISSING,
+    CELL_NOT_FINITE,
+    CELL_TEXT
+} cell_kind;
+/* Classifies a cell: a number or a clock time; a missing value ("", "--", 1e99 or a text of the
+ * description); an unlisted "nan" or "inf"; or another text. *value is NaN unless it is a number or
+ * a time. */
 cell_kind cell_parse(text_span cell, char decimal, const text_description *description,
                      double *value);
 /* True if the decimal mark of a number may separate thousands, as in "30.412". */
@@ -123,6 +130,8 @@ typedef struct text_column {
     char unit[32];         /* unit of the file or of the user; "" if none */
     const char
         *overruled; /* unit of the user that differs from that of the file, which has priority */
+    double clock;   /* last clock time [s]; 0 if none */
+    size_t days;    /* midnights that it passed */
 } text_column;
 
 #define ALL_CONDITIONS SIZE_MAX

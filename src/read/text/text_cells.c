@@ -270,7 +270,7 @@ cell_kind cell_parse(text_span cell, char decimal, const text_description *descr
         return CELL_MISSING;
     }
     if (cell.length > 0 && parse_clock_time(cell, decimal, value))
-        return CELL_NUMBER;
+        return CELL_CLOCK;
     static const char *const none[] = {"-",
                                        "--",
                                        "---",

@@ -6,7 +6,7 @@
 
 #include "core/base/array.h"
 #include "core/base/clocale.h"
-#include "core/base/number.h"
+#include "read/header_number.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -150,15 +150,6 @@ static bool normalise_text(text_span text, char copy[COLUMN_NAME_SIZE])
     return out > 0;
 }
 
-/* Returns the length of a number with decimal point or comma, and its value. */
-static size_t read_number(const char *text, double *value)
-{
-    const size_t length = strlen(text), point = number_prefix_length(text, length, '.'),
-                 comma = number_prefix_length(text, length, ',');
-    const size_t n = comma > point ? comma : point;
-    return n > 0 && wt_number_parse(text, n, comma > point ? ',' : '.', value) ? n : 0;
-}
-
 /* Labels that can stand before the number of a condition. */
 static const char *const temperature_labels[] = {
     "T",           "temp", "temp.", "temperature", "temperatur", "temp\u00e9rature",
@@ -215,7 +206,7 @@ static bool find_token(const char *text, condition_token *token)
         if (!isdigit((unsigned char)text[i]) || isdigit((unsigned char)before) || before == '.')
             continue;
         *token = (condition_token){.begin = i};
-        const size_t n = read_number(text + i, &token->number);
+        const size_t n = header_number_parse(text + i, strlen(text + i), &token->number);
         size_t at = i + n, length;
         while (text[at] == ' ' || text[at] == '_')
             at++;
@@ -420,8 +411,9 @@ static bool read_labelled_number(char *text, text_condition *c)
     while (at > 0 && (isdigit((unsigned char)text[at - 1]) || strchr(".,", text[at - 1]) != NULL))
         at--;
     at -= at > 0 && strchr("+-", text[at - 1]) != NULL;
+    const char *const digits = text + at + strspn(text + at, "+-");
     double number;
-    if (at == 0 || read_number(text + at + strspn(text + at, "+-"), &number) == 0)
+    if (at == 0 || header_number_parse(digits, strlen(digits), &number) == 0)
         return false;
     number = text[at] == '-' ? -number : number;
     while (at > 0 && strchr(" :=", text[at - 1]) != NULL)

@@ -60,17 +60,26 @@ static void apply_field(text_scanner *s, field_sets sets, text_span text)
 /* Parses the number of a field in SI units; false, with a message, for another text. What follows
  * the text on its line is no part of the number. */
 static bool parse_field_number(const text_scanner *s, const header_field *field, text_span text,
-                               const field_value *value, double *number)
+                               field_value *value, double *number)
 {
     const line_position_text place = format_line_position(value->line);
     const size_t rest = (size_t)(s->line.text + s->line.length - text.text);
     const char *unit = value->unit;
-    double factor, offset;
+    double factor, offset, error;
     size_t end;
+    const header_number found = header_number_read(text.text, rest, number, &end);
+    const size_t behind = end + header_number_error(text.text + end, rest - end, &error);
+    if (behind > end && field->unit_group > 0) { /* the unit stands behind the error */
+        const size_t blanks = strspn(text.text + behind, " \t");
+        text_copy(
+            value->unit, sizeof value->unit,
+            (text_span){text.text + behind + blanks, strcspn(text.text + behind + blanks, " \t")});
+    }
+    if (text.length > end && behind > end)
+        text.length = end;
     for (size_t i = 0; i < s->d->n_aliases; i++)
         if (strcmp(s->d->aliases[i].found, unit) == 0)
             unit = s->d->aliases[i].means;
-    const header_number found = header_number_read(text.text, rest, number, &end);
     header_number_warn(found, text.text, rest, field->name, header_number_option(field->quantity),
                        s->file->name, place.text, s->log);
     if (found > HEADER_NUMBER_ONE)

@@ -97,7 +97,7 @@ static wt_status text_peek_lines(file_peek *peek, text_encoding encoding, const 
     while (i < t->n_lines && strcmp(t->lines[i].encoding, words) != 0)
         i++;
     if (i == t->n_lines) {
-        wt_status status = lines_decode(peek->bytes, t->length, encoding, &t->lines[i], NULL);
+        wt_status status = lines_decode(peek->bytes, t->length, encoding, &t->lines[i], peek->err);
         if (status != WT_OK)
             return status;
         t->n_lines++;
@@ -114,9 +114,9 @@ static recognition detect(const file_reader *self, file_peek *peek)
     const text_lines *lines = NULL;
     recognition answer = {.answer = ANSWER_NO};
     bool more = false;
-    if (description_load(self->description, DESCRIPTION_DETECT, &d, NULL) != WT_OK ||
+    if (description_load(self->description, DESCRIPTION_DETECT, &d, peek->err) != WT_OK ||
         text_peek_lines(peek, d->encoding, &lines) == WT_E_MEMORY)
-        answer.answer = ANSWER_NO_MEMORY;
+        answer.answer = ANSWER_FAILED;
     if (lines == NULL)
         return answer;
     int score = 0;
@@ -124,8 +124,8 @@ static recognition detect(const file_reader *self, file_peek *peek)
         const text_probe *probe = &d->probes[i];
         const text_description *named = d;
         if (probe->kind == PROBE_NAMES &&
-            description_load(self->description, DESCRIPTION_WHOLE, &named, NULL) != WT_OK) {
-            answer.answer = ANSWER_NO_MEMORY;
+            description_load(self->description, DESCRIPTION_WHOLE, &named, peek->err) != WT_OK) {
+            answer.answer = ANSWER_FAILED;
             return answer;
         }
         switch (run_probe(named, probe, lines, peek->text->whole)) {

@@ -25,6 +25,7 @@ static const struct {
     [WT_RECORD_PRESSURE] = {WT_Q_PRESSURE, HEADER_COUNT},
     [WT_RECORD_TEMPERATURE] = {WT_Q_TEMPERATURE, HEADER_TEMPERATURE},
     [WT_RECORD_WEAR_DEPTH] = {WT_Q_WEAR_DEPTH, HEADER_COUNT},
+    [WT_RECORD_TORQUE] = {WT_Q_TORQUE, HEADER_COUNT},
 };
 
 static double channel_header_value(const text_table *t, int channel)
@@ -58,7 +59,8 @@ static bool has_value(const wt_record *record, wt_record_channel c, size_t i)
 static bool is_sample(const wt_record *record, size_t i)
 {
     return (has_value(record, WT_RECORD_COEFFICIENT, i) ||
-            has_value(record, WT_RECORD_FRICTION_FORCE, i)) &&
+            has_value(record, WT_RECORD_FRICTION_FORCE, i) ||
+            has_value(record, WT_RECORD_TORQUE, i)) &&
            (record->channel[WT_RECORD_TIME] == NULL || has_value(record, WT_RECORD_TIME, i)) &&
            (record->channel[WT_RECORD_LAPS] == NULL || has_value(record, WT_RECORD_LAPS, i));
 }

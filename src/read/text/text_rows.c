@@ -286,18 +286,44 @@ static void track_decimal_mark(text_table *t, text_span cell)
     t->has_decimals = has_mark && !is_grouped;
 }
 
+/* Continues clock times after midnight, where they fall by a day but for the time since the row
+ * before, one hour at most. Another fall stays, as that of a clock that begins again. */
+static double continue_clock(text_scanner *s, text_column *column, double seconds)
+{
+    static const double day = 86400, pause_max = 3600;
+    if (column->clock < day && column->clock - seconds > day - pause_max &&
+        s->options->conditioning != WT_CONDITIONING_KEEP) {
+        column->days++;
+        wt_log_action(
+            s->log, WT_WARNING, WT_CORRECTED, 1, WT_KEEP_OPTION, s->file->name,
+            format_line_position(s->i + 1).text,
+            "the clock of column \"%s\" passes midnight: the times from here on are those "
+            "of the next day",
+            column->name);
+    }
+    column->clock = seconds;
+    return seconds + day * (double)column->days;
+}
+
 row_quality scan_read_row(text_scanner *s, size_t *bad)
 {
     text_table *t = s->table;
     double *values = t->values + t->n_rows * t->n_columns;
     size_t numbers = 0, texts = 0;
     for (size_t c = 0; c < t->n_columns; c++) {
-        const text_column *column = &t->columns[c];
+        text_column *const column = &t->columns[c];
         double value;
         values[c] = (double)NAN;
         if (column->cell >= s->row.n)
             continue;
-        switch (cell_parse(s->row.cells[column->cell], t->decimal, s->d, &value)) {
+        cell_kind kind = cell_parse(s->row.cells[column->cell], t->decimal, s->d, &value);
+        if (kind == CELL_CLOCK && column->rule->quantity != WT_Q_TIME)
+            kind = CELL_TEXT;
+        switch (kind) {
+        case CELL_CLOCK:
+            values[c] = continue_clock(s, column, value);
+            numbers++;
+            break;
         case CELL_NUMBER:
             values[c] = column->factor * value + column->offset;
             numbers++;

@@ -1,10 +1,12 @@
 /* Reads the JSON export of TRIOS (TA Instruments): the results of each step as rows of named cells.
- * It is converted to the text export, whose description reads it. SQLite parses the JSON.
+ * It is converted to the text export, whose description reads it. SQLite parses the JSON in the
+ * sandbox.
  *
  * The layout is that of the schema of the vendor and of the example of its own reader.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/memory.h"
 #include "core/base/utf8.h"
+#include "core/system/sandbox.h"
 #include "read/bytes/input.h"
 #include "read/text/text.h"
 
@@ -15,6 +17,7 @@
 
 /* The parsed form takes up to ten times the memory of the file. */
 #define LARGEST_JSON ((size_t)256 << 20)
+#define SHOWN "Processed" /* the results that TRIOS shows */
 #define BYTE_ORDER_MARK "\xef\xbb\xbf"
 
 enum { PAIRS_MAX = 4096 };
@@ -180,9 +183,9 @@ static wt_status write_rows(const trios_json *json, FILE *out)
 }
 
 /* Chooses the results in use: those that TRIOS shows, or the original ones without those. */
-static wt_status choose_part(trios_json *json, wt_log *log, const char *name)
+static wt_status choose_part(trios_json *json)
 {
-    static const char *const parts[] = {"Processed", "Original"};
+    static const char *const parts[] = {SHOWN, "Original"};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         sqlite3_stmt *rows = NULL;
         json->part = parts[i];
@@ -192,9 +195,6 @@ static wt_status choose_part(trios_json *json, wt_log *log, const char *name)
         const wt_status read =
             status == WT_OK && code != SQLITE_ROW ? fail_json(json, code) : status;
         (void)sqlite3_finalize(rows);
-        if (has_rows && i == 0)
-            wt_log_add(log, WT_NOTE, name, NULL,
-                       "the results are those that TRIOS shows, with changes by its user, if any");
         if (read != WT_OK || has_rows)
             return read;
     }
@@ -214,17 +214,12 @@ static void free_pairs(text_pair *pairs, size_t n)
     free(pairs);
 }
 
-static wt_status write_json_as_text(trios_json *json, wt_log *log, const char *name, FILE *out)
+/* Writes the name of the results in use as the first line, then the text export. */
+static wt_status write_json_as_text(trios_json *json, FILE *out)
 {
-    if (json->length > LARGEST_JSON) {
-        (void)wt_fail(json->err, WT_E_RANGE, "the JSON is too large");
-        wt_error_expected(json->err, "%zu MiB at most", LARGEST_JSON >> 20);
-        wt_error_advice(json->err, "export it as text from TRIOS");
-        return WT_E_RANGE;
-    }
     const int code =
         sqlite3_open_v2(":memory:", &json->db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX, NULL);
-    wt_status status = code == SQLITE_OK ? choose_part(json, log, name) : fail_json(json, code);
+    wt_status status = code == SQLITE_OK ? choose_part(json) : fail_json(json, code);
     if (status == WT_OK)
         status = read_pairs(json,
                             "SELECT json_extract(value, '$.Name'), '', json_extract(value, '$.Id') "
@@ -239,7 +234,7 @@ static wt_status write_json_as_text(trios_json *json, wt_log *log, const char *n
     if (status == WT_OK)
         status = read_pairs(json, "SELECT json_extract(?1, '$.Sample.Name'), ?2, ''", "Rows",
                             &json->sample, &json->n_sample);
-    fputs("[Version]\nTA Instruments LIMS export format version\t0\n", out);
+    fprintf(out, "%s\n[Version]\nTA Instruments LIMS export format version\t0\n", json->part);
     if (status == WT_OK) {
         fprintf(out, "Name\t%s\n", json->sample->first);
         status = write_rows(json, out);
@@ -249,6 +244,12 @@ static wt_status write_json_as_text(trios_json *json, wt_log *log, const char *n
     free_pairs(json->sample, json->n_sample);
     (void)sqlite3_close(json->db);
     return status;
+}
+
+static wt_status read_in_sandbox(const sandbox_call *request, FILE *answer, wt_error *err)
+{
+    trios_json json = {.bytes = request->bytes, .length = request->size, .err = err};
+    return write_json_as_text(&json, answer);
 }
 
 static wt_status convert_json_to_text(const file_reader *self, wt_input *input, wt_log *log,
@@ -262,15 +263,29 @@ static wt_status convert_json_to_text(const file_reader *self, wt_input *input, 
     if (status != WT_OK)
         return status;
     const size_t mark = length >= 3 && memcmp(bytes, BYTE_ORDER_MARK, 3) == 0 ? 3 : 0;
-    trios_json json = {.bytes = (const char *)bytes + mark, .length = length - mark, .err = err};
-    FILE *const out = text_stream_open(&made, &n_text);
-    status = write_json_as_text(&json, log, wt_input_name(input), out);
-    text_stream_close(out);
-    if (status == WT_OK)
-        *text = input_from_bytes(made, n_text, wt_input_name(input));
-    else
-        free(made);
-    return status;
+    const sandbox_call call = {.what = "TRIOS JSON",
+                               .reading = read_in_sandbox,
+                               .bytes = bytes + mark,
+                               .size = length - mark,
+                               .file = -1};
+    if (call.size > LARGEST_JSON) {
+        (void)wt_fail(err, WT_E_RANGE, "the JSON is too large");
+        wt_error_expected(err, "%zu MiB at most", LARGEST_JSON >> 20);
+        wt_error_advice(err, "export it as text from TRIOS");
+        return WT_E_RANGE;
+    }
+    const sandbox_limits limits = sandbox_limits_for(call.size);
+    status = sandbox_read(&call, &limits, &made, &n_text, err);
+    if (status != WT_OK)
+        return status;
+    if (n_text > strlen(SHOWN) && memcmp(made, SHOWN "\n", strlen(SHOWN) + 1) == 0)
+        wt_log_add(log, WT_NOTE, wt_input_name(input), NULL,
+                   "the results are those that TRIOS shows, with changes by its user, if any");
+    const char *const end = memchr(made, '\n', n_text);
+    const size_t head = end != NULL ? (size_t)(end - made) + 1 : n_text;
+    memmove(made, made + head, n_text - head);
+    *text = input_from_bytes(made, n_text - head, wt_input_name(input));
+    return WT_OK;
 }
 
 static recognition detect(const file_reader *self, file_peek *peek)

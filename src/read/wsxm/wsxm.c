@@ -33,14 +33,6 @@ typedef struct wsxm_header {
     char channel[48];
 } wsxm_header;
 
-static wt_status fail_wsxm(wt_error *err, const char *message, const char *expected)
-{
-    wt_fail(err, WT_E_CORRUPT, "%s", message);
-    wt_error_place(err, "header of the file");
-    wt_error_expected(err, "%s", expected);
-    return WT_E_CORRUPT;
-}
-
 /* Copies text to UTF-8. Text that is UTF-8 already is unchanged, other text is Latin-1. */
 static void copy_latin1(char *to, size_t size, text_span text)
 {
@@ -151,16 +143,17 @@ static wt_status read_wsxm_header(wt_input *input, wsxm_header *h, wt_error *err
     text_span header = {(const char *)bytes, length};
     h->size = read_count(header, "Image header size");
     if (h->size == 0 || h->size > length)
-        return fail_wsxm(err, "the header has no end", "\"Image header size\" within the file");
+        return images_fail_header(err, "the header has no end",
+                                  "\"Image header size\" within the file");
     header.length = h->size;
     h->n_columns = read_count(header, "Number of columns");
     h->n_rows = read_count(header, "Number of rows");
     if (h->n_columns == 0 || h->n_rows == 0)
-        return fail_wsxm(err, "the size of the image is missing",
-                         "\"Number of columns\" and \"Number of rows\", integers");
+        return images_fail_header(err, "the size of the image is missing",
+                                  "\"Number of columns\" and \"Number of rows\", integers");
     if (!read_type(header, &h->type))
-        return fail_wsxm(err, "the type of the samples is unknown",
-                         "\"Image Data Type\": short, integer, float or double");
+        return images_fail_header(err, "the type of the samples is unknown",
+                                  "\"Image Data Type\": short, integer, float or double");
     h->width = read_quantity(header, "X Amplitude");
     h->height = read_quantity(header, "Y Amplitude");
     h->range = read_quantity(header, "Z Amplitude");
@@ -205,43 +198,21 @@ static wt_status wsxm_images(const file_reader *self, wt_input *input,
                              size_t *n_images, wt_error *err)
 {
     wsxm_header h;
-    input_window window = {.input = NULL};
     image_list list = {NULL, 0};
-    double factor = 1, *values = NULL;
+    double factor = 1;
     (void)self;
     (void)options;
     wt_status status = read_wsxm_header(input, &h, err);
-    if (status == WT_OK)
-        status = window_open(&window, input, err);
-    const size_t row_size = sample_width(h.type) * h.n_columns;
-    if (status == WT_OK && (h.size > window.size || (window.size - h.size) / row_size < h.n_rows)) {
-        status = fail_wsxm(err, "the file ends before its heights",
-                           "a sample for each of the columns x rows");
-        wt_error_found(err, "%zu x %zu pixels in %zu bytes", h.n_columns, h.n_rows, window.size);
-    }
     if (status == WT_OK) {
+        const image_raster raster = {.from = h.size, .type = h.type, .is_from_right = true};
         wt_image head = {.n_columns = h.n_columns, .n_rows = h.n_rows};
         images_set_units(&head, "m", h.range.unit, lateral_size(&h.width), lateral_size(&h.height),
                          &factor);
         images_set_name(&head, h.channel[0] != '\0' ? h.channel : "image");
-        status = images_add(&list, &head, &values, err);
-    }
-    for (size_t row = 0; status == WT_OK && row < h.n_rows; row++) {
-        const unsigned char *bytes = NULL;
-        double *const line = values + row * h.n_columns;
-        status = window_bytes(&window, h.size + row_size * row, row_size, &bytes, err);
-        if (status != WT_OK)
-            break;
-        samples_decode(h.type, false, bytes, h.n_columns, 1, 0, line);
-        for (size_t i = 0; i < h.n_columns / 2; i++) { /* the line begins at its right end */
-            const double left = line[i];
-            line[i] = line[h.n_columns - 1 - i];
-            line[h.n_columns - 1 - i] = left;
-        }
+        status = images_add_raster(&list, input, &head, &raster, 1, err);
     }
     if (status == WT_OK)
         scale_heights(&h, factor, &list.images[0], wt_input_name(input), log);
-    window_close(&window);
     return images_finish(&list, status, wt_input_name(input), log, images, n_images, err);
 }
 

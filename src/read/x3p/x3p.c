@@ -185,6 +185,9 @@ static wt_status read_root(const xmlNode *root, x3p_document *to, wt_error *err)
         status = wt_fail(err, WT_E_UNSUPPORTED, "the points are not equally spaced");
         wt_error_place(err, "main.xml");
         wt_error_expected(err, "incremental axes CX and CY");
+        wt_error_advice(err,
+                        "resample the points to a grid in the program that wrote the file, and "
+                        "export them as .x3p, .gwy or .gsf");
     }
     if (status == WT_OK)
         status = read_matrix(find_child(root, "Record3"), to, err);

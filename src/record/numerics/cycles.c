@@ -41,6 +41,14 @@ static wt_status sample_friction(const wt_record *record, double load, double *f
                by_force = force != NULL && has_load &&
                           (given == NULL ||
                            (has_both_signs(force, record->n) && !has_both_signs(given, record->n)));
+    if (given == NULL && force == NULL && record->channel[WT_RECORD_TORQUE] != NULL) {
+        const wt_status status =
+            wt_fail(err, WT_E_MISSING, "friction as a torque without a radius");
+        wt_error_expected(err, "the radius of the track, at which the friction force acts");
+        wt_error_advice(err, "give it: weartrack record --track-radius 10mm, or <track-radius> in "
+                             "the <record> of a case");
+        return status;
+    }
     if (given == NULL && !by_force) {
         const wt_status status = wt_fail(err, WT_E_MISSING, "a friction force without a load");
         wt_error_expected(err, "a column of the normal force or of the friction coefficient");

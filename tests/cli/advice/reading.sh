@@ -164,3 +164,5 @@ cause '--format stream' table plain.tsv
 helps table bulk.h5 modulus_groups --format stream -o marked.tsv
 helps table marked.tsv
 number modulus_groups n 12 0 marked.tsv
+
+no_input 'the library was built with this damaged description: install it again' 'the library is sound; unit_read_description damages one'

@@ -1,9 +1,13 @@
-/* Any bytes as an Igor binary wave. Its check sum is made to agree, else it would stop nearly every
- * change. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Any bytes as a file of reader_READER_ID whose check sums are made to agree, else they would stop
+ * nearly every change. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read_all.h"
+#include "writers/ardf_writer.h"
 #include "writers/ibw_writer.h"
 
 #include <string.h>
+
+#define JOIN_NOW(a, b) a##b
+#define JOIN(a, b) JOIN_NOW(a, b)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -14,8 +18,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     if (size > 0)
         memcpy(copy, data, size);
-    ibw_writer_mend(copy, size);
-    read_all(&reader_ibw, copy, size);
+    JOIN(READER_ID, _writer_mend)(copy, size);
+    read_all(&JOIN(reader_, READER_ID), copy, size);
     free(copy);
     return 0;
 }
