@@ -182,32 +182,24 @@ static wt_status answer_check(const wt_view *view, const char *body, size_t leng
 }
 
 /* Runs the text of a case for the requested tables, as `weartrack run` does. */
-static wt_status answer_trial(const wt_view *view, const view_request *request, const char *body,
+static wt_status answer_trial(wt_view *view, const view_request *request, const char *body,
                               size_t length, text_buffer *to, wt_error *err)
 {
-    wt_case *c = NULL;
     wt_result *result = NULL;
-    wt_log *log = wt_log_new();
     wt_run_options run = wt_run_defaults();
     const double start = wt_time_wall();
     run.threads = view->options.threads;
     run.formats = view->options.formats;
     run.replicates = request->replicates;
     run.no_provenance = true;
-    wt_status status = case_from_bytes(body, length, view->case_path, &c, err);
-    if (status == WT_OK)
-        status = wt_case_request_tables(c, request->name, err);
-    if (status == WT_OK)
-        status = wt_run_case(c, &run, log, &result, NULL, err);
+    wt_status status = case_refit_run(view->refit, body, length, view->case_path, request->name,
+                                      &run, &result, err);
     if (status == WT_OK) {
         text_add(to, "{");
         status = append_named(result, request->name, to, err);
         text_format(to, ",\"time\":%.4f}", wt_time_wall() - start);
     }
     wt_result_free(result);
-    if (c != NULL)
-        wt_case_free(c);
-    wt_log_free(log);
     return status;
 }
 
