@@ -1,6 +1,7 @@
 /* State of a case for the page: texts, files and results.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/inputs.h"
+#include "report/browse.h"
 #include "view/view.h"
 
 #include "core/base/array.h"
@@ -252,6 +253,8 @@ wt_status view_append_state(wt_view *view, text_buffer *to, wt_error *err)
     text_format(to, ",\"current\":%s",
                 stored != NULL || is_current(view, c, overrides) ? "true" : "false");
     append_names(view, to);
+    text_add(to, ",\"verdicts\":");
+    append_verdict_words(to);
     text_add(to, "}");
     free(stored);
     free(overrides);
