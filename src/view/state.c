@@ -168,12 +168,9 @@ static void append_file(const case_folder *folder, const char *prefix, const cha
 
 static void append_names(const wt_view *view, text_buffer *to)
 {
-    text_add(to, ",\"files\":[");
-    for (size_t i = 0; i < view->n_files; i++) {
-        text_add(to, i > 0 ? "," : "");
-        text_json(to, view->files[i]);
-    }
-    text_add(to, "],\"tables\":[");
+    text_add(to, ",\"files\":");
+    text_json_list(to, (const char *const *)view->files, view->n_files);
+    text_add(to, ",\"tables\":[");
     for (size_t i = 0; view->result != NULL && i < wt_result_n_tables(view->result); i++) {
         text_add(to, i > 0 ? "," : "");
         text_json(to, wt_table_name(wt_result_table(view->result, i)));
