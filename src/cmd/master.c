@@ -269,6 +269,8 @@ static void fit_sample_masters(cmd_session *s, wt_master_job *job, wt_file_set *
         for (size_t k = 0; k < TABLES; k++)
             made_tables[n++] = &fits[i].named[k];
     }
+    s->next = "friction --material RESULT --sample NAME, or compare BULK TRACK --master RESULT "
+              "--sample NAME";
     cmd_finish(s, status, made_tables, n);
     for (size_t i = 0; i < samples->n; i++) {
         wt_master_tables_clear(&fits[i].tables);

@@ -71,10 +71,9 @@ static void draw_force_displacement(figure_drawing *d)
     }
     if (n == 0 || d->status != WT_OK)
         return;
-    d->width = n == 1 ? 1 : 0.85 * (double)n;
-    d->height = 0.9;
+    const size_t columns = drawing_panels(d, n, n, n == 1 ? 1 : 0.85, 0.9);
     drawing_axes(d);
-    text_format(&d->script, "set multiplot layout 1,%zu\n", n);
+    text_format(&d->script, "set multiplot layout %zu,%zu\n", n / columns, columns);
     for (size_t i = 0; i < d->n_groups; i++) {
         int style = drawing_group_style(d, i);
         if (d->data[i] < 0 && retract[i] < 0)
@@ -341,12 +340,12 @@ static void draw_modulus_map(figure_drawing *d)
     }
     if (n == 0 || span_is_empty(&colour) || d->status != WT_OK)
         return;
-    d->width = 0.95 * (double)n;
+    const size_t across = drawing_panels(d, n, n, 0.95, 1);
     axis_log(d, "cb", "Modulus", &indentation_schema.columns[INDENTATION_MODULUS], colour);
     text_format(
         &d->script,
-        "set size ratio -1\nset border 15\nset cblabel offset 1,0\nset multiplot layout 1,%zu\n",
-        n);
+        "set size ratio -1\nset border 15\nset cblabel offset 1,0\nset multiplot layout %zu,%zu\n",
+        n / across, across);
     for (size_t i = 0; i < n; i++)
         draw_modulus_panel(d, &panels[i]);
     text_add(&d->script, "unset multiplot\n");
@@ -355,7 +354,7 @@ static void draw_modulus_map(figure_drawing *d)
 /* ---- force curves ---------------------------------------------------------------------------- */
 
 /* Largest number of curves on one sheet; separate sheets and the page show the rest. */
-enum { SHEET_CURVES = 12, SHEET_COLUMNS = 3 };
+enum { SHEET_CURVES = 12, STACKED_CURVES = 4, SHEET_COLUMNS = 3 };
 
 /* Returns the largest number of title lines in one row of panels. */
 static size_t max_title_lines(const figure_drawing *d, const curve_list *list, size_t first,
@@ -371,13 +370,11 @@ static size_t max_title_lines(const figure_drawing *d, const curve_list *list, s
 
 static void draw_sheet(figure_drawing *d, const curve_list *list)
 {
-    const size_t n = list->n < SHEET_CURVES ? list->n : SHEET_CURVES,
-                 columns = n < SHEET_COLUMNS ? n : SHEET_COLUMNS,
-                 rows = (n + columns - 1) / columns;
-    d->width = 0.75 * (double)columns;
-    d->height = 0.85 * (double)rows;
-    text_format(&d->script, "set lmargin 9\nset rmargin 2\nset multiplot layout %zu,%zu\n", rows,
-                columns);
+    const size_t most = d->stacked ? STACKED_CURVES : SHEET_CURVES,
+                 n = list->n < most ? list->n : most,
+                 columns = drawing_panels(d, n, SHEET_COLUMNS, 0.75, 0.85);
+    text_format(&d->script, "set lmargin 9\nset rmargin 2\nset multiplot layout %zu,%zu\n",
+                (n + columns - 1) / columns, columns);
     for (size_t i = 0; i < n; i++) {
         if (i % columns == 0)
             text_format(&d->script, "set tmargin %zu\n", max_title_lines(d, list, i, columns) + 1);

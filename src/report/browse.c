@@ -290,6 +290,17 @@ static void add_choice_rows(const table_view *choices, text_buffer *to)
     }
 }
 
+void append_verdict_words(text_buffer *to)
+{
+    for (int k = WT_CURVE_DOUBTFUL + 1; k <= WT_CURVE_UNREADABLE; k++) {
+        text_add(to, k == WT_CURVE_DOUBTFUL + 1 ? "{" : ",");
+        text_json(to, wt_curve_verdict_id((wt_curve_verdict)k));
+        text_add(to, ":");
+        text_json(to, wt_curve_verdict_text((wt_curve_verdict)k));
+    }
+    text_add(to, "}");
+}
+
 void append_browse_data(const figure_tables *tables, text_buffer *to)
 {
     curve_finder f = {.view = &tables->curves};
@@ -301,6 +312,8 @@ void append_browse_data(const figure_tables *tables, text_buffer *to)
     }
     text_add(to, "],\"choices\":[");
     add_choice_rows(&tables->overrides, to);
-    text_add(to, "]}");
+    text_add(to, "],\"verdicts\":");
+    append_verdict_words(to);
+    text_add(to, "}");
     curve_finder_clear(&f);
 }

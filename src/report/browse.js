@@ -14,6 +14,7 @@
 
   const data = JSON.parse($('data').textContent);
   const usable = (curve) => ['accepted', 'wide', 'doubtful'].includes(curve.verdict);
+  const wordsOf = (verdict) => data.verdicts[verdict] || verdict;
   const groups = data.groups.map((group) => ({
     name: group.name,
     curves: group.curves.map((row, index) => ({
@@ -154,7 +155,7 @@
     const counts = new Map();
     for (const curve of group.curves) counts.set(curve.verdict, (counts.get(curve.verdict) || 0) + 1);
     const options = [['', 'all'], ['usable', 'usable'], ['refused', 'refused'], ['byhand', 'chosen by hand']];
-    for (const [verdict, n] of counts) options.push(['=' + verdict, `${verdict} (${n})`]);
+    for (const [verdict, n] of counts) options.push(['=' + verdict, `${wordsOf(verdict)} (${n})`]);
     $('filter').replaceChildren(...options.map(([value, text]) => new Option(text, value)));
   };
   const passes = (curve) => {
@@ -170,7 +171,7 @@
     $('list').replaceChildren(...shown.map((curve) => {
       const entry = document.createElement('li');
       entry.textContent = `${curve.number}: ` +
-        (usable(curve) ? inUnit(curve.modulus, 'Pa') : curve.verdict) + `, ${curve.short}`;
+        (usable(curve) ? inUnit(curve.modulus, 'Pa') : wordsOf(curve.verdict)) + `, ${curve.short}`;
       entry.className = kindOf(curve);
       entry.classList.toggle('out', Boolean(choiceOf(curve).out));
       entry.addEventListener('click', () => select(curve));
@@ -314,7 +315,7 @@
   };
   const words = (curve) => {
     const b = document.createElement('b');
-    b.textContent = curve.verdict;
+    b.textContent = wordsOf(curve.verdict);
     b.className = kindOf(curve);
     const rest = [];
     if (curve.modulus !== null)

@@ -12,7 +12,7 @@
 /* Characters of 8 points per line, and lines for a reason of at most 159 characters. A heading of
  * the last column begins 181 points from the edge of the sheet; a letter is 4 points wide in the
  * mean. */
-enum { LINE_LENGTH = 40, REASON_LINES = 6 };
+enum { LINE_LENGTH = 40, VERDICT_LINES = 2, REASON_LINES = 6 };
 
 const char curve_panel_legend[] =
     "Points: approach; black line: fit; grey line: retract; vertical line: contact point.";
@@ -111,15 +111,20 @@ static size_t add_heading_lines(text_buffer *to, const figure_drawing *d, const 
         .standard_error = indentation_get(c->rows, c->row, INDENTATION_MODULUS_STANDARD_ERROR),
         .numerical_error = (double)NAN,
         .unit = "Pa"};
-    size_t lines = 2;
+    const bool refused = c->kind == CURVE_REFUSED;
+    text_buffer words = {0};
     add_curve_name(to, curves_text(d->table, c->block.from, CURVES_FILE),
                    curves_get(d->table, c->block.from, CURVES_CURVE));
     text_add(to, "\n");
     if (d->tables->n_indentation > 1)
-        text_format(to, "%s: ", c->rows->suffix);
-    text_add(to, verdict);
-    if (c->kind != CURVE_REFUSED && isfinite(modulus.value))
-        text_format(to, ", E = %s", ESTIMATE(&modulus));
+        text_format(&words, "%s: ", c->rows->suffix);
+    text_add(&words, refused ? wt_curve_verdict_text((wt_curve_verdict)indentation_enum(
+                                   c->rows, c->row, INDENTATION_VERDICT))
+                             : verdict);
+    if (!refused && isfinite(modulus.value))
+        text_format(&words, ", E = %s", ESTIMATE(&modulus));
+    size_t lines = 1 + add_wrapped_lines(to, text_string(&words), VERDICT_LINES);
+    text_free(&words);
     if (c->kind != CURVE_ACCEPTED && reason[0] != '\0') {
         text_add(to, "\n");
         lines += add_wrapped_lines(to, reason, REASON_LINES);

@@ -12,6 +12,14 @@ bool drawing_is_wide(const figure_drawing *d)
     return d->width > 1.2;
 }
 
+size_t drawing_panels(figure_drawing *d, size_t n, size_t columns, double width, double height)
+{
+    columns = d->stacked ? 1 : columns < n ? columns : n;
+    d->width = d->stacked ? 1 : width * (double)columns;
+    d->height = height * (double)((n + columns - 1) / columns);
+    return columns;
+}
+
 int drawing_group_style(const figure_drawing *d, size_t i)
 {
     if (!d->figure->by_group)

@@ -42,8 +42,9 @@ typedef struct figure_drawing {
     size_t n_columns;
     wt_error *err;
     wt_status status;
-    double width, height;                 /* size of the picture in panels of the style */
-    bool narrow;                          /* the next axis has space for few numbers only */
+    bool stacked;         /* panels stand one below the other, as in a column of a journal */
+    double width, height; /* size of the picture in panels of the style */
+    bool narrow;          /* the next axis has space for few numbers only */
     wt_table *sections[DRAWING_SECTIONS]; /* gnuplot's `index`; owned */
     size_t n_sections;
     int data[DRAWING_GROUPS];               /* section of each group as described, */
@@ -64,12 +65,15 @@ bool drawing_is_wide(const figure_drawing *d);
 /* Builds sections, script and caption. The script is empty if there is nothing to draw. Call
  * drawing_clear also after a failure. */
 wt_status drawing_build(figure_drawing *d, const figure_description *figure,
-                        const figure_tables *tables, wt_error *err) WT_NODISCARD;
+                        const figure_tables *tables, bool stacked, wt_error *err) WT_NODISCARD;
 void drawing_clear(figure_drawing *d);
 
 /* ---- described parts, for the functions of figures ---------------------------------------------
  */
 
+/* Sets the size of a picture of n panels, up to `columns` of this size side by side. Returns the
+ * number of columns: 1 if they are stacked, and a panel has the full width then. */
+size_t drawing_panels(figure_drawing *d, size_t n, size_t columns, double width, double height);
 /* Lists the columns of the data of a figure in their order. Returns their number. */
 size_t drawing_list_columns(const figure_description *figure, unsigned columns[FIGURE_COLUMNS]);
 /* Builds the sections of all groups and their ranges; false if there is nothing to draw. */

@@ -17,8 +17,7 @@
 static const double unit_length = 8.0 / 15 * 0.0254 / 72;
 /* Resolution of a bitmap [1/m], 600 dpi. */
 static const double dots_per_metre = 600 / 0.0254;
-/* Smallest width of figures with panels side by side [m]: the text width of a page. */
-static const double text_width = 0.170;
+const double figure_text_width = 0.170;
 
 /* ---- options --------------------------------------------------------------------------------- */
 
@@ -103,11 +102,10 @@ static void add_sizes(text_buffer *script, const figure_drawing *d,
 {
     text_format(script, "figure_name = '%s'; figure_width = %s; figure_height = %s\n",
                 d->figure->name, LITERAL(d->width), LITERAL(d->height));
-    if (!isnan(options->width)) {
-        const double width = drawing_is_wide(d) ? fmax(options->width, text_width) : options->width;
+    if (!isnan(options->width))
         text_format(script, "panel_width = %s # so that all are %s mm wide\n",
-                    LITERAL(width / unit_length / d->width), LITERAL(1e3 * width));
-    }
+                    LITERAL(options->width / unit_length / d->width),
+                    LITERAL(1e3 * options->width));
     if (options->font != NULL)
         text_format(script, "figure_font = '%s'\n", options->font);
 }

@@ -8,6 +8,9 @@
 #include "report/report_files.h"
 #include "weartrack/report.h"
 
+/* Smallest width of figures with panels side by side [m]: the text width of a page. */
+extern const double figure_text_width;
+
 /* Returns the suffix of the i-th format, "svg", "pdf", "png", which is bit i of the options; NULL
  * past the last one. */
 const char *figure_format_name(size_t i);

@@ -345,9 +345,10 @@ static void collect_groups(figure_drawing *d)
 }
 
 wt_status drawing_build(figure_drawing *d, const figure_description *figure,
-                        const figure_tables *tables, wt_error *err)
+                        const figure_tables *tables, bool stacked, wt_error *err)
 {
     *d = (figure_drawing){.figure = figure,
+                          .stacked = stacked,
                           .tables = tables,
                           .table = figure_tables_find(tables, figure->table),
                           .err = err,

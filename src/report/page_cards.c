@@ -236,11 +236,15 @@ void page_cards(page_writer *page)
     if (!findings_compute(&tables, findings) && !findings_are_stated(&page->tables->answer))
         return;
     text_add(&page->out, "<div class=\"findings\">\n");
+    const bool validation_first = findings[FINDING_TRACK_DIFFERS].verdict == FINDING_NOT_COMPUTED;
+    if (validation_first)
+        write_validation_card(page);
     /* an answer that is there comes before one that is not */
     for (size_t i = 0; i < FINDING_QUESTIONS; i++)
         if (findings[i].verdict != FINDING_NOT_COMPUTED)
             write_card(page, &findings[i]);
-    write_validation_card(page);
+    if (!validation_first)
+        write_validation_card(page);
     for (size_t i = 0; i < FINDING_QUESTIONS; i++)
         if (findings[i].verdict == FINDING_NOT_COMPUTED)
             write_card(page, &findings[i]);

@@ -52,7 +52,7 @@ static const wt_param rows[] = {
     {PARAM("width", wt_report_options, width, WT_Q_LENGTH, FROM_TO(0.05, 1)), .value = "LENGTH",
      .unset = "as the style has it",
      .help = "width of a figure in the paper, such as 85mm, with type of 8 points (style screen: "
-             "12); with panels beside each other 170 mm at least"},
+             "12); panels stand side by side from 170 mm"},
     {PARAM_TEXT_OF("font", wt_report_options, font), .value = "NAME",
      .unset = "as the style has it", .check = figure_font_check,
      .help = "font of the figures, such as Arial; one that is not on this computer is warned of "
@@ -135,7 +135,9 @@ static wt_status write_figure(report *r, size_t i, wt_error *err)
     if (!is_requested(r->options.figure, i))
         return WT_OK;
     const bool has_rows = figure_tables_find(&r->tables, figure_find(i)->table)->n_rows > 0;
-    const wt_status status = has_rows ? drawing_build(d, figure_find(i), &r->tables, err) : WT_OK;
+    const bool stacked = r->options.width < figure_text_width;
+    const wt_status status =
+        has_rows ? drawing_build(d, figure_find(i), &r->tables, stacked, err) : WT_OK;
     if (status == WT_OK && d->script.length > 0)
         return figure_write(r->folder, &r->options, &r->figures[i], err);
     return status != WT_OK || r->options.figure == NULL

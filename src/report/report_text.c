@@ -325,4 +325,13 @@ void text_typographic(text_buffer *text, const char *ascii)
         before = s[n - 1];
         s += n;
     }
+
+void text_json_list(text_buffer *text, const char *const *strings, size_t n)
+{
+    text_add(text, "[");
+    for (size_t i = 0; i < n; i++) {
+        text_add(text, i > 0 ? "," : "");
+        text_json(text, strings[i]);
+    }
+    text_add(text, "]");
 }

@@ -32,6 +32,8 @@ void text_html(text_buffer *text, const char *markup, ...) WT_PRINTF(2, 3);
 void text_data_link(text_buffer *text, const char *media, const char *bytes, size_t length);
 /* Appends a JSON string without '<' and other markup. Invalid UTF-8 becomes U+FFFD. */
 void text_json(text_buffer *text, const char *string);
+/* Appends a JSON list of n strings. */
+void text_json_list(text_buffer *text, const char *const *strings, size_t n);
 /* Appends a text as a gnuplot string. Control characters become blanks; characters that are not
  * UTF-8 or not allowed in XML become U+FFFD. */
 void text_quoted(text_buffer *text, const char *string);

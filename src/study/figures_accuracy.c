@@ -14,15 +14,43 @@ static void begin_legend(figure_drawing *d, double height)
     text_format(&d->script,
                 "set size 1,%s\nset origin 0,%s\nset margins 0,0,0,0\nunset border\n"
                 "unset tics\nunset title\nunset xlabel\nunset ylabel\nunset logscale\n"
-                "unset arrow\nset xrange [0:1]\nset yrange [0:1]\n"
+                "unset arrow\nunset label\nset xrange [0:1]\nset yrange [0:1]\n"
                 "set key center center horizontal\n",
                 LITERAL(height), LITERAL(1 - height));
 }
 
 /* Heights relative to one panel of the style: legend of two lines, legend of four lines for a
- * narrow figure, a number of the budget with title and axis, and each of its bars. */
-static const double legend_height = 0.12, narrow_legend = 0.24, number_height = 0.31,
-                    bar_height = 0.055;
+ * narrow figure, and a number of the budget with title and axis. */
+static const double legend_height = 0.12, narrow_legend = 0.24, number_height = 0.31;
+
+/* Begins the names of the bars: at the left, or above each bar if the panels are stacked. */
+static void begin_names(figure_drawing *d)
+{
+    text_add(&d->script, d->stacked ? "unset ytics\nunset label\nunset arrow\n"
+                                    : "set ytics () noenhanced scale 0\nunset arrow\n");
+}
+
+/* Adds a line of the name of a bar at y; `above` is its distance if the panels are stacked. */
+static void add_name(figure_drawing *d, const char *text, double y, double above)
+{
+    text_add(&d->script, d->stacked ? "set label " : "set ytics add (");
+    if (d->stacked) {
+        text_quoted(&d->script, text);
+        text_format(&d->script, " at graph 0, first %s noenhanced\n", LITERAL(round(y) + above));
+    } else {
+        text_tic_label(&d->script, text);
+        text_format(&d->script, " %s)\n", LITERAL(y));
+    }
+}
+
+/* Sets the size of a list of panels of bars below each other, whose names need this width beside
+ * them, and the margin for them. */
+static void begin_bars(figure_drawing *d, double width, double margin)
+{
+    d->width = d->stacked ? 1 : width;
+    text_format(&d->script, "set lmargin %s\nunset key\nset border 1\nset multiplot\n",
+                LITERAL(d->stacked ? 3 : margin));
+}
 
 /* ---- error against run time ------------------------------------------------------------------ */
 
@@ -93,14 +121,12 @@ static void draw_work_precision(figure_drawing *d)
     const char *parts[PARTS], *methods[METHODS];
     const size_t n = list_texts(d->table, WORK_PRECISION_PART, NULL, parts, PARTS),
                  n_methods = list_texts(d->table, WORK_PRECISION_METHOD, NULL, methods, METHODS);
-    const size_t across = n < ACROSS ? n : ACROSS, down = (n + ACROSS - 1) / ACROSS;
     if (n == 0)
         return;
-    d->width = across > 1 ? 0.9 * (double)across : 1.1;
+    const size_t across = drawing_panels(d, n, ACROSS, n > 1 ? 0.9 : 1.1, 0.85);
     const double strip = across > 1 ? legend_height : narrow_legend;
-    d->height = 0.85 * (double)down + strip;
-    const double wide = 1 / (double)across, legend = strip / d->height,
-                 high = (1 - legend) / (double)down;
+    d->height += strip;
+    const double wide = 1 / (double)across, legend = strip / d->height, high = 0.85 / d->height;
     text_add(&d->script, "unset key\nset multiplot\n");
     for (size_t i = 0; i < n; i++) {
         text_format(&d->script, "set size %s,%s\nset origin %s,%s\n", LITERAL(wide), LITERAL(high),
@@ -161,11 +187,12 @@ static void draw_bars(figure_drawing *d, const number_panel *p, size_t from, err
     const row_filter rows = {
         {ERROR_BUDGET_NUMBER, ERROR_BUDGET_KIND}, {p->number, error_kind_text(kind)}, NULL};
     const size_t top = p->first + p->n - 1 - from;
+    const char *const half = d->stacked ? "0.17" : "0.3"; /* of the height of a bar */
     plot_item(d, drawing_section(d, d->table, error_kind_text(kind), &rows, columns, 2, 1),
-              "($1>%s ? %s*x_unit : NaN):(%zu-$0):(%s*x_unit):($1*x_unit):(%zu.7-$0-1):(%zu.3-$0) "
+              "($1>%s ? %s*x_unit : NaN):(%zu-$0):(%s*x_unit):($1*x_unit):(%zu-$0-%s):(%zu-$0+%s) "
               "with boxxyerror ls %d",
-              LITERAL(least_error), LITERAL(least_error), top, LITERAL(least_error), top, top,
-              kind_style(kind));
+              LITERAL(least_error), LITERAL(least_error), top, LITERAL(least_error), top, half, top,
+              half, kind_style(kind));
 }
 
 /* Draws a line at the largest error of a kind, which improvements of other kinds cannot reduce. */
@@ -182,8 +209,8 @@ static void draw_floor(figure_drawing *d, const number_panel *p, error_kind kind
                     LITERAL(largest), LITERAL(largest), kind_style(kind));
 }
 
-/* Adds the label of a source with its computation time, if known. */
-static void add_source_tic(figure_drawing *d, size_t row)
+/* Adds the name of a source with its computation time, if known. */
+static void add_source_name(figure_drawing *d, size_t row, size_t y)
 {
     const double seconds = error_budget_get(d->table, row, ERROR_BUDGET_SECONDS);
     char words[96], time[32] = "";
@@ -191,20 +218,17 @@ static void add_source_tic(figure_drawing *d, size_t row)
         wt_format_si(seconds, "s", 2, time, sizeof time);
     snprintf(words, sizeof words, "%s%s%s", error_budget_text(d->table, row, ERROR_BUDGET_SOURCE),
              time[0] != '\0' ? ", " : "", time);
-    text_tic_label(&d->script, words);
+    add_name(d, words, (double)y, 0.5);
 }
 
 static void draw_number(figure_drawing *d, const number_panel *p)
 {
     const table_view *t = d->table;
     axis_log(d, "x", "Relative error", &t->schema->columns[ERROR_BUDGET_RELATIVE_ERROR], p->span);
-    text_format(&d->script, "set yrange [-0.7:%zu.7]\nset ytics (", p->n - 1);
-    for (size_t i = 0; i < p->n; i++) {
-        text_add(&d->script, i > 0 ? ", " : "");
-        add_source_tic(d, p->first + i);
-        text_format(&d->script, " %zu", p->n - 1 - i);
-    }
-    text_add(&d->script, ") noenhanced scale 0\nunset arrow\n");
+    text_format(&d->script, "set yrange [-0.7:%zu.7]\n", p->n - 1);
+    begin_names(d);
+    for (size_t i = 0; i < p->n; i++)
+        add_source_name(d, p->first + i, p->n - 1 - i);
     draw_floor(d, p, ERROR_TOGETHER);
     draw_floor(d, p, ERROR_MODEL);
     plot_heading(d, p->number);
@@ -227,13 +251,14 @@ static void draw_error_budget(figure_drawing *d)
     for (size_t i = 0; i < all; i++)
         if (panels[i].span.high > least_error)
             panels[n++] = panels[i];
-    d->height = legend_height;
+    const double legend = d->stacked ? narrow_legend : legend_height,
+                 bar_height = d->stacked ? 0.09 : 0.055;
+    d->height = legend;
     for (size_t i = 0; i < n; i++)
         d->height += number_height + bar_height * (double)panels[i].n;
-    d->width = 1.3;
-    top = legend_height / d->height;
+    top = legend / d->height;
     if (n > 0)
-        text_add(&d->script, "set lmargin 42\nunset key\nset border 1\nset multiplot\n");
+        begin_bars(d, 1.3, 42);
     for (size_t i = 0; i < n; i++) {
         const double height = (number_height + bar_height * (double)panels[i].n) / d->height;
         top += height;
@@ -243,7 +268,7 @@ static void draw_error_budget(figure_drawing *d)
     }
     if (n == 0)
         return;
-    begin_legend(d, legend_height / d->height);
+    begin_legend(d, legend / d->height);
     plot_expression(d, "NaN with boxes ls 1 title 'measured or stated'");
     plot_expression(d, "NaN with boxes ls 2 title 'choice of the model'");
     plot_expression(d, "NaN with boxes ls 5 title 'together, draws, arithmetic'");
@@ -451,14 +476,11 @@ static size_t find_choice_panels(const figure_drawing *d, panel panels[PANELS])
     return n;
 }
 
-/* Adds two lines of text at a position of the y axis. The second may be empty. */
-static void add_axis_name(figure_drawing *d, size_t place, const char *first, const char *second)
+/* Adds the two lines of the name of a bar. The second may be empty. */
+static void add_bar_name(figure_drawing *d, size_t place, const char *first, const char *second)
 {
-    text_add(&d->script, place > 0 ? ", " : "");
-    text_tic_label(&d->script, first);
-    text_format(&d->script, " %zu.2, ", place);
-    text_tic_label(&d->script, second);
-    text_format(&d->script, " %s", LITERAL((double)place - 0.2));
+    add_name(d, first, (double)place + 0.2, 0.72);
+    add_name(d, second, (double)place - 0.2, 0.36);
 }
 
 static int add_bar_section(figure_drawing *d, const panel *p, const char *title, double low,
@@ -476,6 +498,7 @@ static void draw_choice_panel(figure_drawing *d, const panel *p)
     const double two_sided = 1.959964 * p->used.standard_error;
     const bool chance = two_sided > 0 && isfinite(two_sided);
     value_span span = EMPTY_SPAN;
+    const char *const half = d->stacked ? "0.11" : "0.26"; /* of the height of a bar */
     span_add(&span, 0, false);
     span_add(&span, p->used.value, false);
     span_add(&span, p->used.value + (chance ? two_sided : 0), false);
@@ -484,20 +507,21 @@ static void draw_choice_panel(figure_drawing *d, const panel *p)
         span_add(&span, p->bars[i].high, false);
     }
     axis_linear(d, "x", p->label, &d->table->schema->columns[p->column], span);
-    text_format(&d->script, "set yrange [-0.6:%zu.6]\nset ytics (", p->n - 1 + chance);
+    text_format(&d->script, "set yrange [%s:%zu.%d]\n", d->stacked ? "-0.3" : "-0.6",
+                p->n - 1 + chance, d->stacked ? 9 : 6);
+    begin_names(d);
     for (size_t i = 0; i < p->n; i++)
-        add_axis_name(d, i, p->bars[i].choice, p->bars[i].tried);
+        add_bar_name(d, i, p->bars[i].choice, p->bars[i].tried);
     if (chance)
-        add_axis_name(d, p->n, "errors that are known", "95 % interval");
+        add_bar_name(d, p->n, "errors that are known", "95 % interval");
     text_format(&d->script,
-                ") noenhanced scale 0\nunset arrow\n"
                 "set arrow from %s*x_unit, graph 0 to %s*x_unit, graph 1 nohead ls 12 back\n",
                 LITERAL(p->used.value), LITERAL(p->used.value));
     for (size_t i = 0; i < p->n; i++)
         plot_item(d, add_bar_section(d, p, p->bars[i].choice, p->bars[i].low, p->bars[i].high),
-                  "($1*x_unit):(%zu):($2*x_unit):($3*x_unit):(%zu-0.26):(%zu+0.26) with "
+                  "($1*x_unit):(%zu):($2*x_unit):($3*x_unit):(%zu-%s):(%zu+%s) with "
                   "boxxyerror ls 1",
-                  i, i, i);
+                  i, i, half, i, half);
     if (chance)
         plot_item(d,
                   add_bar_section(d, p, "errors that are known", p->used.value - two_sided,
@@ -507,9 +531,9 @@ static void draw_choice_panel(figure_drawing *d, const panel *p)
 }
 
 /* Height relative to one panel of the style. */
-static double panel_height(const panel *p)
+static double panel_height(const figure_drawing *d, const panel *p)
 {
-    return 0.25 + 0.11 * (double)(p->n + 1);
+    return 0.25 + (d->stacked ? 0.135 : 0.11) * (double)(p->n + 1);
 }
 
 static void draw_what_if(figure_drawing *d)
@@ -520,16 +544,14 @@ static void draw_what_if(figure_drawing *d)
                                     average letter */
     d->height = 0;
     for (size_t i = 0; i < n; i++) {
-        d->height += panel_height(&panels[i]);
+        d->height += panel_height(d, &panels[i]);
         for (size_t k = 0; k < panels[i].n; k++)
             margin = fmax(margin, 2 + 0.83 * (double)strlen(panels[i].bars[k].tried));
     }
-    d->width = 0.8 + 0.017 * margin;
     if (n > 0)
-        text_format(&d->script, "set lmargin %s\nunset key\nset border 1\nset multiplot\n",
-                    LITERAL(margin));
+        begin_bars(d, 0.8 + 0.017 * margin, margin);
     for (size_t i = 0; i < n; i++) {
-        const double height = panel_height(&panels[i]) / d->height;
+        const double height = panel_height(d, &panels[i]) / d->height;
         top += height;
         text_format(&d->script, "set size 1,%s\nset origin 0,%s\n", LITERAL(height),
                     LITERAL(1 - top));

@@ -1,6 +1,7 @@
 /* State of a case for the page: texts, files and results.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/inputs.h"
+#include "report/report_files.h"
 #include "view/view.h"
 
 #include "core/base/array.h"
@@ -167,12 +168,9 @@ static void append_file(const case_folder *folder, const char *prefix, const cha
 
 static void append_names(const wt_view *view, text_buffer *to)
 {
-    text_add(to, ",\"files\":[");
-    for (size_t i = 0; i < view->n_files; i++) {
-        text_add(to, i > 0 ? "," : "");
-        text_json(to, view->files[i]);
-    }
-    text_add(to, "],\"tables\":[");
+    text_add(to, ",\"files\":");
+    text_json_list(to, (const char *const *)view->files, view->n_files);
+    text_add(to, ",\"tables\":[");
     for (size_t i = 0; view->result != NULL && i < wt_result_n_tables(view->result); i++) {
         text_add(to, i > 0 ? "," : "");
         text_json(to, wt_table_name(wt_result_table(view->result, i)));
@@ -252,6 +250,8 @@ wt_status view_append_state(wt_view *view, text_buffer *to, wt_error *err)
     text_format(to, ",\"current\":%s",
                 stored != NULL || is_current(view, c, overrides) ? "true" : "false");
     append_names(view, to);
+    text_add(to, ",\"verdicts\":");
+    append_verdict_words(to);
     text_add(to, "}");
     free(stored);
     free(overrides);

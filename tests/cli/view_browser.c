@@ -448,8 +448,9 @@ static void test_sliders(void)
              "s.dispatchEvent(new Event('input')); s.dispatchEvent(new Event('change')); })()");
     for (const double end = now() + LIMIT; strcmp(data("mu"), before) == 0;)
         check(now() < end, "friction follows the velocity");
-    wait_for("document.querySelector('#sliding .form').textContent.includes('Velocity: 0.0001m/s')",
-             "true");
+    wait_for(
+        "document.querySelector('#sliding .form').textContent.includes('Velocity: 0.0001 m/s')",
+        "true");
 }
 
 /* A plot is saved as an SVG file of the requested width, without a colour of the page. */

@@ -34,7 +34,8 @@ static void draw(const wt_result *result, const figure_tables *tables)
         abort();
     for (size_t i = 0; i < n; i++)
         if (figure_tables_find(tables, figure_find(i)->table)->n_rows > 0 &&
-            drawing_build(&figures[i].drawing, figure_find(i), tables, &err) != WT_OK &&
+            drawing_build(&figures[i].drawing, figure_find(i), tables, (i & 1) != 0, &err) !=
+                WT_OK &&
             err.message[0] == '\0')
             abort();
     page_writer page = {.result = result,

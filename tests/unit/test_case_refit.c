@@ -118,6 +118,52 @@ static void follows_contact_point_and_case(void **state)
     free(plain);
 }
 
+/* Friction at the second velocity of a case, with what is kept or of a run of its own. */
+static double friction_of(const char *xml, bool kept)
+{
+    wt_case *c = NULL;
+    wt_result *result = NULL;
+    wt_run_options options = wt_run_defaults();
+    options.replicates = 0;
+    wt_status status = WT_OK;
+    if (kept) {
+        status = case_refit_run(refit, xml, strlen(xml), CASE, "friction", &options, &result, NULL);
+    } else {
+        assert_int_equal(case_from_bytes(xml, strlen(xml), CASE, &c, NULL), WT_OK);
+        assert_int_equal(wt_case_request_tables(c, "friction", NULL), WT_OK);
+        status = wt_run_case(c, &options, NULL, &result, NULL, NULL);
+    }
+    assert_int_equal(status, WT_OK);
+    const double friction = number_cell(wt_result_find(result, "friction"), 1, "friction");
+    wt_result_free(result);
+    wt_case_free(c);
+    return friction;
+}
+
+/* Rubber and surface are kept while sliding changes, and computed again after a change of theirs.
+ */
+static void keeps_rubber_and_surface(void **state)
+{
+    (void)state;
+    static const char *const changes[][2] = {{"", ""},
+                                             {"<pressure>0.4MPa", "<pressure>0.5MPa"},
+                                             {"<end>2e6rad/m", "<end>3e6rad/m"},
+                                             {"<vertical-shift>tied", "<vertical-shift>none"},
+                                             {"road-2.gsf", "road-1.gsf"}};
+    double last = 0;
+    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
+        char *changed = wt_strdup(text), *at = strstr(changed, changes[i][0]);
+        assert_non_null(at);
+        memcpy(at, changes[i][1], strlen(changes[i][1]));
+        const double fresh = friction_of(changed, false);
+        assert_true(fresh > 0 && fresh != last);
+        assert_true(friction_of(changed, true) == fresh);
+        assert_true(friction_of(changed, true) == fresh);
+        last = fresh;
+        free(changed);
+    }
+}
+
 static void says_what_is_missing(void **state)
 {
     (void)state;
@@ -140,6 +186,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(has_the_numbers_of_the_run),
                                        cmocka_unit_test(follows_contact_point_and_case),
+                                       cmocka_unit_test(keeps_rubber_and_surface),
                                        cmocka_unit_test(says_what_is_missing)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -151,7 +151,7 @@ static void test_words(void **state)
     curve_list_init(&tables, &list);
     char *refused = script_of(&tables, &list.curves[1]);
     assert_non_null(strstr(refused, "set label 1 \"a'file with \\\\ and \xc2\xb5.txt:3\""));
-    assert_non_null(strstr(refused, "set label 2 'poor_fit'"));
+    assert_non_null(strstr(refused, "set label 2 'the model does not describe the curve'"));
     /* in lines, whole */
     assert_non_null(strstr(refused, "set label 3 'misfit: 80 %, 50 % allowed; another tip,'"));
     assert_non_null(strstr(refused, "set label 4 'a layer, loss, adhesion, piezo or'"));

@@ -87,6 +87,11 @@ static void add_finding(table_writer *t, const flow_plan *plan, const finding *f
         /* friction without the layer is a lower level of its stage */
         reason = explain_outcome(plan, stage, plan->full_outcome[stage],
                                  plan->lower_level_reason[stage]);
+    else if (f->verdict == FINDING_NOT_COMPUTED &&
+             (flow_stages[stage].outputs & FLOW_TABLES & plan->required) == 0)
+        clocale_print(reason.text, sizeof reason.text,
+                      "Its table, %s, is not among those that are asked for.",
+                      flow_stages[stage].id);
     const result_value *const v = &f->value;
     TABLE_ADD(answer, t, finding_question_text(f->question), finding_verdict_text(f->verdict),
               finding_basis_text(f->basis), v->number.value, v->low, v->high, v->range.low,

@@ -199,8 +199,7 @@ static void add_material_limits(limit_list *list, const answer_context *context)
         add(list, WT_WARNING, LIMITS_MATERIAL,
             "Time-temperature superposition %s: the master curve is doubtful.", verdict);
     else if (superposition == WT_SUPERPOSITION_INCONCLUSIVE)
-        add(list, WT_WARNING, LIMITS_MATERIAL,
-            "Whether time-temperature superposition holds, the data %s.", verdict);
+        add(list, WT_WARNING, LIMITS_MATERIAL, "Time-temperature superposition is %s.", verdict);
     if (undetermined > 0)
         add(list, WT_WARNING, LIMITS_MATERIAL,
             "The data do not determine the shift of %zu of %zu isotherms; they are left out.",

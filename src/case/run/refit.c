@@ -1,12 +1,15 @@
-/* Fits one curve of a case: the stages before the fit run once for each <dma> section.
+/* Computes a case again: the stages before what has changed run once for their sections.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/run/refit.h"
 
 #include "case/run/stage_functions.h"
+#include "core/base/memory.h"
+#include "job/inputs.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 struct case_refit {
     const wt_formats *formats;
@@ -15,6 +18,8 @@ struct case_refit {
     bool has_material;
     wt_single_curve one; /* the last curve, which is kept in memory */
     char *file, *group;  /* its file; text of the section of its group */
+    flow_kept kept;      /* rubber and surface of the last run */
+    char *kept_for;      /* sections and files that they are from */
 };
 
 case_refit *case_refit_new(const wt_formats *formats)
@@ -40,12 +45,15 @@ void case_refit_forget(case_refit *refit)
     refit->c = NULL;
     refit->has_material = false;
     forget_curve(refit);
+    flow_kept_clear(&refit->kept);
 }
 
 void case_refit_free(case_refit *refit)
 {
     if (refit != NULL)
         case_refit_forget(refit);
+    if (refit != NULL)
+        free(refit->kept_for);
     free(refit);
 }
 
@@ -141,6 +149,64 @@ wt_status case_refit_curve(case_refit *refit, const char *xml, size_t length, co
         if (!isnan(which->contact_point))
             job.options.fixed_contact_point = which->contact_point;
         status = wt_indent_group(&job, &run.job, tables, err);
+    }
+    wt_case_free(c);
+    return status;
+}
+
+/* ---- the whole case -------------------------------------------------------------------------- */
+
+/* Appends size and time of each file of a role. */
+static void append_files(FILE *to, const case_files *role, const wt_job *work)
+{
+    flow_files files = {0};
+    struct stat state;
+    /* A pattern without a file is an error, which the run reports. */
+    if (flow_files_list(role->sets, role->n, work, &files, NULL) == WT_OK)
+        for (size_t i = 0; i < files.n; i++)
+            if (stat(files.file[i].path, &state) == 0)
+                (void)fprintf(to, "%s %lld %lld %ld\n", files.file[i].path,
+                              (long long)state.st_size, (long long)state.st_mtim.tv_sec,
+                              state.st_mtim.tv_nsec);
+    flow_files_clear(&files);
+}
+
+/* Returns a text that changes with the sections and the files of rubber and surface. */
+static char *describe_kept(const case_refit *refit, const wt_case *c)
+{
+    static const char *const sections[] = {"dma", "roughness"};
+    char *bytes = NULL;
+    size_t length = 0;
+    const wt_job work = refit_work(refit, NULL);
+    FILE *stream = text_stream_open(&bytes, &length);
+    for (size_t i = 0; i < COUNT_OF(sections); i++) {
+        char *text = copy_section(c, sections[i]);
+        (void)fprintf(stream, "%s\n", text);
+        free(text);
+    }
+    append_files(stream, &c->dma, &work);
+    append_files(stream, &c->height_maps, &work);
+    text_stream_close(stream);
+    return bytes;
+}
+
+wt_status case_refit_run(case_refit *refit, const char *xml, size_t length, const char *path,
+                         const char *tables, const wt_run_options *options, wt_result **result,
+                         wt_error *err)
+{
+    wt_case *c = NULL;
+    wt_status status = case_from_bytes(xml, length, path, &c, err);
+    if (status == WT_OK)
+        status = wt_case_request_tables(c, tables, err);
+    if (status == WT_OK) {
+        char *of = describe_kept(refit, c);
+        if (refit->kept_for == NULL || strcmp(refit->kept_for, of) != 0)
+            flow_kept_clear(&refit->kept);
+        free(refit->kept_for);
+        refit->kept_for = of;
+        /* the draws of the rubber are not kept */
+        status = flow_run_case(c, options, options->replicates < 2 ? &refit->kept : NULL, NULL,
+                               result, NULL, err);
     }
     wt_case_free(c);
     return status;

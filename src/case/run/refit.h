@@ -1,4 +1,4 @@
-/* Fits single curves of a case as its run does, with the material of the run kept in memory.
+/* Computes a case again after a change of it, with what has not changed kept in memory.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CASE_RUN_REFIT_H
 #define WT_CASE_RUN_REFIT_H
@@ -8,7 +8,7 @@
 typedef struct case_refit case_refit;
 case_refit *case_refit_new(const wt_formats *formats); /* borrows the formats */
 void case_refit_free(case_refit *refit);               /* accepts NULL */
-/* Forgets the material, for example after a change of the DMA files. */
+/* Forgets all that is kept, for example after a change of data files. */
 void case_refit_forget(case_refit *refit);
 
 typedef struct refit_curve {
@@ -23,5 +23,10 @@ typedef struct refit_curve {
 wt_status case_refit_curve(case_refit *refit, const char *xml, size_t length, const char *path,
                            const refit_curve *which, wt_log *log, wt_indent_tables *tables,
                            wt_error *err) WT_NODISCARD;
+/* Runs the text of a case for these tables (names separated by blanks) as wt_run_case does. The
+ * rubber and the surface are kept until their sections or files change. */
+wt_status case_refit_run(case_refit *refit, const char *xml, size_t length, const char *path,
+                         const char *tables, const wt_run_options *options, wt_result **result,
+                         wt_error *err) WT_NODISCARD;
 
 #endif

@@ -66,7 +66,58 @@ typedef struct run_execution {
     wt_cost *cost;
     wt_material_cache *drawn;
     wt_sweep dma;
+    flow_kept *kept; /* NULL: nothing is kept */
 } run_execution;
+
+/* ---- what is kept from an earlier run ---------------------------------------------------------
+ */
+
+void flow_kept_clear(flow_kept *kept)
+{
+    wt_rubber_clear(&kept->rubber);
+    wt_surface_clear(&kept->surface);
+    *kept = (flow_kept){0};
+}
+
+/* Takes what a stage would compute. False if it is not kept, or if a table of the stage is
+ * required.
+ */
+static bool take_kept(run_execution *d, size_t stage)
+{
+    flow_kept *kept = d->kept;
+    if (kept == NULL || (flow_stages[stage].outputs & d->run.plan.required & FLOW_TABLES) != 0)
+        return false;
+    if (stage == FLOW_STAGE_MASTER_CURVE && kept->has_rubber) {
+        d->run.rubber = kept->rubber;
+        kept->rubber = (wt_rubber){0};
+        flow_run_set_direction(&d->run);
+        return true;
+    }
+    if (stage == FLOW_STAGE_TOPOGRAPHY && kept->has_surface) {
+        d->run.surface = kept->surface;
+        kept->surface = (wt_surface){0};
+        return true;
+    }
+    return false;
+}
+
+static void keep(run_execution *d)
+{
+    if (d->kept == NULL)
+        return;
+    if (d->run.plan.outcome[FLOW_STAGE_MASTER_CURVE] == FLOW_DONE) {
+        wt_rubber_clear(&d->kept->rubber);
+        d->kept->rubber = d->run.rubber;
+        d->kept->has_rubber = true;
+        d->run.rubber = (wt_rubber){0};
+    }
+    if (d->run.plan.outcome[FLOW_STAGE_TOPOGRAPHY] == FLOW_DONE) {
+        wt_surface_clear(&d->kept->surface);
+        d->kept->surface = d->run.surface;
+        d->kept->has_surface = true;
+        d->run.surface = (wt_surface){0};
+    }
+}
 
 /* ---- one stage ------------------------------------------------------------------------------- */
 
@@ -132,7 +183,7 @@ static wt_status run_stage(run_execution *d, size_t i, unsigned level, const cha
     const bool curves = i == FLOW_STAGE_INDENTATION_BULK || i == FLOW_STAGE_INDENTATION_TRACK;
     cost_begin(d->cost, flow_stages[i].id, curves ? COST_INDENTATION : COST_OTHER, because);
     d->run.level = plan->achieved_level[i] = level;
-    status = steps[i](&d->run, &failure);
+    status = take_kept(d, i) ? WT_OK : steps[i](&d->run, &failure);
     cost_end(d->cost);
     if (status == WT_OK) {
         plan->outcome[i] = FLOW_DONE;
@@ -417,10 +468,16 @@ static wt_status prepare_execution(run_execution *d, const wt_run_options *optio
 wt_status wt_run_case(const wt_case *c, const wt_run_options *options, wt_log *log,
                       wt_result **result, size_t *n_failed, wt_error *err)
 {
+    return flow_run_case(c, options, NULL, log, result, n_failed, err);
+}
+
+wt_status flow_run_case(const wt_case *c, const wt_run_options *options, flow_kept *kept,
+                        wt_log *log, wt_result **result, size_t *n_failed, wt_error *err)
+{
     if (c == NULL || result == NULL)
         return wt_fail(err, WT_E_ARG, "no case");
     wt_run_options defaults = wt_run_defaults();
-    run_execution d = {.run = {.c = c, .layer = c->layer}};
+    run_execution d = {.run = {.c = c, .layer = c->layer}, .kept = kept};
     if (options == NULL)
         options = &defaults;
     wt_status status = param_check(wt_run_params(), options, err);
@@ -444,6 +501,7 @@ wt_status wt_run_case(const wt_case *c, const wt_run_options *options, wt_log *l
         if (n_failed != NULL)
             *n_failed = failed;
     }
+    keep(&d);
     flow_run_clear(&d.run);
     wt_formats_free(d.formats);
     wt_result_free(d.result);

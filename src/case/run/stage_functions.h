@@ -24,6 +24,19 @@ typedef struct flow_run {
 } flow_run;
 
 void flow_run_clear(flow_run *run);
+/* Rubber and surface of an earlier run. */
+typedef struct flow_kept {
+    bool has_rubber, has_surface;
+    wt_rubber rubber;
+    wt_surface surface;
+} flow_kept;
+void flow_kept_clear(flow_kept *kept);
+/* As wt_run_case. If `kept` is not NULL, the rubber of the master curve and the measured surface
+ * are taken from it, unless the case requires a table of their stages; after the run it has those
+ * of the run. They have to be those of the same files and sections of the case. */
+wt_status flow_run_case(const wt_case *c, const wt_run_options *options, flow_kept *kept,
+                        wt_log *log, wt_result **result, size_t *n_failed,
+                        wt_error *err) WT_NODISCARD;
 /* Creates the stated rubber of a case or of its layer material. */
 wt_status flow_run_create_stated_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
                                         wt_error *err) WT_NODISCARD;

@@ -34,12 +34,12 @@ static const char *verdict_text(int verdict)
 }
 
 /* Numbers of accepted, wide and doubtful curves, and why the others are rejected. */
-static void add_counts(rows_source *s, const table_view *curves)
+static void add_counts(rows_source *s, const table_view *curves, int level)
 {
     const verdict_counts counts = count_verdicts(curves);
     char text[64];
     snprintf(text, sizeof text, "%zu of %zu", counts.used, counts.all);
-    result_row *row = rows_add_text(s, 1, text, "curves used");
+    result_row *row = rows_add_text(s, level, text, "curves used");
     rows_note(row, "%zu accepted, %zu wide, %zu doubtful", counts.of[WT_CURVE_ACCEPTED],
               counts.of[WT_CURVE_WIDE], counts.of[WT_CURVE_DOUBTFUL]);
     if (counts.used == counts.all)
@@ -78,7 +78,7 @@ static void add_group(rows_source *s, size_t i)
         return;
     rows_reason(row, "errors that no curve shows",
                 indentation_key_text(&curves, INDENTATION_KEY_NOT_SHOWN));
-    add_counts(s, &curves);
+    add_counts(s, &curves, 1);
     const char *const assumed = indentation_key_text(&curves, INDENTATION_KEY_ASSUMED);
     if (assumed != NULL)
         rows_note(rows_add_text(s, 1, "", "errors assumed"), "%s", assumed);
@@ -283,6 +283,15 @@ void rows_of_curves(rows_source *s)
             parts[i].add(s, &view);
     for (size_t i = 0; i < s->values.groups.n_rows; i++)
         add_group(s, i);
+    for (size_t i = 0; i < wt_result_n_tables(s->result) && s->values.groups.n_rows == 0; i++) {
+        const char *const name = wt_table_name(wt_result_table(s->result, i));
+        const size_t length = strlen(indentation_schema.name);
+        if (strncmp(name, indentation_schema.name, length) == 0 &&
+            table_bind_result(s->result, &indentation_schema, name + length, &view, NULL) ==
+                WT_OK &&
+            view.table != NULL)
+            add_counts(s, &view, 0);
+    }
     if (rows_bind(s, &track_layer_schema, &view))
         add_track_layer(s, &view);
 }

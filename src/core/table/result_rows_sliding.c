@@ -120,11 +120,60 @@ static void add_error_budget(rows_source *s, const table_view *v)
     }
 }
 
+/* Contact area of each velocity with all of the roughness. */
+static void add_contact_area(rows_source *s, const table_view *v)
+{
+    const double none = (double)NAN;
+    for (size_t i = 0; i < v->n_rows; i++) {
+        const double velocity = contact_area_get(v, i, CONTACT_AREA_VELOCITY);
+        if (i + 1 < v->n_rows && contact_area_get(v, i + 1, CONTACT_AREA_VELOCITY) == velocity)
+            continue;
+        result_row *row = rows_add_number(
+            s, 0, rows_number(contact_area_get(v, i, CONTACT_AREA_AREA_RATIO), none, none, "1"),
+            "real over nominal area");
+        rows_note(row, "at %s, magnification %s", rows_short(velocity, "m/s").value,
+                  rows_short(contact_area_get(v, i, CONTACT_AREA_MAGNIFICATION), "1").value);
+    }
+}
+
+/* Numbers of the model as used, with their range over its choices. */
+static void add_what_if(rows_source *s, const table_view *v)
+{
+    static const struct {
+        what_if_column column;
+        const char *unit, *name;
+    } numbers[] = {{WHAT_IF_FRICTION, "1", "friction coefficient"},
+                   {WHAT_IF_HYSTERESIS, "1", "hysteresis friction"},
+                   {WHAT_IF_WITH_LAYER, "1", "friction with the layer"},
+                   {WHAT_IF_THICKNESS, "m", "thickness of the layer"}};
+    const double none = (double)NAN;
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers && v->n_rows > 0; k++) {
+        double low = none, high = none;
+        for (size_t i = 0; i < v->n_rows; i++) {
+            low = fmin(low, what_if_get(v, i, numbers[k].column)); /* fmin ignores NaN */
+            high = fmax(high, what_if_get(v, i, numbers[k].column));
+        }
+        const double used = what_if_get(v, 0, numbers[k].column);
+        if (isnan(used))
+            continue;
+        result_row *row = rows_add_number(s, 0, rows_number(used, none, none, numbers[k].unit),
+                                          "%s", numbers[k].name);
+        rows_note(row, "model choices: %s to %s", rows_short(low, numbers[k].unit).value,
+                  rows_short(high, numbers[k].unit).value);
+    }
+}
+
 void rows_of_sliding(rows_source *s)
 {
     table_view view;
-    if (rows_bind(s, &friction_schema, &view))
+    if (rows_bind(s, &friction_schema, &view)) {
         add_friction(s, &view);
+    } else {
+        if (rows_bind(s, &what_if_schema, &view))
+            add_what_if(s, &view);
+        if (rows_bind(s, &contact_area_schema, &view))
+            add_contact_area(s, &view);
+    }
     if (rows_bind(s, &layer_schema, &view))
         add_layer(s, &view);
     if (rows_bind(s, &identification_schema, &view))

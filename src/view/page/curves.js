@@ -5,6 +5,7 @@
 (() => {
   const {element} = View, inUnit = Plot.inUnit;
   const usable = (verdict) => ['accepted', 'wide', 'doubtful'].includes(verdict);
+  const words = (verdict) => View.state().verdicts[verdict] || verdict;
   const AUTOMATIC = 1000; /* larger groups are refitted by a button */
   let ui = null, groups = {}, group = 'bulk', rows = [], shown = [], at = -1, fit = null, origin = 0;
   let live = null;
@@ -93,9 +94,10 @@
   };
   const describe = (curve) => {
     const row = fit.row;
-    ui.modulus.textContent = row.modulus === null ? row.verdict :
-      `E = ${inUnit(row.modulus, 'Pa', 4)} ± ${inUnit(row.modulus_standard_error, 'Pa', 2)}`;
-    ui.verdict.textContent = [row.verdict === row.reason ? row.verdict : `${row.verdict}: ${row.reason}`,
+    ui.modulus.textContent = row.modulus === null ? words(row.verdict) :
+      `E = ${Plot.withError(row.modulus, row.modulus_standard_error, 'Pa')}`;
+    ui.verdict.textContent = [row.reason === '' || row.reason.startsWith(row.verdict) ? row.reason || words(row.verdict) :
+      `${words(row.verdict)}: ${row.reason}`,
       `contact point ${inUnit(row.contact_point, 'm', 6)}`,
       `noise ${inUnit(row.noise, 'N', 2)}`, `lack of fit ${inUnit(row.lack_of_fit, '1', 2)}`,
       `refitted in ${(fit.time * 1000).toFixed(0)} ms`].join('; ');
@@ -196,7 +198,7 @@
       const entry = element('li', {role: 'option', 'aria-selected': curve === rows[at],
         class: chosen(curve, 'exclude') ? 'out' : usable(curve.verdict) ? '' : 'bad',
         onclick: () => select(curve)}, `${curve.curve}: ` + (usable(curve.verdict) ?
-        inUnit(curve.modulus, 'Pa') : curve.verdict) + `, ${curve.file}`);
+        inUnit(curve.modulus, 'Pa') : words(curve.verdict)) + `, ${curve.file}`);
       return entry;
     }));
     ui.count.textContent = `${shown.length} of ${rows.length} curves`;
@@ -276,7 +278,7 @@
     const ratio = c && c.keys.modulus_ratio;
     if (ratio) cards.push(element('div', {class: 'card'}, element('b', {}, 'track to bulk'),
       element('p', {class: 'big'}, inUnit(ratio.value, '1')),
-      element('p', {class: 'soft'}, `standard error ${inUnit(ratio.standard_error, '1', 2)}`)));
+      element('p', {class: 'soft'}, `± ${inUnit(ratio.standard_error, '1', 2)} (standard error)`)));
     ui.cards.replaceChildren(...cards);
   };
   const wanted = 'indentation/bulk indentation/track modulus_groups comparison';

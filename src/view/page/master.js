@@ -102,8 +102,11 @@
         {name: 'vertical shift', x, y: s.column('log_b'), kind: 'points', width: 6, color: 'var(--s0)'},
         {name: 'physical', x, y: s.column('log_b_physical'), color: 'var(--s1)'}]});
     const p = found.prony;
+    const most = p ? Plot.range(p.column('modulus'))[1] : 1;
+    /* terms below a billionth of the largest change nothing */
     if (p) Plot.draw(ui.prony, {title: 'Prony series', height: 240, x: {label: 'relaxation time (s)', log: true},
-      y: {label: 'modulus (Pa)', log: true}, series: [{x: p.column('relaxation_time'), y: p.column('modulus'),
+      y: {label: 'modulus (Pa)', log: true}, series: [{x: p.column('relaxation_time'),
+        y: p.column('modulus').map((v) => v > 1e-9 * most ? v : null),
         kind: 'points', width: 5, color: 'var(--s0)'}]});
   };
   const describe = () => {

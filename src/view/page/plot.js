@@ -288,8 +288,18 @@ const Plot = (() => {
     const i = Math.min(shades.length - 2, Math.floor(at));
     return shades[i].map((c, k) => Math.round(c + (at - i) * (shades[i + 1][k] - c)));
   };
+  /* Value with its standard error, both with the prefix of the value. */
+  const withError = (value, error, unit) => {
+    const [size, prefix] = !unit || unit === '1' ? [1, ''] : prefixOf(Math.abs(value));
+    return [Number((value / size).toPrecision(4)), ...(error > 0 ? ['±', Number((error / size).toPrecision(2))] : []),
+      unit === '1' ? '' : prefix + unit].join(' ').trim();
+  };
   const colors = ['var(--s0)', 'var(--s1)', 'var(--s2)', 'var(--s3)', 'var(--s4)'];
-  /* Cold to warm, readable on light and dark. */
-  const heat = (share) => `hsl(${Math.round(240 - 240 * share)} 75% 50%)`;
-  return {draw, inUnit, range, shade, colors, heat};
+  /* Cold to warm; the lightness of each hue gives contrast on light and dark. */
+  const lightness = [66, 31, 31, 28, 52];
+  const heat = (share) => {
+    const at = 4 * share, k = Math.min(3, Math.floor(at));
+    return `hsl(${Math.round(240 - 240 * share)} 75% ${Math.round(lightness[k] + (at - k) * (lightness[k + 1] - lightness[k]))}%)`;
+  };
+  return {draw, inUnit, withError, range, shade, colors, heat};
 })();

@@ -22,12 +22,15 @@
     p.unit === 'm/s' ? Plot.range(found.friction.column('velocity')) : [p.value / 10, p.value * 10] :
     p.error !== null ? [p.value - 2 * p.error, p.value + 2 * p.error] :
     /degC|K$/.test(p.unit) ? [p.value - 30, p.value + 30] : [p.value / 2, p.value * 2];
+  /* "5MPa +- 10%" as it is read: 5 MPa ± 10 %. */
+  const words = (text) => text.replace('+-', '±').replace('degC', '°C').replace(/(\d)(?=[a-zA-Zµ°%])(?!e[-+\d])/g, '$1 ')
+    .replace(/\^-?\d/g, (power) => ({'^2': '²', '^3': '³'}[power] || power));
   const row = ([path, label]) => {
     const p = parts(View.get(path)), id = 'slider-' + path.replace('/', '-');
     if (!p || (path.endsWith('velocity') && !found.friction)) return [];
     const isLog = path.endsWith('velocity'), to = isLog ? Math.log10 : Number;
     const [low, high] = ends(parts(View.state().caseText && savedValue(path)) || p, path).map(to);
-    const output = element('output', {for: id, style: 'font-weight:600'}, View.get(path));
+    const output = element('output', {for: id, style: 'font-weight:600'}, words(View.get(path)));
     const input = element('input', {type: 'range', class: 'wide', id, min: low, max: high, step: (high - low) / 100});
     input.value = to(p.value);
     const text = () => {
@@ -35,7 +38,7 @@
       return `${Number(value.toPrecision(4))}${p.unit}${p.rest}`;
     };
     input.addEventListener('input', () => {
-      output.textContent = text();
+      output.textContent = words(text());
       moving = id;
       compute({[path]: text()});
     });
@@ -79,7 +82,7 @@
   });
   const card = (name, value) => value && value.value !== null ? element('div', {class: 'card'}, element('b', {}, name),
     element('p', {class: 'big'}, Plot.inUnit(value.value, value.unit, 3)),
-    element('p', {class: 'soft'}, value.standard_error ? `standard error ${Plot.inUnit(value.standard_error, value.unit, 2)}` :
+    element('p', {class: 'soft'}, value.standard_error ? `± ${Plot.inUnit(value.standard_error, value.unit, 2)} (standard error)` :
       'without its error')) : null;
   const draw = () => {
     const t = found.friction, x = t.column('velocity'), with_layer = t.column('friction_with_layer');
@@ -97,13 +100,13 @@
       y: measured.column('friction_coefficient'), kind: 'points', width: 7, color: 'var(--fit)'});
     const reference = t.keys.reference_velocity;
     Plot.draw(ui.plot, {title: 'Friction against velocity', height: 340, x: {label: 'velocity (m/s)', log: true},
-      y: {label: 'mu'}, series, markers: reference ? [{x: reference.value, label: 'reference', unit: 'm/s',
+      y: {label: 'friction coefficient'}, series, markers: reference ? [{x: reference.value, label: 'reference', unit: 'm/s',
         color: 'var(--s2)'}] : []});
     const a = found.contact_area;
     if (a) {
       const velocities = [...new Set(a.rows.map((r) => r.velocity))];
       Plot.draw(ui.area, {title: 'Contact area against magnification', height: 240,
-        x: {label: 'magnification', log: true}, y: {label: 'contact area', log: true},
+        x: {label: 'magnification', log: true}, y: {label: 'real over nominal area', log: true},
         series: velocities.map((v, k) => {
           const rows = a.rows.filter((r) => r.velocity === v);
           return {name: Plot.inUnit(v, 'm/s'), x: rows.map((r) => r.magnification),
@@ -115,10 +118,10 @@
     if (l && l.n > 0) Plot.draw(ui.course, {title: 'Thickness against time', height: 240, x: {label: 'time (s)', log: true},
       y: {label: 'thickness', unit: 'm'}, series: [{x: l.column('time'), y: l.column('thickness'), color: 'var(--s1)'}]});
     const k = t.keys;
-    ui.cards.replaceChildren(...[card('mu without a layer', k.friction_at_reference),
-      card('mu with the layer', k.friction_with_layer_at_reference),
-      card('contact area', k.area_ratio_at_reference),
-      card('thickness', l && l.keys.balance_thickness)].filter(Boolean));
+    ui.cards.replaceChildren(...[card('Friction without a layer', k.friction_at_reference),
+      card('Friction with the layer', k.friction_with_layer_at_reference),
+      card('Contact area, real over nominal', k.area_ratio_at_reference),
+      card('Thickness of the layer', l && l.keys.balance_thickness)].filter(Boolean));
     ui.time.textContent = found.time ? `computed in ${(found.time * 1000).toFixed(0)} ms` : 'of the last run';
     const root = document.documentElement.dataset;
     root.mu = k.friction_at_reference ? k.friction_at_reference.value : '';

@@ -42,7 +42,7 @@
     if (made === null || !made.friction) return;
     const at = made.friction.keys.friction_at_reference, area = made.friction.keys.area_ratio_at_reference;
     if (!at) return;
-    ui.mu.textContent = `mu = ${Plot.inUnit(at.value, '1', 4)} at the reference velocity, contact area ` +
+    ui.mu.textContent = `Friction coefficient ${Plot.inUnit(at.value, '1', 4)} at the reference velocity, contact area ` +
       `${Plot.inUnit(area.value, '1', 4)} of the nominal one`;
     document.documentElement.dataset.mu = at.value;
   };
@@ -55,7 +55,7 @@
         color: 'var(--s0)'}, {name: 'measured', x, y: measured.column('density'), kind: 'points', width: 5,
         color: 'var(--s0)'}, {name: 'self-affine law', x, y: measured.column('self_affine'), color: 'var(--s1)',
         dash: '6 3'});
-      for (const [key, label] of [['reliable_from', 'reliable from'], ['reliable_to', 'to']])
+      for (const [key, label] of [['reliable_from', 'reliable from'], ['reliable_to', 'reliable to']])
         if (measured.keys[key]) markers.push({x: measured.keys[key].value, label, unit: 'rad/m',
           color: 'var(--s2)'});
     }
@@ -65,11 +65,11 @@
       markers.push({x: Math.max(...x), label: 'cut-off q1', unit: 'rad/m', moved: cut});
     }
     Plot.draw(ui.plot, {title: 'Power spectrum', height: 380, x: {label: 'wavenumber (rad/m)', log: true},
-      y: {label: 'C (m⁴)', log: true}, series, markers});
+      y: {label: 'power spectrum C (m⁴)', log: true}, series, markers});
     const keys = (measured || law).keys;
-    ui.values.textContent = ['rms_height', 'rms_slope', 'hurst'].filter((k) => keys[k]).map((k) =>
-      `${k.replace('_', ' ')} ${Plot.inUnit(keys[k].value, keys[k].unit, 4)} ± ` +
-      Plot.inUnit(keys[k].standard_error, keys[k].unit, 2)).join('; ');
+    ui.values.textContent = [['rms_height', 'rms height'], ['rms_slope', 'rms slope'], ['hurst', 'Hurst exponent']]
+      .filter(([k]) => keys[k]).map(([k, name]) =>
+        `${name} ${Plot.withError(keys[k].value, keys[k].standard_error, keys[k].unit)}`).join('; ');
     document.documentElement.dataset.slope = keys.rms_slope ? keys.rms_slope.value : '';
   };
   const choices = {'roughness/scan-lines': ['Line correction', ['', 'mend', 'keep']],

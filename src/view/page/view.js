@@ -220,7 +220,8 @@ const View = (() => {
     const open = text !== saved;
     $('changed').textContent = state === null || state.caseText === null ? 'There is no case yet.' :
       open ? 'The case has changes that are not saved.' :
-        state.current ? 'Saved; the result is up to date.' : 'Saved; the result is older than the case.';
+        state.current ? 'Saved; the result is up to date.' : state.resultName === null ?
+          'Saved; not run yet.' : 'Saved; the result is older than the case.';
     $('save').disabled = !open;
     $('save').classList.toggle('main', open);
     $('run').textContent = open ? 'Save and run' : 'Run the case';
@@ -306,6 +307,8 @@ const View = (() => {
     history.replaceState(null, '', '#' + panel.id);
     command();
     if (panel.old) refresh(panel);
+    else if (panel.width !== innerWidth && panel.resize) panel.resize();
+    panel.width = innerWidth;
   };
   /* A panel: {id, title, build(host), show(state), command()}. */
   const add = (panel) => {
@@ -384,7 +387,7 @@ const View = (() => {
   let resized = 0;
   addEventListener('resize', () => {
     clearTimeout(resized);
-    resized = setTimeout(() => current && current.resize && current.resize(), 150);
+    resized = setTimeout(() => current && select(current), 150);
   });
   const trial = latest(async (names, replicates, source) =>
     tables(await call('trial', {name: names, replicates}, source === undefined ? text : source)));
