@@ -582,6 +582,8 @@ void calibration_errors_set_keys(const calibration_errors *of, table_writer *row
                               of->assumed[i], 0, 0);
         append_assumed_error(of, (wt_systematic_source)i, gain.value, text, sizeof text);
     }
-    if (text[0] != '\0')
-        indentation_set_text(rows, INDENTATION_KEY_ASSUMED, text);
+    if (text[0] == '\0')
+        return;
+    clocale_append(text, sizeof text, "; state them to narrow the interval");
+    indentation_set_text(rows, INDENTATION_KEY_ASSUMED, text);
 }
