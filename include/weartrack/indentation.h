@@ -562,6 +562,7 @@ typedef struct wt_group_data {
     wt_group group; /* borrows the arrays below */
     double *modulus;
     long *spot;
+    const char **spot_name;       /* [n] borrowed from the table */
     double *indentation_rate;     /* [n] m/s, NaN if unknown */
     double *equivalent_frequency; /* [n] rad/s, NaN if unknown */
     double *spectrum_factor;      /* [n] factor on the DMA spectrum, NaN if unknown */
@@ -579,6 +580,7 @@ typedef struct wt_group_data {
     size_t n_digests, n_copies;    /* n_copies: number of excluded duplicates */
     const char *duplicate_file[2]; /* files of the first duplicate; borrowed from the table */
     wt_estimate spring_constant;   /* of the table; NaN if it has none */
+    wt_estimate temperature;       /* of the sample, as stated; NaN if it is not */
     double sensitivity_gain;       /* mean of the curves, NaN if unknown */
     wt_estimate sensitivity;       /* stated value; NaN if none or several */
     /* Relative standard errors, NaN if not stated, and the derivative of ln E by each, NaN if

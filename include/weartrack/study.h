@@ -24,6 +24,10 @@ typedef struct wt_mean_comparison {
  * excluded. spots: [n], NULL: each curve is a unit. */
 WT_API wt_mean_comparison wt_compare_means(const double *const values[2],
                                            const long *const spots[2], const size_t n[2]);
+/* Returns the spot whose mean is farthest from those of the others, measured by their scatter. p:
+ * its chance by that scatter times the number of spots; 1 with fewer than four. spots: [n], NULL if
+ * each value is a spot. */
+WT_API long wt_outlying_spot(const double *values, const long *spots, size_t n, double *p_value);
 /* Returns the combined p value of two independent tests (Fisher 1932). If one is NaN, it returns
  * the other. */
 WT_API double wt_combined_p_value(double a, double b);

@@ -427,7 +427,9 @@ void calibration_errors_store(calibration_errors *to, const wt_force_curve *curv
     *stored = (common_curve){.spring_constant = curve->cantilever.spring_constant,
                              .sensitivity_gain = fit->sensitivity_gain,
                              .contact = contact,
-                             .has_file_tip = has_file_tip};
+                             .has_file_tip = has_file_tip,
+                             .without_adhesion = isnan(fit->work_of_adhesion.value) &&
+                                                 isnan(fit->contact_pull.value)};
     copy_branch(curve, WT_SEGMENT_APPROACH, &stored->branch[0]);
     copy_branch(curve, WT_SEGMENT_RETRACT, &stored->branch[1]);
 }
@@ -469,8 +471,8 @@ static wt_status fit_shifted_source(const refit *f, size_t item, int side, unsig
     wt_indent_fit fit;
     const wt_status status = curve_fit_branches(
         scales_force ? curve->contact : to->tip[source][side], f->options, &scaled[0], &scaled[1],
-        curve->spring_constant * (is_spring_constant ? factor : 1), workspace, &fit,
-        &f->errors[item]);
+        curve->without_adhesion, curve->spring_constant * (is_spring_constant ? factor : 1),
+        workspace, &fit, &f->errors[item]);
     if (status == WT_OK)
         *log_modulus = fit.modulus.value > 0 ? log(fit.modulus.value) : (double)NAN;
     return status;
@@ -582,6 +584,8 @@ void calibration_errors_set_keys(const calibration_errors *of, table_writer *row
                               of->assumed[i], 0, 0);
         append_assumed_error(of, (wt_systematic_source)i, gain.value, text, sizeof text);
     }
-    if (text[0] != '\0')
-        indentation_set_text(rows, INDENTATION_KEY_ASSUMED, text);
+    if (text[0] == '\0')
+        return;
+    clocale_append(text, sizeof text, "; state them to narrow the interval");
+    indentation_set_text(rows, INDENTATION_KEY_ASSUMED, text);
 }

@@ -23,7 +23,8 @@ typedef struct common_curve {
     common_branch branch[2]; /* approach, retract */
     double spring_constant, sensitivity_gain;
     const wt_contact_table *contact; /* table of the tip of the fit; borrowed */
-    bool has_file_tip; /* the tip belongs to the file, so the shifted tips do not apply */
+    bool has_file_tip;     /* the tip belongs to the file, so the shifted tips do not apply */
+    bool without_adhesion; /* the law of its fit, which a shifted source keeps */
 } common_curve;
 
 /* Effect of each error source on the modulus, from curves that are fitted again with a shifted

@@ -135,6 +135,8 @@ static void set_indentation_keys(const indent_task *task, const flow_files *file
                               : n_named == 0      ? SPOTS_OF_FILES
                                                   : SPOTS_MIXED;
     describe_tips(task, tip, sizeof tip);
+    if (!isnan(job->temperature.value))
+        indentation_set(t, INDENTATION_KEY_TEMPERATURE, flow_stated_estimate(job->temperature));
     if (task->options.spectrum != NULL)
         indentation_set_value(t, INDENTATION_KEY_SPECTRUM_TEMPERATURE,
                               task->spectrum.reference_temperature, 0, 0);

@@ -92,7 +92,7 @@ static const wt_param rows[] = {
      .flags = PARAM_NO_CASE, .help = "what these curves are: bulk, track or another name"},
     {PARAM("indentation-temperature", wt_indent_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
      .value = "T", .unset = "the reference temperature of the DMA", .flags = PARAM_NO_CASE,
-     .help = "at which the sample was indented; for the spectrum of the DMA"},
+     .help = "at which the sample was indented; for the spectrum of the DMA and for compare"},
     SPRING_CONSTANT(wt_indent_job, PARAM_NO_CASE, indent_error_check),
     SENSITIVITY(wt_indent_job, PARAM_NO_CASE, indent_error_check),
     {PARAM("spring-constant-error", wt_indent_job, lever_error, WT_Q_NONE, FROM_BELOW(0, 1)),

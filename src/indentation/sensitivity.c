@@ -274,6 +274,7 @@ typedef struct direction_group {
     wt_interval sensitivity, factor, change, difference; /* difference: retract over approach */
     double tilt, curve_error; /* of one curve alone, of the sensitivity */
     double scatter;           /* of a unit, of the sensitivity */
+    double surface_share;     /* of the sensitivity, that a soft surface may add */
     double direction_error;   /* error of the sensitivity due to the difference of the directions;
                                  NaN: unknown */
     slope_verdict verdict;
@@ -372,8 +373,25 @@ static void widen_interval(wt_interval *i, double relative)
     i->high = i->value + high;
 }
 
-/* Adds the error of the directions. It is unknown and omitted if no curve has both directions. */
-static void add_direction_error(direction_group groups[ROWS])
+/* Relative bias of the sensitivity per slope change. On an elastic surface a sphere adds a travel ~
+ * deflection^(2/3) to that of the cantilever. The function compares a linear and a quadratic fit to
+ * the part. */
+static double sphere_share(const wt_slope_options *o)
+{
+    enum { NODES = 200 }; /* Chebyshev nodes of the smooth integrand */
+    double line = 0, parabola = 0;
+    for (int i = 0; i < NODES; i++) {
+        const double x = (2.0 * i + 1) / NODES - 1;
+        const double u = pow(o->from + 0.5 * (o->to - o->from) * (1 + x), 2.0 / 3);
+        line += 1.5 * u * x;
+        parabola += 2.5 * u * (1.5 * x * x - 0.5);
+    }
+    return line / (-6 * parabola);
+}
+
+/* Adds the errors that no scatter shows: of the directions, if a curve has both, and of a surface
+ * like a sphere's contact, so that the interval holds a rigid one and one of the largest change. */
+static void add_systematic_errors(direction_group groups[ROWS], const wt_slope_options *options)
 {
     const double difference =
         groups[DIRECTIONS].n > 0 ? groups[DIRECTIONS].difference.value : (double)NAN;
@@ -382,10 +400,11 @@ static void add_direction_error(direction_group groups[ROWS])
         const wt_interval *of = isnan(g->sensitivity.value) ? &g->factor : &g->sensitivity;
         g->scatter = of->standard_error * sqrt((double)g->n_units) / of->value;
         g->direction_error = direction_error(row, difference);
-        if (isnan(g->direction_error))
-            continue;
-        widen_interval(&g->sensitivity, g->direction_error);
-        widen_interval(&g->factor, g->direction_error);
+        g->surface_share = sphere_share(options) * fmax(0, g->change.high);
+        const double error =
+            hypot(isnan(g->direction_error) ? 0 : g->direction_error, g->surface_share / NORMAL_95);
+        widen_interval(&g->sensitivity, error);
+        widen_interval(&g->factor, error);
     }
 }
 
@@ -409,25 +428,9 @@ static void compute_groups(const sensitivity_task *task, direction_group groups[
             g->difference = curve_mean(task, row, &c, &ignored, retract_over_approach_ratio);
         assess_linearity(g, task->job->max_slope_change);
     }
-    add_direction_error(groups);
+    add_systematic_errors(groups, &task->job->options);
     free(c.values);
     free(c.units);
-}
-
-/* Relative bias of the sensitivity per slope change. On an elastic surface a sphere adds a travel ~
- * deflection^(2/3) to that of the cantilever. The function compares a linear and a quadratic fit to
- * the part. */
-static double sphere_share(const wt_slope_options *o)
-{
-    enum { NODES = 200 }; /* Chebyshev nodes of the smooth integrand */
-    double line = 0, parabola = 0;
-    for (int i = 0; i < NODES; i++) {
-        const double x = (2.0 * i + 1) / NODES - 1;
-        const double u = pow(o->from + 0.5 * (o->to - o->from) * (1 + x), 2.0 / 3);
-        line += 1.5 * u * x;
-        parabola += 2.5 * u * (1.5 * x * x - 0.5);
-    }
-    return line / (-6 * parabola);
 }
 
 /* Sets a number, its error and the limits of its interval. Their columns must be consecutive. */
@@ -447,8 +450,7 @@ static const char *const verdict_reasons[] = {
     [SLOPE_INCONCLUSIVE] = ": the slope scatters too much to show whether the surface is hard"};
 
 /* The first two rows are the directions. */
-static void add_group_row(table_writer *t, slope_direction row, const direction_group *g,
-                          double share)
+static void add_group_row(table_writer *t, slope_direction row, const direction_group *g)
 {
     char note[160] = "", verdict[96];
     snprintf(verdict, sizeof verdict, "%s%s", slope_verdict_text(g->verdict),
@@ -466,7 +468,7 @@ static void add_group_row(table_writer *t, slope_direction row, const direction_
     sensitivity_put_text(t, SENSITIVITY_NOTE, note);
     sensitivity_put(t, SENSITIVITY_TILT, g->tilt);
     set_interval_columns(t, SENSITIVITY_CHANGE, g->change);
-    sensitivity_put(t, SENSITIVITY_SHARE, share * fmax(0, g->change.high));
+    sensitivity_put(t, SENSITIVITY_SHARE, g->surface_share);
     if (g->refused)
         return;
     set_interval_columns(t, SENSITIVITY_VALUE, g->sensitivity);
@@ -544,8 +546,7 @@ static wt_status create_group_table(const sensitivity_task *task, wt_table **tab
     table_writer t = table_begin(&sensitivity_schema, err);
     for (size_t row = 0; row < ROWS; row++)
         if (groups[row].n > 0)
-            add_group_row(&t, (slope_direction)row, &groups[row],
-                          sphere_share(&task->job->options));
+            add_group_row(&t, (slope_direction)row, &groups[row]);
     set_sensitivity_keys(&t, task, answer, &groups[answer]);
     cost_report(task->work, (cost_summary){.items = (double)task->n});
     return table_end(&t, table);

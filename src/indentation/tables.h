@@ -198,6 +198,8 @@
     X(INDENTATION_KEY_SENSITIVITIES, "sensitivities", TEXT, OPTIONAL)                              \
     INDENTATION_COMMON_KEYS(X)                                                                     \
     X(INDENTATION_KEY_SPOTS, "spots", ENUM(spot_naming), OPTIONAL)                                 \
+    X(INDENTATION_KEY_TEMPERATURE, "indentation_temperature", SI(TEMPERATURE),                     \
+      LABEL("Temperature of the sample"), OPTIONAL)                                                \
     X(INDENTATION_KEY_SPECTRUM_TEMPERATURE, "spectrum_temperature", SI(TEMPERATURE),               \
       LABEL("Temperature of the spectrum"), OPTIONAL)                                              \
     X(INDENTATION_KEY_POOLED_MISFIT, "pooled_misfit", PLAIN,                                       \

@@ -397,11 +397,11 @@ wt_compare_job wt_compare_job_defaults(void)
 
 static const wt_param rows[] = {
     {PARAM("indentation-temperature", wt_compare_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
-     .value = "T", .unset = "the reference temperature of the DMA",
+     .value = "T", .unset = "that of indent, or the reference temperature of the DMA",
      .help = "at which the sample was indented, such as \"23degC +- 1K\"; for the comparison with "
              "DMA"},
     {PARAM("track-temperature", wt_compare_job, track_temperature, WT_Q_TEMPERATURE, ABOVE(0)),
-     .value = "T", .unset = "that of the bulk",
+     .value = "T", .unset = "that of indent, or of the bulk",
      .help = "at which the track was indented, if it was not that of the bulk"},
     {PARAM("temperature-slope", wt_compare_job, temperature_slope, WT_Q_NONE, ANY_NUMBER),
      .value = "X", .unset = "that of the DMA",
@@ -433,6 +433,17 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_compare_job_params, wt_compare_job, rows, wt_compare_job_defaults, NO_PARTS)
 
+/* Temperatures that only the groups state. A temperature of the job is that of both. */
+static void add_group_temperatures(const compare_pair *p, wt_compare_job *job)
+{
+    const wt_estimate bulk = p->data[0].temperature, track = p->data[1].temperature;
+    if (!p->present[0] || !p->present[1] || !isnan(job->temperature.value))
+        return;
+    job->temperature = bulk;
+    if (isnan(job->track_temperature.value) && track.value != bulk.value)
+        job->track_temperature = track;
+}
+
 wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
                             wt_compare_tables *tables, wt_error *err)
 {
@@ -440,9 +451,13 @@ wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
         return wt_fail(err, WT_E_ARG, "nothing to compare");
     compare_pair p = {0};
     wt_compare_tables t = {0};
+    wt_compare_job with_temperatures = *job;
     wt_status status = param_check(wt_compare_job_params(), job, err);
     if (status == WT_OK)
         status = compare_read_groups(job, &p, err);
+    if (status == WT_OK)
+        add_group_temperatures(&p, &with_temperatures);
+    job = &with_temperatures;
     if (status == WT_OK)
         status = make_groups_table(&p, &t.modulus_groups, err);
     if (status == WT_OK)

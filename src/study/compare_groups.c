@@ -342,6 +342,7 @@ static void read_misfits(const table_view *t, bool spot_per_position, named_spot
 static void read_shared_inputs(const table_view *t, wt_group_data *d)
 {
     d->sensitivity = indentation_value(t, INDENTATION_KEY_SENSITIVITY);
+    d->temperature = indentation_value(t, INDENTATION_KEY_TEMPERATURE);
     d->has_tip = indent_tip_from_table(t, &d->tip);
     d->has_several_cantilevers = indentation_key_text(t, INDENTATION_KEY_SPRING_CONSTANTS) != NULL;
     d->has_several_sensitivities = indentation_key_text(t, INDENTATION_KEY_SENSITIVITIES) != NULL;
@@ -393,6 +394,7 @@ wt_status wt_group_from_table(const wt_table *table, bool spot_per_position, wt_
                        .max_indentation = numbers + 7 * n,
                        .spot = spots,
                        .fitted_spot = spots + n,
+                       .spot_name = wt_alloc(n, sizeof *d.spot_name),
                        .digest = wt_alloc(n, sizeof *d.digest)};
     status = find_accepted_rows(&t, &d, row_of, err);
     if (status == WT_OK) {
@@ -418,6 +420,8 @@ wt_status wt_group_from_table(const wt_table *table, bool spot_per_position, wt_
     }
     if (status == WT_OK) {
         number_spots(names, d.group.n, d.spot);
+        for (size_t i = 0; i < d.group.n; i++)
+            d.spot_name[names[i].item] = names[i].spot;
         read_misfits(&t, spot_per_position, names, &d);
         d.group.modulus = d.modulus;
         d.group.spot = indentation_has(&t, INDENTATION_SPOT) ? d.spot : NULL;
@@ -439,6 +443,7 @@ void wt_group_data_clear(wt_group_data *data)
         return;
     free(data->modulus); /* begins the array of all numbers, as `spot` that of all spots */
     free(data->spot);
+    free(data->spot_name);
     free(data->digest);
     *data = (wt_group_data){0};
 }

@@ -7,6 +7,7 @@
 #include "core/base/number.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Assumed scatter of ln E between spots for the advised number of spots if none is measured. Twice
@@ -352,6 +353,63 @@ static void assess_choices(double margin, compare_verdict *v)
     clocale_print(v->settled_by, sizeof v->settled_by, "%s", v->choices.remedy);
 }
 
+/* ---- a spot that does not belong ------------------------------------------------------------- */
+
+/* Chance below which a spot is named as one that does not belong. */
+static const double outlier_level = 0.01;
+
+/* Compares without one spot of a group. False if that leaves no interval. */
+static bool compare_without_spot(const compare_pair *p, const comparison_inputs *k, int group,
+                                 long spot, wt_comparison *c)
+{
+    wt_group g[2] = {compare_select_curves(p, 0, COMPARE_ALL_BINS, 0, p->by_factor)};
+    g[1] = compare_select_curves(p, 1, COMPARE_ALL_BINS, g[0].n, p->by_factor);
+    const size_t first = group == 0 ? 0 : g[0].n, n = g[group].n;
+    size_t kept = first;
+    if (k->rates_by_dma)
+        g[0].rate = g[1].rate = NULL;
+    for (size_t i = first; i < first + n; i++) {
+        if (p->spot[i] == spot)
+            continue;
+        p->modulus[kept] = p->modulus[i];
+        p->rate[kept] = p->rate[i];
+        p->spot[kept] = p->spot[i];
+        p->rate_class[kept++] = p->rate_class[i];
+    }
+    g[group].n = kept - first;
+    return wt_compare_moduli(&g[0], &g[1], &k->offset, c, NULL) == WT_OK &&
+           c->undecided_reason == WT_UNDECIDED_NOT;
+}
+
+/* Names a spot that widens the interval, and the ratio without it, before the other remedies. */
+static void name_outlying_spot(const compare_pair *p, const comparison_inputs *k,
+                               compare_verdict *v)
+{
+    for (int g = 0; g < 2; g++) {
+        const wt_group_data *d = &p->data[g];
+        double *logs = wt_alloc(d->group.n, sizeof *logs), chance;
+        for (size_t i = 0; i < d->group.n; i++)
+            logs[i] = log(p->by_factor ? d->spectrum_factor[i] : d->modulus[i]);
+        const long spot = wt_outlying_spot(logs, d->group.spot, d->group.n, &chance);
+        free(logs);
+        wt_comparison c;
+        char others[sizeof v->settled_by];
+        size_t first = 0;
+        if (!(chance < outlier_level) || d->group.spot == NULL ||
+            !compare_without_spot(p, k, g, spot, &c))
+            continue;
+        while (d->spot[first] != spot)
+            first++;
+        snprintf(others, sizeof others, "%s", v->settled_by);
+        clocale_print(v->settled_by, sizeof v->settled_by,
+                      "the spot %s of the %s measured again: it is far from the others (chance "
+                      "%s), and without it the ratio is %.3g (%.3g to %.3g); %s",
+                      d->spot_name[first], compare_group_name[g], format_probability(chance).text,
+                      c.ratio, c.ratio_low, c.ratio_high, others);
+        return;
+    }
+}
+
 compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
                                const comparison_inputs *inputs, const unstated_errors *unstated,
                                const compare_row *row, const compare_row *rates, size_t n_rates)
@@ -359,5 +417,7 @@ compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
     compare_verdict v = assess_interval(p, job, inputs, unstated, row, rates, n_rates);
     v.choices = compare_ratio_choices(p, v.is_unreportable ? (double)NAN : row->c.ratio);
     assess_choices(log1p(job->margin), &v);
+    if (v.verdict == VERDICT_INCONCLUSIVE && row->valid)
+        name_outlying_spot(p, inputs, &v);
     return v;
 }

@@ -7,15 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CURVES = 30, MOST_SPOTS = 6, FURTHER = 3 };
+enum { CURVES = 30, SPOTS = 6, FURTHER = 3 };
 static const double level = 0.01, share_needed = 0.9;
 
 /* The curves of one draw: a sample and a file for each spot. */
 typedef struct spots {
     int n;
-    const afm_sample *sample[MOST_SPOTS];
-    afm_sample *own[MOST_SPOTS]; /* to be freed */
-    const char *path[MOST_SPOTS];
+    const afm_sample *sample[SPOTS];
+    afm_sample *own[SPOTS]; /* to be freed */
+    const char *path[SPOTS];
 } spots;
 
 static int write_curves(const afm_sample *sample, const afm_scene *s, random_source *random,
@@ -34,11 +34,11 @@ static int make_spots(spots *to, const afm_sample *sample, const afm_scene *s,
                       random_source *random, trial *t)
 {
     int bad = sample == NULL;
-    *to = (spots){.n = s->spots > 0 ? MOST_SPOTS : 1};
+    *to = (spots){.n = SPOTS};
     for (int i = 0; i < to->n && !bad; i++) {
         char name[24];
         afm_scene here = *s;
-        snprintf(name, sizeof name, "curves%.d.tsv", s->spots > 0 ? i + 1 : 0);
+        snprintf(name, sizeof name, "curves%d.tsv", i + 1);
         to->path[i] = trial_file(t, name);
         to->sample[i] = sample;
         if (s->spots > 0) {
@@ -94,6 +94,9 @@ static void read_curves(const char *path, const afm_scene *s, const afm_sample *
             if (s->dma > 0)
                 trial_add(t, Q_FACTOR, s->dma, place_row(found, &place_factor, i));
         }
+        const estimate group = place_key(found, &place_budget[0]);
+        if (from->own[0] == NULL && group.value > 0) /* else the spots have no modulus in common */
+            trial_add(t, Q_GROUP_MODULUS, from->sample[0]->modulus, group);
         const double chance = stream_number(found, place_modulus.table, PLACE_POOLED_CHANCE, NULL);
         const char *changes = stream_key(found, PLACE_DEPTH, PLACE_DEPTH_CHANGES);
         const bool silent = changes != NULL &&
@@ -139,7 +142,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     if (s->radius_stated > 0) /* of 50 nm */
         snprintf(told, sizeof told, "pyramid:half-angle=35deg+-%.9g%%,radius=50nm+-%.9g%%",
                  100 * s->angle_stated, 100 * s->radius_stated);
-    const char *arguments[MOST_SPOTS + 20] = {"indent"};
+    const char *arguments[SPOTS + 20] = {"indent"};
     char values[FURTHER][32];
     spots from;
     int n = 1;

@@ -5,6 +5,7 @@
  */
 #include "indentation/law/hereditary.h"
 #include "core/math/root.h"
+#include "core/math/simd.h"
 #include "dma/law/prony_law.h"
 
 #include <math.h>
@@ -250,19 +251,36 @@ void hereditary_set_step(hereditary *m, double step)
     }
 }
 
-double hereditary_decay(const hereditary *m, double *memory)
+WIDE_REGISTERS double hereditary_decay(const hereditary *m, double *memory)
 {
     double sum = 0.0;
-    for (size_t i = 0; i < m->n; i++) {
+    size_t i = 0;
+    for (; i + WIDE <= m->n; i += WIDE) {
+        wide state, decay;
+        simd_load(&state, memory + i);
+        simd_load(&decay, m->decay + i);
+        state *= decay;
+        simd_store(memory + i, &state);
+        sum = (((sum + state[0]) + state[1]) + state[2]) + state[3];
+    }
+    for (; i < m->n; i++) {
         memory[i] *= m->decay[i];
         sum += memory[i];
     }
     return sum;
 }
 
-void hereditary_add_change(const hereditary *m, double *memory, double change)
+WIDE_REGISTERS void hereditary_add_change(const hereditary *m, double *memory, double change)
 {
-    for (size_t i = 0; i < m->n; i++)
+    size_t i = 0;
+    for (; i + WIDE <= m->n; i += WIDE) {
+        wide state, gain;
+        simd_load(&state, memory + i);
+        simd_load(&gain, m->gain + i);
+        state += gain * change;
+        simd_store(memory + i, &state);
+    }
+    for (; i < m->n; i++)
         memory[i] += m->gain[i] * change;
 }
 

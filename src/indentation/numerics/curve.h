@@ -88,11 +88,12 @@ typedef struct curve_branch {
     size_t n;
 } curve_branch;
 
-/* Variant of wt_indent_fit_curve with the retract, whose n may be 0. */
+/* Variant of wt_indent_fit_curve with the retract, whose n may be 0. Laws of adhesion are tried
+ * unless `without_adhesion` is set. */
 wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_options *options,
                              const curve_branch *approach, const curve_branch *retract,
-                             double spring_constant, wt_indent_workspace *workspace,
-                             wt_indent_fit *fit, wt_error *err);
+                             bool without_adhesion, double spring_constant,
+                             wt_indent_workspace *workspace, wt_indent_fit *fit, wt_error *err);
 
 /* Sets all numbers of a fit to NaN. */
 void curve_fit_empty(wt_indent_fit *fit);

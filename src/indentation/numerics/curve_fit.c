@@ -457,8 +457,8 @@ static void fit_below_saturation(const curve_fitting *of, const curve_branch *re
 
 wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_options *options,
                              const curve_branch *approach, const curve_branch *retract,
-                             double spring_constant, wt_indent_workspace *workspace,
-                             wt_indent_fit *fit, wt_error *err)
+                             bool without_adhesion, double spring_constant,
+                             wt_indent_workspace *workspace, wt_indent_fit *fit, wt_error *err)
 {
     const wt_indent_options defaults = wt_indent_defaults();
     const size_t n = approach->n;
@@ -480,7 +480,8 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
                                    .loss = (double)NAN,
                                    .loss_bias = (double)NAN,
                                    .loss_power = (double)NAN,
-                                   .range_converged = true};
+                                   .range_converged = true,
+                                   .without_adhesion = without_adhesion};
     curve_fitting f;
     fit_once(&initial, retract, spring_constant, &f, fit);
     if (fit->verdict == WT_CURVE_SATURATED)
@@ -498,6 +499,6 @@ wt_status wt_indent_fit_curve(const wt_contact_table *table, const wt_indent_opt
                               wt_indent_fit *fit, wt_error *err)
 {
     const curve_branch approach = {height, force, time, n}, none = {NULL, NULL, NULL, 0};
-    return curve_fit_branches(table, options, &approach, &none, spring_constant, workspace, fit,
-                              err);
+    return curve_fit_branches(table, options, &approach, &none, false, spring_constant, workspace,
+                              fit, err);
 }

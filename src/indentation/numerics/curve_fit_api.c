@@ -79,7 +79,8 @@ wt_status wt_indent_fit_force_curve(const wt_contact_table *table, const wt_inde
     const curve_branch in = {height, force, segment_time(approach, workspace->input_time),
                              approach->n_points};
     const curve_branch out = retract_branch(retract, &curve->cantilever, workspace);
-    const wt_status status = curve_fit_branches(table, options, &in, &out, k, workspace, fit, err);
+    const wt_status status =
+        curve_fit_branches(table, options, &in, &out, false, k, workspace, fit, err);
     if (status == WT_OK && fit->verdict == WT_CURVE_ACCEPTED) {
         if (retract != NULL && retract < approach)
             strncat(fit->reason, "; the retract comes first in the file",

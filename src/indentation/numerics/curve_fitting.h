@@ -60,6 +60,7 @@ typedef struct curve_fitting {
     bool spectrum_mismatch; /* the spectrum of the options does not describe the curve */
     bool below_saturation;  /* the fit only covers forces up to the limit of the options */
     bool misfit_is_named;   /* the reason of the verdict names the misfit */
+    bool without_adhesion;  /* no law of adhesion is tried */
     bool unknown_loss;      /* the curve loses work, and the law of the fit does not describe it */
     /* Alternative law of adhesion, second contact point, and the relative error of the modulus due
      * to the latter. */

@@ -175,6 +175,9 @@ static void evaluate_branch_block(const adhesion *law, const double *bare, size_
 
 /* Equilibrium with adhesive contact on the branch of large radii. A sample is on it from its jump
  * on, or from first contact. */
+/* Depth beyond which a trial of the fit is refused instead of evaluated: no tip is as large. */
+static const double max_bare_depth = 1e-4;
+
 static void balance_adhesive(const curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
@@ -183,6 +186,11 @@ static void balance_adhesive(const curve_law *m, const double p[N], size_t first
     const adhesion law = {m->table, e, root * root};
     const double release = adhesion_release(&law, k);
     double *const z = w->residual, *const bare = w->delta; /* inputs of both results */
+    if (release > max_bare_depth) {
+        for (size_t i = first; i < s->n; i++)
+            w->g[i] = (double)INFINITY;
+        return;
+    }
     for (size_t i = first; i < s->n; i++) {
         z[i] = s->position[i] - p[CURVE_C];
         w->delta[i] = w->g[i] = w->slope[i] = w->by_modulus[i] = w->by_work[i] = 0.0;

@@ -100,12 +100,14 @@ static int compare_by_spot_and_value(const void *a, const void *b)
     return (x->value > y->value) - (x->value < y->value);
 }
 
-/* Returns the moments of the means of the spots. Values that are not finite are skipped. */
-static moments spot_mean_moments(const double *values, const long *spots, size_t n, arena *memory)
+/* Computes the means of the spots, in the order of their numbers, and returns how many there are.
+ * Values that are not finite are skipped. */
+static size_t average_spots(const double *values, const long *spots, size_t n, arena *memory,
+                            spot_value **result)
 {
     size_t n_values = 0, n_spots = 0;
     spot_value *values_by_spot = arena_alloc(memory, n, sizeof *values_by_spot);
-    double *means = arena_numbers(memory, n);
+    spot_value *means = arena_alloc(memory, n, sizeof *means);
     for (size_t i = 0; i < n; i++)
         if (isfinite(values[i]))
             values_by_spot[n_values++] =
@@ -115,9 +117,42 @@ static moments spot_mean_moments(const double *values, const long *spots, size_t
         double sum = 0;
         for (to = from; to < n_values && values_by_spot[to].spot == values_by_spot[from].spot; to++)
             sum += values_by_spot[to].value;
-        means[n_spots++] = sum / (double)(to - from);
+        means[n_spots++] = (spot_value){values_by_spot[from].spot, sum / (double)(to - from)};
     }
-    return sample_moments(means, n_spots);
+    *result = means;
+    return n_spots;
+}
+
+/* Moments of the means of all spots but one. */
+static moments other_moments(const spot_value *means, size_t n, size_t left_out, arena *memory)
+{
+    double *others = arena_numbers(memory, n);
+    size_t kept = 0;
+    for (size_t i = 0; i < n; i++)
+        if (i != left_out)
+            others[kept++] = means[i].value;
+    return sample_moments(others, kept);
+}
+
+long wt_outlying_spot(const double *values, const long *spots, size_t n, double *p_value)
+{
+    enum { OTHERS = 3 }; /* smallest number that tells a scatter */
+    arena memory = {0};
+    spot_value *means;
+    const size_t n_spots = average_spots(values, spots, n, &memory, &means);
+    long farthest = 0;
+    *p_value = 1;
+    for (size_t i = 0; n_spots > OTHERS && i < n_spots; i++) {
+        const moments m = other_moments(means, n_spots, i, &memory);
+        const double t = fabs(means[i].value - m.mean) / sqrt(m.variance * (1 + 1 / m.n));
+        const double p = 2 * (double)n_spots * gsl_cdf_tdist_Q(t, m.n - 1);
+        if (p < *p_value) {
+            *p_value = p;
+            farthest = means[i].spot;
+        }
+    }
+    arena_free(&memory);
+    return farthest;
 }
 
 wt_mean_comparison wt_compare_means(const double *const values[2], const long *const spots[2],
@@ -125,8 +160,11 @@ wt_mean_comparison wt_compare_means(const double *const values[2], const long *c
 {
     arena memory = {0};
     moments m[2];
-    for (int g = 0; g < 2; g++)
-        m[g] = spot_mean_moments(values[g], spots[g], n[g], &memory);
+    for (int g = 0; g < 2; g++) {
+        spot_value *means;
+        const size_t n_spots = average_spots(values[g], spots[g], n[g], &memory, &means);
+        m[g] = other_moments(means, n_spots, n_spots, &memory);
+    }
     arena_free(&memory);
     const t_error parts[] = {{sqrt(m[0].variance / m[0].n), m[0].n - 1},
                              {sqrt(m[1].variance / m[1].n), m[1].n - 1}};
