@@ -325,6 +325,7 @@ void text_typographic(text_buffer *text, const char *ascii)
         before = s[n - 1];
         s += n;
     }
+}
 
 void text_json_list(text_buffer *text, const char *const *strings, size_t n)
 {

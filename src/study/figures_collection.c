@@ -3,6 +3,7 @@
  * region of critical energy and wear rate by each method of determination.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/array.h"
 #include "report/drawing.h"
 
 #include <math.h>
