@@ -2,15 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
-static wt_status fail_missing_budget(cmd_session *s)
-{
-    wt_fail(&s->err, WT_E_MISSING, "the case has no error budget");
-    wt_error_file(&s->err, s->files[0]);
-    wt_error_expected(&s->err, "a material, a counter surface and sliding conditions");
-    wt_error_advice(&s->err, "`weartrack run --plan` says what each stage lacks");
-    return WT_E_MISSING;
-}
-
 static void print_text_keys(const cmd_session *s, const wt_table *table)
 {
     for (size_t i = 0; i < wt_table_n_keys(table) && !s->common.quiet; i++) {
@@ -24,26 +15,14 @@ static void print_text_keys(const cmd_session *s, const wt_table *table)
 /* Runs a case with requests for only its error budget and error against run time. */
 static wt_status run_accuracy_case(cmd_session *s, wt_run_options *run)
 {
-    wt_case *c = NULL;
-    size_t n_failed = 0;
-    wt_status status =
-        s->common.output != NULL ? wt_check_overwrite(s->common.output, &s->err) : WT_OK;
-    if (status == WT_OK)
-        status = cmd_check_output(s->common.output, &s->err);
-    if (status == WT_OK)
-        status = wt_case_read(s->files[0], &c, &s->err);
-    if (status == WT_OK)
-        status = wt_case_request_tables(c, "error_budget work_precision", &s->err);
-    if (status == WT_OK)
-        status = cmd_run_case(s, c, run, &n_failed);
-    wt_case_free(c);
-    if (s->result != NULL && n_failed > 0)
-        cmd_print_failures(s, wt_result_find(s->result, "failures"));
-    const wt_table *budget = s->result != NULL ? wt_result_find(s->result, "error_budget") : NULL;
-    if (status == WT_OK && budget == NULL)
-        status = fail_missing_budget(s);
+    static const cmd_case_tables requested = {
+        .tables = "error_budget work_precision",
+        .main = "error_budget",
+        .missing = "the case has no error budget",
+        .expected = "a material, a counter surface and sliding conditions"};
+    const wt_status status = cmd_run_case_tables(s, &requested, run);
     if (status == WT_OK && !cmd_is_brief(s)) {
-        print_text_keys(s, budget);
+        print_text_keys(s, wt_result_find(s->result, "error_budget"));
         if (wt_result_find(s->result, "work_precision") != NULL)
             print_text_keys(s, wt_result_find(s->result, "work_precision"));
     }

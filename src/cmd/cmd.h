@@ -170,9 +170,21 @@ void cmd_finish(cmd_session *s, wt_status status, wt_table **const tables[], siz
 /* Runs a case with the common options. The result belongs to the session; *n_failed stages or files
  * are in its table "failures". */
 wt_status cmd_run_case(cmd_session *s, const wt_case *c, wt_run_options *run, size_t *n_failed);
+
+/* Tables for which a subcommand runs the stages of a case. */
+typedef struct cmd_case_tables {
+    const char *tables, *main;       /* names, and the table that must be among the results */
+    const char *missing, *expected;  /* parts of the error without the main table */
+    const cmd_option_group *records; /* job whose records are the further files; NULL: none */
+} cmd_case_tables;
+/* Runs the case of the first file for these tables alone and prints its failures. */
+wt_status cmd_run_case_tables(cmd_session *s, const cmd_case_tables *requested,
+                              wt_run_options *run);
 /* Frees the session and returns the exit status. */
 int cmd_session_free(cmd_session *s);
 
+/* True if `names`, separated by blanks, contains the name. */
+bool cmd_names_contain(const char *names, const char *name);
 /* True if the option was given. */
 bool cmd_option_is_set(const cmd_option_group *part, const char *name);
 /* Prints a usage error with a reference to the help; returns false. */

@@ -101,16 +101,6 @@ static void read_tip(const metadata_row *row, file_kind *found)
     }
 }
 
-/* True if the names, which are separated by blanks, contain the name. */
-static bool has_option(const char *options, const char *name)
-{
-    const size_t length = strlen(name);
-    for (const char *p = options; *p != '\0'; p += strcspn(p, " "), p += strspn(p, " "))
-        if (strcspn(p, " ") == length && strncmp(p, name, length) == 0)
-            return true;
-    return false;
-}
-
 /* Reads the quantity of a column, which begins the value, and stores the name of a column without a
  * unit, which needs its own --units. */
 static void read_column(const metadata_row *row, file_kind *found)
@@ -150,7 +140,7 @@ static void read_metadata(const wt_formats *formats, const wt_table *metadata, f
             read_column(&row, found);
         else
             for (size_t k = 0; k < FILE_KIND_N_MISSING; k++)
-                found->missing[k] |= has_option(row.options, file_kind_missing_rows[k].name);
+                found->missing[k] |= cmd_names_contain(row.options, file_kind_missing_rows[k].name);
         read_shown_item(&row, found);
         read_tip(&row, found);
     }

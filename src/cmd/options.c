@@ -104,8 +104,7 @@ bool cmd_param_error(cmd_session *s)
     return option_error(s, option);
 }
 
-/* True if `names`, separated by blanks, contains the name. */
-static bool names_contain(const char *names, const char *name)
+bool cmd_names_contain(const char *names, const char *name)
 {
     const size_t length = strlen(name);
     for (const char *p = names; *p != '\0'; p += strcspn(p, " "), p += strspn(p, " "))
@@ -119,7 +118,7 @@ static void add_option_group(option_list *list, cmd_option_group *part)
     for (size_t i = 0; i < wt_params_count(part->params) && list->n < MAX_OPTIONS; i++) {
         const wt_param *param = wt_params_get(part->params, i);
         if ((param->flags & PARAM_NO_OPTION) != 0 ||
-            (part->only != NULL && !names_contain(part->only, param->name)))
+            (part->only != NULL && !cmd_names_contain(part->only, param->name)))
             continue;
         char set[8];
         wt_params_default(part->params, i, set, sizeof set);
@@ -192,13 +191,13 @@ static void print_all_options(const cmd_usage *usage, const option_list *list)
     const char *elsewhere = usage->master != NULL ? usage->master : "";
     puts("\noptions:");
     for (size_t i = 0; i < list->n; i++)
-        if (!list->rows[i].former && !names_contain(elsewhere, list->rows[i].name))
+        if (!list->rows[i].former && !cmd_names_contain(elsewhere, list->rows[i].name))
             print_option_help(&list->rows[i]);
     if (usage->master == NULL)
         return;
     puts("\nof DMA files, as in weartrack master --help all:");
     for (size_t i = 0; i < list->n; i++)
-        if (!list->rows[i].former && names_contain(elsewhere, list->rows[i].name))
+        if (!list->rows[i].former && cmd_names_contain(elsewhere, list->rows[i].name))
             printf("      --%s%s%s\n", list->rows[i].name,
                    list->rows[i].param->value != NULL ? " " : "",
                    list->rows[i].param->value != NULL ? list->rows[i].param->value : "");

@@ -198,6 +198,36 @@ wt_status cmd_run_case(cmd_session *s, const wt_case *c, wt_run_options *run, si
     return status;
 }
 
+wt_status cmd_run_case_tables(cmd_session *s, const cmd_case_tables *requested, wt_run_options *run)
+{
+    const cmd_option_group *job = requested->records;
+    wt_case *c = NULL;
+    size_t n_failed = 0;
+    wt_status status =
+        s->common.output != NULL ? wt_check_overwrite(s->common.output, &s->err) : WT_OK;
+    if (status == WT_OK)
+        status = cmd_check_output(s->common.output, &s->err);
+    if (status == WT_OK)
+        status = wt_case_read(s->files[0], &c, &s->err);
+    if (status == WT_OK)
+        status = wt_case_request_tables(c, requested->tables, &s->err);
+    if (status == WT_OK && job != NULL)
+        status = wt_case_set_validation(c, s->files + 1, s->n_files - 1, job->structure, job->given,
+                                        &s->err);
+    if (status == WT_OK)
+        status = cmd_run_case(s, c, run, &n_failed);
+    wt_case_free(c);
+    if (s->result != NULL && n_failed > 0)
+        cmd_print_failures(s, wt_result_find(s->result, "failures"));
+    if (status == WT_OK && wt_result_find(s->result, requested->main) == NULL) {
+        status = wt_fail(&s->err, WT_E_MISSING, "%s", requested->missing);
+        wt_error_file(&s->err, s->files[0]);
+        wt_error_expected(&s->err, "%s", requested->expected);
+        wt_error_advice(&s->err, "`weartrack run --plan` says what each stage lacks");
+    }
+    return status;
+}
+
 int cmd_session_free(cmd_session *s)
 {
     for (size_t i = 0; i < s->n_parts; i++)

@@ -2,42 +2,17 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
-/* Requested tables in their order. */
-static const char requested_tables[] = "validation validation_running_in validation_course "
-                                       "validation_sources wear";
-
-static wt_status fail_missing_validation(cmd_session *s)
+static wt_status run_validation_case(cmd_session *s, wt_run_options *run,
+                                     const cmd_option_group *job)
 {
-    wt_fail(&s->err, WT_E_MISSING, "nothing could be compared with the record");
-    wt_error_file(&s->err, s->files[0]);
-    wt_error_expected(&s->err, "a case with a material, a counter surface and sliding conditions, "
-                               "and a record");
-    wt_error_advice(&s->err, "`weartrack run --plan` says what each stage lacks");
-    return WT_E_MISSING;
-}
-
-static wt_status run_validation_case(cmd_session *s, wt_run_options *run, cmd_option_group *job)
-{
-    wt_case *c = NULL;
-    size_t n_failed = 0;
-    wt_status status =
-        s->common.output != NULL ? wt_check_overwrite(s->common.output, &s->err) : WT_OK;
-    if (status == WT_OK)
-        status = cmd_check_output(s->common.output, &s->err);
-    if (status == WT_OK)
-        status = wt_case_read(s->files[0], &c, &s->err);
-    if (status == WT_OK)
-        status = wt_case_request_tables(c, requested_tables, &s->err);
-    if (status == WT_OK)
-        status = wt_case_set_validation(c, s->files + 1, s->n_files - 1, job->structure, job->given,
-                                        &s->err);
-    if (status == WT_OK)
-        status = cmd_run_case(s, c, run, &n_failed);
-    wt_case_free(c);
-    if (s->result != NULL && n_failed > 0)
-        cmd_print_failures(s, wt_result_find(s->result, "failures"));
-    if (status == WT_OK && wt_result_find(s->result, "validation") == NULL)
-        status = fail_missing_validation(s);
+    const cmd_case_tables requested = {
+        .tables = "validation validation_running_in validation_course validation_sources wear",
+        .main = "validation",
+        .missing = "nothing could be compared with the record",
+        .expected = "a case with a material, a counter surface and sliding conditions, "
+                    "and a record",
+        .records = job};
+    const wt_status status = cmd_run_case_tables(s, &requested, run);
     return status == WT_OK && !cmd_shows_short_table(s) ? cmd_write_result(s) : status;
 }
 

@@ -1,6 +1,7 @@
 /* Cache of the materials of the replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/material_cache.h"
+#include "core/base/number.h"
 #include "job/random_draws.h"
 
 #include <float.h>
@@ -64,11 +65,6 @@ void material_cache_free(wt_material_cache *drawn)
         free_replicate_materials(drawn);
     }
     free(drawn);
-}
-
-static bool is_same_number(double a, double b)
-{
-    return a == b || (isnan(a) && isnan(b));
 }
 
 static bool is_current(const wt_material_cache *d, const wt_sliding *s, const wt_job *work)

@@ -4,6 +4,7 @@
 #include "indentation/indent_task.h"
 
 #include "core/base/array.h"
+#include "core/base/number.h"
 #include "core/base/utf8.h"
 #include "indentation/law/tip.h"
 #include "indentation/numerics/curve.h"
@@ -312,11 +313,6 @@ static wt_status read_curve_file(indent_task *task, wt_error *err)
 
 /* ---- one curve alone ------------------------------------------------------------------------- */
 
-static bool is_same_value(double a, double b)
-{
-    return a == b || (isnan(a) && isnan(b));
-}
-
 /* Reads the single curve unless it was read with the same options. */
 static wt_status read_single_curve(indent_task *task, wt_single_curve *one, wt_error *err)
 {
@@ -349,8 +345,8 @@ static wt_status fit_single_curve(indent_task *task, wt_error *err)
     const wt_read_options options = indent_read_options(task, task->file, false);
     queued_curve *it = &task->items[0];
     wt_status status = WT_OK;
-    if (!one->is_read || !is_same_value(one->spring_constant, options.spring_constant) ||
-        !is_same_value(one->sensitivity, options.sensitivity))
+    if (!one->is_read || !is_same_number(one->spring_constant, options.spring_constant) ||
+        !is_same_number(one->sensitivity, options.sensitivity))
         status = read_single_curve(task, one, err);
     if (status != WT_OK)
         return status;

@@ -97,17 +97,6 @@ TABLE_ROW(modulus_depth, MODULUS_DEPTH, const char *group; double depth; wt_inte
 TABLE_KEYS(modulus_depth, MODULUS_DEPTH, const char *changes, *reading; wt_interval ratio;
            double chance, misfit_p;)
 
-typedef struct depth_text {
-    char text[48];
-} depth_text;
-
-static depth_text format_si_value(double value, const char *unit)
-{
-    depth_text w;
-    wt_format_si(value, unit, 3, w.text, sizeof w.text);
-    return w;
-}
-
 /* Returns advice on how to decide. The flag states that the residual is not a change with depth. */
 static const char *depth_advice(const wt_modulus_profile *d, bool other_misfit)
 {
@@ -121,8 +110,8 @@ static const char *depth_advice(const wt_modulus_profile *d, bool other_misfit)
 
 static void describe_depth_change(const wt_modulus_profile *d, char text[320])
 {
-    const depth_text shallow = format_si_value(d->depth[0], "m"),
-                     deep = format_si_value(d->depth[WT_DEPTHS - 1], "m");
+    const si_text shallow = curve_format_si(d->depth[0], "m"),
+                  deep = curve_format_si(d->depth[WT_DEPTHS - 1], "m");
     const double margin = 100 * WT_DEPTH_MARGIN;
     const bool is_small = fabs(log(d->change.low)) < log1p(WT_DEPTH_MARGIN) &&
                           fabs(log(d->change.high)) < log1p(WT_DEPTH_MARGIN);
@@ -144,7 +133,7 @@ static void describe_depth_change(const wt_modulus_profile *d, char text[320])
         clocale_print(text, 320,
                       "inconclusive: two spots do not allow an interval of the change of the "
                       "modulus between %s and %s (factor %.3f); a third spot would",
-                      shallow.text, deep.text, d->change.value);
+                      shallow.buffer, deep.buffer, d->change.value);
     else if (d->verdict == WT_DEPTH_OTHER_RESIDUAL)
         clocale_print(
             text, 320,
@@ -155,21 +144,21 @@ static void describe_depth_change(const wt_modulus_profile *d, char text[320])
         clocale_print(text, 320,
                       "yes: between %s and %s the modulus changes; the curves do not determine "
                       "the size and sign of the change (factor %s)",
-                      shallow.text, deep.text, range);
+                      shallow.buffer, deep.buffer, range);
     else if (d->verdict == WT_DEPTH_CHANGES)
         clocale_print(text, 320,
                       "yes%s: the modulus at %s differs from that at %s by a factor of %s",
-                      is_small ? ", but hardly" : "", deep.text, shallow.text, range);
+                      is_small ? ", but hardly" : "", deep.buffer, shallow.buffer, range);
     else if (d->verdict == WT_DEPTH_SAME)
         clocale_print(text, 320,
                       "no: between %s and %s the modulus changes by less than %g %% (factor %s)",
-                      shallow.text, deep.text, margin, range);
+                      shallow.buffer, deep.buffer, margin, range);
     else
         clocale_print(
             text, 320,
             "inconclusive: between %s and %s the modulus may be the same or change by more "
             "than %g %% (factor %s); %s",
-            shallow.text, deep.text, margin, range, depth_advice(d, false));
+            shallow.buffer, deep.buffer, margin, range, depth_advice(d, false));
 }
 
 /* Describes the layer that would cause such a change, and other possible causes. */
@@ -179,11 +168,11 @@ static void describe_layer_reading(const wt_modulus_profile *d, char text[640])
     if (!isnan(d->thickness.value))
         clocale_print(numbers, sizeof numbers,
                       "; a layer of %s (%s to %s) with %s on %s would have this effect",
-                      format_si_value(d->thickness.value, "m").text,
-                      format_si_value(d->thickness.low, "m").text,
-                      format_si_value(d->thickness.high, "m").text,
-                      format_si_value(d->layer_modulus.value, "Pa").text,
-                      format_si_value(d->substrate_modulus.value, "Pa").text);
+                      curve_format_si(d->thickness.value, "m").buffer,
+                      curve_format_si(d->thickness.low, "m").buffer,
+                      curve_format_si(d->thickness.high, "m").buffer,
+                      curve_format_si(d->layer_modulus.value, "Pa").buffer,
+                      curve_format_si(d->substrate_modulus.value, "Pa").buffer);
     clocale_print(text, 640,
                   "if a layer thinner than the indentation causes it, the layer is %s than the "
                   "material below; then shallow indentations measure the layer, deep ones the "

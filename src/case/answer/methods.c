@@ -19,13 +19,6 @@ typedef struct method {
     const char *reference, *doi; /* as printed in journals; "" without a reference */
 } method;
 
-/* Number of a key without errors; NaN without the key. */
-static double plain_number(const char *key)
-{
-    double value = (double)NAN;
-    return key != NULL && wt_number_parse(key, strlen(key), '.', &value) ? value : (double)NAN;
-}
-
 /* ---- indentation ----------------------------------------------------------------------------- */
 
 static bool is_blunted(const table_view *table)
@@ -213,7 +206,7 @@ static void describe_payne(text_builder *t, const table_view *table)
 static void describe_power_spectrum(text_builder *t, const table_view *table)
 {
     const char *scans = power_spectrum_key_text(table, POWER_SPECTRUM_KEY_N_SCANS);
-    const bool one = plain_number(scans) == 1;
+    const bool one = parse_number_or_nan(scans) == 1;
     text_append(t, "The power spectrum of the counter surface was computed from %s scan%s.",
                 scans != NULL ? scans : "its", one ? "" : "s");
 }
@@ -232,7 +225,7 @@ static void describe_friction(text_builder *t, const table_view *table)
         text_append(t, ", with a shear stress of %s in the real contact",
                     format_estimate(shear).text);
     const char *draws = friction_key_text(table, FRICTION_KEY_REPLICATES);
-    if (plain_number(draws) > 0)
+    if (parse_number_or_nan(draws) > 0)
         text_append(t, "; intervals by %s draws of what has an error", draws);
     text_append(t, ".");
 }

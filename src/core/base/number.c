@@ -204,6 +204,11 @@ double parse_number_or_nan(const char *text)
     return text != NULL && wt_number_parse(text, strlen(text), '.', &value) ? value : (double)NAN;
 }
 
+bool is_same_number(double a, double b)
+{
+    return a == b || (isnan(a) && isnan(b));
+}
+
 bool parse_stored_number(const char *text, size_t length, double *value)
 {
     static const struct {
