@@ -231,21 +231,6 @@ double master_reference_shift(const master_work *work)
     return spectrum_a(work->s, work->curve[end]) / M_LN10 + work->edge[at].a - work->edge[end].a;
 }
 
-bool master_reference_is_fitted(const master_work *work)
-{
-    return work->at < work->set.n && work->placed[work->at];
-}
-
-bool master_reference_neighbours(const master_work *work, size_t *cold, size_t *warm)
-{
-    const size_t n = work->set.n;
-    *cold = *warm = n;
-    for (size_t i = 0; i < n && *warm == n; i++)
-        if (work->placed[i])
-            *(work->set.curves[i].temperature <= work->reference ? cold : warm) = i;
-    return work->at == n && *cold < n && *warm < n;
-}
-
 void master_place_reference(master_work *work)
 {
     const wt_posterior *p = work->posterior;
