@@ -85,10 +85,21 @@ extern const double master_uniform_noise[SPECTRUM_SHAPES];
 wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double geometry,
                             double departure, wt_error *err) WT_NODISCARD;
 /* Returns true if the spectrum contains the isotherm at the reference temperature. */
-bool master_reference_is_fitted(const master_work *work);
+static inline bool master_reference_is_fitted(const master_work *work)
+{
+    return work->at < work->set.n && work->placed[work->at];
+}
 /* Finds the isotherms of the spectrum around a reference temperature that is none of the isotherms.
  * Returns false if it lies beyond them. */
-bool master_reference_neighbours(const master_work *work, size_t *cold, size_t *warm);
+static inline bool master_reference_neighbours(const master_work *work, size_t *cold, size_t *warm)
+{
+    const size_t n = work->set.n;
+    *cold = *warm = n;
+    for (size_t i = 0; i < n && *warm == n; i++)
+        if (work->placed[i])
+            *(work->set.curves[i].temperature <= work->reference ? cold : warm) = i;
+    return work->at == n && *cold < n && *warm < n;
+}
 /* Places the reference temperature at or between the isotherms of the spectrum. */
 void master_place_reference(master_work *work);
 /* Computes log_a [set->n], in decades, 0 at the anchor. It is NaN if no isotherm towards the

@@ -353,21 +353,6 @@ static bool shifts_match_edges(const master_work *work, const overlap_edge *edge
     return true;
 }
 
-bool master_reference_is_fitted(const master_work *work)
-{
-    return work->at < work->set.n && work->placed[work->at];
-}
-
-bool master_reference_neighbours(const master_work *work, size_t *cold, size_t *warm)
-{
-    const size_t n = work->set.n;
-    *cold = *warm = n;
-    for (size_t i = 0; i < n && *warm == n; i++)
-        if (work->placed[i])
-            *(work->set.curves[i].temperature <= work->reference ? cold : warm) = i;
-    return work->at == n && *cold < n && *warm < n;
-}
-
 bool master_shifts_agree(const master_work *work)
 {
     arena memory = {0};
