@@ -47,7 +47,8 @@ typedef struct wt_cycles {
 } wt_cycles;
 /* Splits a record into cycles. The track `radius` [m] converts distance to laps and rotation to
  * velocity; NaN: unknown. `load` [N] is used if none was recorded; NaN: unknown. WT_E_MISSING if
- * the record does not allow a `kind` other than WT_CYCLE_AUTO. */
+ * the record does not allow a `kind` other than WT_CYCLE_AUTO, and for a torque that
+ * wt_record_torque_to_force has not converted. */
 WT_API wt_status wt_cycles_compute(const wt_record *record, wt_cycle_kind kind, double radius,
                                    double load, wt_cycles *cycles, wt_error *err) WT_NODISCARD;
 WT_API void wt_cycles_clear(wt_cycles *cycles);
