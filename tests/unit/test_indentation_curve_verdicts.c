@@ -583,9 +583,9 @@ static double loss_of(const curve_truth *t, double share, size_t late)
     const curve_branch in = {data.height, data.force, data.time, t->n};
     const curve_branch back = {out.height, out.force, NULL, t->n - late};
     assert_int_equal(wt_contact_table_new(&t->tip, 1e-11, 1e-4, &table, NULL), WT_OK);
-    assert_int_equal(
-        curve_fit_branches(table, NULL, &in, &back, t->spring_constant, workspace, &fit, NULL),
-        WT_OK);
+    assert_int_equal(curve_fit_branches(table, NULL, &in, &back, false, t->spring_constant,
+                                        workspace, &fit, NULL),
+                     WT_OK);
     wt_contact_table_free(table);
     return fit.loss;
 }

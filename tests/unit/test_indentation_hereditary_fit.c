@@ -216,8 +216,8 @@ static wt_indent_fit fit_lossy(double tan_delta, double kappa, way how)
     const curve_branch in = {height[0], measured[0], how != WITHOUT_TIMES ? times : NULL, SAMPLES},
                        out = {height[1], measured[1], NULL, SAMPLES};
     wt_indent_fit fit;
-    assert_int_equal(curve_fit_branches(table, &options, &in, &out, k, workspace, &fit, NULL),
-                     WT_OK);
+    assert_int_equal(
+        curve_fit_branches(table, &options, &in, &out, false, k, workspace, &fit, NULL), WT_OK);
     wt_contact_table_free(table);
     fit.modulus.value = fit.modulus.value / whole - 1;
     return fit;
