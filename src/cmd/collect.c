@@ -22,8 +22,8 @@ static size_t read_collected_cases(cmd_session *s, wt_collected_result *cases, w
             wt_error_file(&s->err, path);
             wt_error_advice(&s->err, "give what weartrack run wrote or, for moduli against "
                                      "temperature, weartrack ramp; beside it, weartrack indent "
-                                     "with --curves median; a hard particle tells a modulus only "
-                                     "under a stiff cantilever");
+                                     "with --curves median; a hard particle needs a stiff "
+                                     "cantilever for a modulus");
         }
         if (read != WT_OK) {
             wt_error_file(&s->err, path);

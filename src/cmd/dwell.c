@@ -10,9 +10,8 @@ int cmd_dwell(int argc, char **argv)
         .description =
             "Relaxation at constant height and creep at constant force of the dwell (pause) "
             "behind the approach of force curves, and modulation in it: storage and loss "
-            "modulus at the "
-            "frequencies that a dwell tells, with their errors. Folders and patterns are "
-            "allowed.",
+            "modulus at the frequencies that a dwell determines, with their errors. Folders "
+            "and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
         .notes = "The tables dwell, dwell_moduli and dwell_points follow one another.",
         .n_files = CMD_ONE_OR_MORE};

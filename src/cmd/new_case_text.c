@@ -260,9 +260,9 @@ static void write_remaining_sections(FILE *out, const new_case *c)
           "  </sliding> -->\n"
           "\n  <!-- For the thickness of the layer, with one of the last two:\n  <layer>\n"
           "    <specific-wear-rate>" FILL_IN
-          ", such as 1e-3mm^3/(N m); may be left out where a record tells "
-          "what was worn</specific-wear-rate>\n"
-          "    <critical-energy>" FILL_IN ", such as 2e10J/m^3</critical-energy>\n"
+          ", such as 1e-3mm^3/(N m); may be left out if a record has the "
+          "wear</specific-wear-rate>\n    <critical-energy>" FILL_IN
+          ", such as 2e10J/m^3</critical-energy>\n"
           "    <observed-thickness>" FILL_IN ", such as 3um</observed-thickness>\n"
           "  </layer> -->\n",
           out);

@@ -213,7 +213,7 @@ static wt_status read_wear_rate(cmd_sliding *s, wt_error *err)
         status = cmd_table_find(result, path, "wear", "record", &wear, err);
     if (status == WT_OK && (!wt_table_estimate(wear, "specific_wear_rate", &s->measured_wear) ||
                             isnan(s->measured_wear.value))) {
-        status = wt_fail(err, WT_E_EMPTY, "the result tells no specific wear rate");
+        status = wt_fail(err, WT_E_EMPTY, "the result has no specific wear rate");
         wt_error_file(err, path);
         wt_error_advice(err, "its table wear says why");
     }

@@ -242,8 +242,8 @@ const figure_description figures_payne[] = {
                 CURVE(RAMP_LOSS_FACTOR, OWN, .panel = 1)},
      .empty_reason = "no modulus above zero at any temperature",
      .caption_text =
-         "Storage and loss modulus against temperature and, below, tan δ, with the peaks that "
-         "tell the glass transition.",
+         "Storage and loss modulus against temperature and, below, tan δ, with the peaks of "
+         "the glass transition.",
      .draw = draw_ramp,
      .caption = caption_ramp},
     {.name = "payne",

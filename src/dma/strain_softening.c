@@ -314,7 +314,7 @@ static const char *const names[N_COLUMNS] = {"strain", "f", "g", "f_error", "g_e
 
 static wt_status fail_not_softening(wt_error *err)
 {
-    wt_fail(err, WT_E_MISSING, "the table is none of a softening with strain");
+    wt_fail(err, WT_E_MISSING, "the table is not one of a softening with strain");
     wt_error_expected(err, "columns strain, f and g, and f_error and g_error if they are known; "
                            "or the table payne_sweep, as weartrack payne writes it");
     return WT_E_MISSING;

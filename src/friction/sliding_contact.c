@@ -351,7 +351,7 @@ wt_status wt_layer_observation_from_rates(const wt_table *comparison, const wt_t
     const wt_estimate ratio = comparison_value(&c, COMPARISON_KEY_MODULUS_RATIO);
     const double df = comparison_value(&c, COMPARISON_KEY_MODULUS_RATIO_DF).value;
     if (!(ratio.value > 0))
-        return wt_fail(err, WT_E_MISSING, "the comparison tells no modulus ratio of all rates");
+        return wt_fail(err, WT_E_MISSING, "the comparison has no modulus ratio of all rates");
     observation->modulus_ratio = ratio;
     observation->modulus_ratio.unit = "1"; /* the table uses another unit text */
     observation->modulus_ratio_df = isnan(df) ? 0 : df;

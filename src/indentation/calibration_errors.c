@@ -172,7 +172,8 @@ static void describe_budget(const char *group, const budget *b, char *text, size
     if (isnan(b->all.error)) {
         clocale_append(text, size, "modulus of the %s %s; its standard error is not known, for %s",
                        group, value,
-                       isnan(b->scatter.error) ? "one spot tells nothing of how the sample scatters"
+                       isnan(b->scatter.error) ? "one spot does not determine the scatter of "
+                                                 "the sample"
                        : isnan(b->part[LOSS].error)
                            ? "nothing says what the loss of its curves does"
                            : "no curve could be fitted anew with what is stated");

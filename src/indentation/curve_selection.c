@@ -52,7 +52,9 @@ static wt_status read_selection_term(const char *term, curve_selection *selectio
     else if (strcmp(term, "all") == 0)
         selection->all = true;
     else
-        return wt_fail(err, WT_E_ARG, "'%s' is none of median, rejected, worst:N, all and FILE:N",
+        return wt_fail(err, WT_E_ARG,
+                       "'%s' is not one of median, rejected, worst:N, all and "
+                       "FILE:N",
                        term);
     return WT_OK;
 }

@@ -176,8 +176,8 @@ static wt_status compute_modulation_moduli(const wt_contact_table *contact, doub
     m->moduli.loss_common_error = fabs(share * m->moduli.loss.value);
     m->found = dwell_is_valid_modulus(&m->moduli);
     if (!m->found)
-        m->note = "E' or E'' is not positive: no modulus; the lag of the instrument may be larger "
-                  "than that of the sample (a modulation in air tells)";
+        m->note = "E' or E'' is not positive: no modulus; the lag of the instrument may be "
+                  "larger than that of the sample (a modulation in air shows it)";
     return status;
 }
 

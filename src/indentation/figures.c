@@ -460,7 +460,7 @@ const figure_description figures_indentation[] = {
      .x = {MODULUS_DEPTH_DEPTH, AXIS_LINEAR, "Indentation"},
      .y = {{MODULUS_DEPTH_MODULUS, AXIS_LOG, "Modulus at this depth"}},
      .curves = {CURVE(MODULUS_DEPTH_MODULUS, JOINED_BARS, .with_errors = true)},
-     .empty_reason = "too few curves without adhesion tell it",
+     .empty_reason = "there are too few curves without adhesion for it",
      .caption_text =
          "Modulus of the homogeneous rubber that would give the force at this depth alone, of "
          "all curves of a group together, with their contact point fitted anew; bars: 95 % "

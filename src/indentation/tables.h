@@ -7,9 +7,8 @@
 /* The number of cosines is WT_MISFIT_TERMS. */
 #define MISFIT_WAVE(X, n)                                                                          \
     X(INDENTATION_MISFIT_WAVE_##n, "misfit_wave_" #n,                                              \
-      "cosine " #n " of the residual over the contact, of the largest force; of curves that tell " \
-      "of depth",                                                                                  \
-      NUMBER, SHOWS(deep.misfit[n - 1]), OPTIONAL)
+      "cosine " #n " of the residual over the contact, relative to the largest force", NUMBER,     \
+      SHOWS(deep.misfit[n - 1]), OPTIONAL)
 
 #define SPOT_NAMINGS(X)                                                                            \
     X(SPOTS_NAMED, "named")                                                                        \
@@ -56,7 +55,8 @@
     X(INDENTATION_BASELINE_CHANCE, IN(fit, baseline_p),                                            \
       "chance that a straight baseline departs as much from a line", NUMBER, OPTIONAL)             \
     X(INDENTATION_BEND_SHIFT, "bend_shift",                                                        \
-      "what the bend of the baseline adds to the modulus if it goes on in contact; 0: straight",   \
+      "effect of the bend of the baseline on the modulus if it continues in contact; 0: "          \
+      "straight",                                                                                  \
       SHOWS(fit.curvature_shift), SI(MODULUS), OPTIONAL)                                           \
     X(INDENTATION_INTERFERENCE_AMPLITUDE, IN(fit, interference_amplitude),                         \
       "amplitude of a sine that the baseline shows, fitted with the modulus; 0: none", SI(FORCE),  \
@@ -130,9 +130,8 @@
       "factor of the square of the position in the baseline", UNIT("N/m^2"),                       \
       SHOWS(deep.curvature), OPTIONAL)                                                             \
     X(INDENTATION_LOSS_ERROR, "loss_error",                                                        \
-      "relative error of the modulus by the memory that stands for loss; nan: loss, and what it "  \
-      "does is not known",                                                                         \
-      NUMBER, SHOWS(deep.loss_error), OPTIONAL)
+      "relative error of the modulus by the assumed memory; nan: loss of unknown effect", NUMBER,  \
+      SHOWS(deep.loss_error), OPTIONAL)
 
 /* Mean relative changes of the moduli with other choices of the fit: the ranges in the order of
  * wt_indent_fit.range_shift, a contact law without loss, and one with a constant pull. */

@@ -24,8 +24,9 @@
     X(SENSITIVITY_CURVES_TILT, "baseline_tilt",                                                    \
       "slope of the baseline, which is subtracted, of that in contact", NUMBER, SPARSE)            \
     X(SENSITIVITY_CURVES_MISFIT, "misfit",                                                         \
-      "root mean square of what the samples are off a line, of the rise of the signal", NUMBER,    \
-      SPARSE)                                                                                      \
+      "root mean square deviation of the samples from a line, relative to the rise of the "        \
+      "signal",                                                                                    \
+      NUMBER, SPARSE)                                                                              \
     X(SENSITIVITY_CURVES_TRAVEL, "travel", "travel of the piezo in the part", SI(LENGTH), SPARSE)  \
     X(SENSITIVITY_CURVES_POINTS, "points", "samples in the part", NUMBER)
 #define SENSITIVITY_CURVES_KEYS(X)                                                                 \
@@ -116,7 +117,8 @@
     X(THERMAL_FROM, "fit_from", "range of the fit", SI(FREQUENCY), SPARSE)                         \
     X(THERMAL_TO, "fit_to", "its end", SI(FREQUENCY), SPARSE)                                      \
     X(THERMAL_POINTS, "points", "points in it", NUMBER)                                            \
-    X(THERMAL_AVERAGES, "averages", "averages as the scatter about the fit tells", NUMBER, SPARSE) \
+    X(THERMAL_AVERAGES, "averages", "number of averages, from the scatter about the fit", NUMBER,  \
+      SPARSE)                                                                                      \
     X(THERMAL_AVERAGES_OF_FILE, "averages_of_file", "averages that the file says", NUMBER, SPARSE) \
     X(THERMAL_CHANCE, "misfit_p",                                                                  \
       "chance of as much slow departure from the oscillator by scatter alone", NUMBER, DIGITS(2),  \

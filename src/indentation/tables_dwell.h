@@ -17,14 +17,14 @@
     X(DWELL_KIND, "kind", "relaxation (height held), creep (force held) or modulation", TEXT,      \
       LABEL("Kind"))                                                                               \
     X(DWELL_ANGULAR_FREQUENCY, "angular_frequency",                                                \
-      "angular frequency in the middle of those that the dwell tells", SI(ANGULAR_FREQUENCY),      \
+      "angular frequency in the middle of those that the dwell determines", SI(ANGULAR_FREQUENCY), \
       LABEL("Angular frequency"), SPARSE)                                                          \
     NUMBER_AND_ERROR(X, DWELL_STORAGE, "storage_modulus", "storage modulus there",                 \
                      SI(STORAGE_MODULUS), "E′", .member = NULL)                                    \
     NUMBER_AND_ERROR(X, DWELL_LOSS, "loss_modulus", "loss modulus there", SI(LOSS_MODULUS), "E″",  \
                      .member = NULL)                                                               \
     X(DWELL_MISFIT, "misfit",                                                                      \
-      "mean square of what the samples are off, of the noise of the baseline; above 1 the errors " \
+      "mean square residual over that of the noise of the baseline; above 1 the errors "           \
       "are wider by its root",                                                                     \
       NUMBER, LABEL("Misfit"), DIGITS(2), SPARSE)                                                  \
     X(DWELL_MISFIT_CHANCE, "misfit_p", "chance of more by noise alone", NUMBER, SPARSE)            \

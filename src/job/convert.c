@@ -532,7 +532,7 @@ static wt_status parse_kind(const char *text, void *member, wt_error *err)
             *(unsigned *)member = kinds[i].kind;
             return WT_OK;
         }
-    return wt_fail(err, WT_E_ARG, "'%s' is none of %s", text, KIND_NAMES);
+    return wt_fail(err, WT_E_ARG, "'%s' is not one of %s", text, KIND_NAMES);
 }
 
 static const wt_tables_role contact_role = {

@@ -185,7 +185,7 @@ const figure_description figures_layer[] = {
      .x = {TRACK_LAYER_DEPTH, AXIS_LOG, "Indentation, thickness"},
      .y = {{TRACK_LAYER_MODULUS, AXIS_LOG, "Modulus at this depth"}},
      .curves = {CURVE(TRACK_LAYER_MODULUS, OWN, .with_errors = true)},
-     .empty_reason = "too few curves tell how the modulus changes with depth",
+     .empty_reason = "there are too few curves for the modulus against depth",
      .caption_text =
          "Modulus of the homogeneous rubber that would give the force at this depth, of bulk "
          "and track (bars: 95 % confidence interval), and of layers on the bulk that have the "

@@ -42,7 +42,7 @@
     X(IDENTIFICATION_KEY_WEAR, "identified_wear_rate", SI(WEAR_RATE),                              \
       HEADLINE("Specific wear rate by the layer"), OPTIONAL)                                       \
     X(IDENTIFICATION_KEY_PRODUCT, "wear_times_energy", NUMBER,                                     \
-      LABEL("k U_c, which the thickness alone tells"))                                             \
+      LABEL("k U_c, which the thickness alone determines"))                                        \
     X(IDENTIFICATION_KEY_RATIO, "formation_wear_ratio", NUMBER,                                    \
       LABEL("Formation rate over wear rate, R"))                                                   \
     X(IDENTIFICATION_KEY_AGREES, "agreement", TEXT, LABEL("Running-in against wear"), OPTIONAL)    \

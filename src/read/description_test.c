@@ -10,7 +10,7 @@ static void report_column(table_writer *report, const text_table *t, const text_
                                            [COLUMN_NO_UNIT] = "its unit is not said",
                                            [COLUMN_BAD_UNIT] = "its unit does not fit",
                                            [COLUMN_UNCLEAR] =
-                                               "the column that tells what it is is not there"};
+                                               "the column that identifies it is missing"};
     const wt_quantity q = c->rule->quantity;
     table_row(report);
     description_put_text(report, DESCRIPTION_COLUMN, c->name);

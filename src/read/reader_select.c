@@ -91,8 +91,8 @@ static const wt_param rows[] = {
      .help = "of DMA sweeps of several samples, or what weartrack master made of them, take those "
              "of this one; all: the sweeps are of one material, whatever they are called"},
     {PARAM_CHOICE_OF("sample-by", wt_read_options, sample_by, "name|file"),
-     .help = "what tells the samples of DMA sweeps apart: the name that a column or the header "
-             "gives, or the file"},
+     .help = "how the samples of DMA sweeps are distinguished: by the name in a column or in "
+             "the header, or by the file"},
     {PARAM_CHOICE_OF("conditioning", wt_read_options, conditioning, "mend|keep"),
      .help = "keep: copies, flagged rows, outliers, pauses, zeros and drifts count as they stand; "
              "otherwise left out or corrected"},

@@ -98,7 +98,7 @@ static void add_other_sources(source_list *list, const wt_sliding *sliding, bool
         const char *words, *remedy;
         double variance, needed;
     } rest[] = {{other_sources_name(sliding, split),
-                 !split ? "more replicates, which tell the errors apart"
+                 !split ? "more replicates, which separate the errors"
                  : sliding->surface->modes_error != NULL
                      ? "a second DMA run; more scans of the counter surface"
                      : "a second DMA run; temperatures known better",

@@ -140,7 +140,7 @@ static void count_pauses(const record_pauses *pauses, const wt_cycle *first, con
 static void note_decay(const wt_job *work, const record_row *r, char *note, size_t size)
 {
     static const char *const words[] = {
-        "", "the plateau of a decay is told",
+        "", "the plateau of a decay is reported",
         "ends before it is steady: the plateau of its decay is reported",
         "ends before it is steady: the plateau of its decay is not known"};
     append_note(note, size, words[r->decay]);
@@ -166,7 +166,7 @@ static void note_step(const wt_job *work, const wt_cycles *cycles, const record_
         append_note(note, size, "few samples in a cycle: its mean holds a part of its wave");
     if (isnan(r->end.value) && r->steady.n < r->cycles && r->decay < DECAY_GOES_ON) { /* no end was
                                                              found, and yet a part is truncated */
-        append_note(note, size, "not steady: the last tenth is told");
+        append_note(note, size, "not steady: the last tenth is reported");
         wt_log_add(work->log, WT_WARNING, r->file, NULL,
                    "friction does not become steady before the last tenth of step %zu, whose "
                    "mean is reported",
@@ -217,7 +217,7 @@ static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, co
         r->decay = steady_decay_follow(y, n, &r->steady.mean, &r->left);
     if (r->decay >= DECAY_GOES_ON) {
         end.cycles = not_known;
-        end.why_not = "it goes on to the end of the record";
+        end.why_not = "it continues to the end of the record";
     }
     r->slips = all->kind == WT_CYCLE_STROKE
                    ? (wt_stick_slip){0, (double)NAN, (double)NAN}
@@ -323,7 +323,7 @@ static void warn_pauses(const wt_job *work, const record_pauses *pauses, const c
                       "%zu pause%s of %s%.4g s in mid-record, %s at %.4g s of sliding: not "
                       "sliding time, and left out",
                       pauses->n, pauses->n > 1 ? "s" : "", pauses->n > 1 ? "together " : "", all,
-                      pauses->n > 1 ? "the first" : "behind which it goes on", pauses->of[0].at);
+                      pauses->n > 1 ? "the first" : "followed by more sliding", pauses->of[0].at);
     if (pauses->alike > 0)
         wt_log_add(work->log, WT_WARNING, file, NULL,
                    "%zu equal gaps in the time are treated as pauses of the recorder while "
@@ -532,7 +532,7 @@ static wt_status make_record_tables(const wt_record_job *job, const wt_job *work
     if (wear_is_requested(job))
         begin_wear(&w, err);
     record_cycles_set_text(&w.cycles, RECORD_CYCLES_KEY_AVERAGED_OVER,
-                           job->cycle == WT_CYCLE_AUTO ? "what each record tells"
+                           job->cycle == WT_CYCLE_AUTO ? "result of each record"
                                                        : cycle_kind_name(job->cycle));
     record_task task = {job, work, &w, err};
     wt_status status = flow_files_process(files, work, process_file, &task, &n_failed, err);

@@ -132,7 +132,7 @@ static void describe_change(const run_set *all, char *text, size_t size)
 {
     const wt_interval ratio = run_level_interval(&all->level[RUN_RATIO]);
     if (isnan(ratio.low) || isnan(ratio.high))
-        snprintf(text, size, "how much friction changes is not told");
+        snprintf(text, size, "the change of friction is not determined");
     else
         clocale_print(text, size, "the change of friction is %.3g times that predicted (95 %%: %s)",
                       ratio.value, format_range(ratio.low, ratio.high, 3).text);

@@ -41,7 +41,7 @@
     X(RECORD_RUNNING_IN_NOTE, "running_in_note", "why there is no end of it", TEXT,                \
       SHOWS(end_note), LABEL("Note"))                                                              \
     X(RECORD_STICK_SLIP, "stick_slip",                                                             \
-      "mean height of the falls of friction that stand out of its scatter", NUMBER,                \
+      "mean height of the falls of friction that exceed its scatter", NUMBER,                      \
       SHOWS(slips.amplitude), LABEL("Stick-slip"), STANDARD_ERROR(RECORD_STICK_SLIP), SPARSE)      \
     X(RECORD_STICK_SLIP_STANDARD_ERROR, "stick_slip_standard_error", "its standard error", NUMBER, \
       SHOWS(slips.standard_error), LABEL("± stat."), SPARSE)                                       \

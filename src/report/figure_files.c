@@ -37,7 +37,7 @@ wt_status figure_formats_read(const char *text, void *member, wt_error *err)
                                                  strncmp(word, figure_format_name(i), length) != 0))
             i++;
         if (figure_format_name(i) == NULL)
-            return wt_fail(err, WT_E_ARG, "'%.*s' is none of svg, pdf, png", (int)length, word);
+            return wt_fail(err, WT_E_ARG, "'%.*s' is not one of svg, pdf, png", (int)length, word);
         formats |= 1U << i;
         word += length;
         if (*word == '\0')

@@ -119,7 +119,7 @@ static const struct result_part {
     ROWS(prony, "Prony series at the reference temperature"),
     KEYS(prony, "Prony series: constants"),
     ROWS(prony_reduced, "Prony series with few terms, for finite elements"),
-    KEYS(prony_reduced, "Prony series with few terms: constants, what it is off"),
+    KEYS(prony_reduced, "Prony series with few terms: constants and deviation"),
     ROWS(glass_transition, "Glass transition: temperatures of the peaks at each frequency"),
     KEYS(glass_transition, "Glass transition: where"),
     ROWS(moduli_at, "Moduli at temperatures"),

@@ -55,8 +55,8 @@ static const wt_param rows[] = {
              "12); panels stand side by side from 170 mm"},
     {PARAM_TEXT_OF("font", wt_report_options, font), .value = "NAME",
      .unset = "as the style has it", .check = figure_font_check,
-     .help = "font of the figures, such as Arial; one that is not on this computer is warned of "
-             "where fc-match of Fontconfig tells it"},
+     .help = "font of the figures, such as Arial; one that is not on this computer causes a "
+             "warning if fc-match of Fontconfig finds another"},
     {PARAM_TEXT_OF("gnuplot", wt_report_options, gnuplot), .value = "PROGRAM",
      .flags = PARAM_NO_CASE, .help = "the gnuplot to use"},
     {PARAM("gnuplot-time", wt_report_options, gnuplot_time, WT_Q_TIME, ABOVE(0)), .value = "TIME",

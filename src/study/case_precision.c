@@ -525,8 +525,8 @@ static void write_precision_summary(const precision_problem *o, table_writer *t)
         clocale_append(text, sizeof text, "; the standard error is %.2g %%",
                        100 * o->standard_error[k]);
     if (drawn->value > 0)
-        clocale_append(text, sizeof text, ", which %.0f replicates tell to %.1g %%%s", drawn->value,
-                       100 * drawn->errors.stated_error, format_time(drawn, first));
+        clocale_append(text, sizeof text, ", which %.0f replicates determine to %.1g %%%s",
+                       drawn->value, 100 * drawn->errors.stated_error, format_time(drawn, first));
     if (half->value > 0)
         clocale_append(
             text, sizeof text,

@@ -306,8 +306,8 @@ static wt_status check_unique_names(const collected_case *cases, size_t n, wt_er
                     cases[i].sample, cases[i].condition);
             wt_error_file(err, cases[i].file);
             wt_error_found(err, "%s too", cases[i - 1].file);
-            wt_error_advice(err, "name what tells them apart with <sample> and <condition> in the "
-                                 "case files");
+            wt_error_advice(err, "name what distinguishes them with <sample> and <condition> "
+                                 "in the case files");
             return WT_E_AMBIGUOUS;
         }
     return WT_OK;

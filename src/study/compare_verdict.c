@@ -106,9 +106,9 @@ static const char *curve_remedy(wt_curve_verdict main_rejection)
     case WT_CURVE_POOR_FIT:
     case WT_CURVE_ADHESIVE:
     case WT_CURVE_AMBIGUOUS:
-        return "what the contact law lacks: radius and half-angle of the tip as it is now (curves "
-               "on the bulk again after the track tell whether it wore), curves without a pull, a "
-               "DMA of the rubber for its loss, a larger depth if it is rough";
+        return "what the contact law lacks: radius and half-angle of the tip as it is now "
+               "(curves on the bulk again after the track show whether it wore), curves "
+               "without a pull, a DMA of the rubber for its loss, a larger depth if it is rough";
     case WT_CURVE_NO_BASELINE:
     case WT_CURVE_DRIFT:
         return "curves that begin farther from the sample, with a straight baseline";

@@ -327,7 +327,7 @@ const figure_description figures_collection[] = {
          "each other as their sweeps have them.",
      .draw = draw_ramps},
     {.name = "collected_force",
-     .title = "Force against indentation, of bulk, wear tracks and what stands beside",
+     .title = "Force against indentation of bulk, wear tracks and other groups",
      .table = &collected_force_schema,
      .by_group = true,
      .group = COLLECTED_FORCE_PLACE,
@@ -345,7 +345,7 @@ const figure_description figures_collection[] = {
      .x = {SHARED_MEMBERS_NUMBER, AXIS_NUMBER, "Case"},
      .y = {{SHARED_MEMBERS_RATIO, AXIS_LOG, "Over the shared value"}},
      .curves = {CURVE(SHARED_MEMBERS_RATIO, OWN, .with_errors = true)},
-     .empty_reason = "no two cases tell a constant",
+     .empty_reason = "no two cases have the same constant",
      .caption_text =
          "Value of each case over the one that they share, for each constant and what it may be "
          "common to (bars: intervals that hold together in 95 %; dotted: the shared value). "

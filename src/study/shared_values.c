@@ -173,8 +173,8 @@ static bool is_duplicate(case_value_list *to, const case_value *value)
         shared_value_name(v, name, sizeof name);
         snprintf(why, sizeof why,
                  files == FILES_IDENTICAL ? "its files are those of %s, which count once"
-                                          : "its files have names and sizes of those of %s and no "
-                                            "digest tells them apart (--no-provenance)",
+                                          : "its files have names and sizes of those of %s and "
+                                            "no digest distinguishes them (--no-provenance)",
                  name);
         exclude_value(to, value, why);
         return true;

@@ -46,8 +46,7 @@
     X(WORK_PRECISION_SETTING, AS(setting), "what is swept", TEXT, LABEL("Setting"))                \
     X(WORK_PRECISION_VALUE, AS(value), "its value", NUMBER, LABEL("Value"))                        \
     X(WORK_PRECISION_TRUE_ERROR, IN(errors, true_error),                                           \
-      "largest relative error against the reference; that of the reference where it is smaller, "  \
-      "for no less can be told",                                                                   \
+      "largest relative error against the reference, or that of the reference if it is larger",    \
       NUMBER, LABEL("True error"))                                                                 \
     X(WORK_PRECISION_STATED_ERROR, IN(errors, stated_error), "the same as stated by the method",   \
       NUMBER, LABEL("Stated error"))                                                               \

@@ -111,8 +111,8 @@ static void write_contact_advice(const track_layer_result *f, double radius, cha
         clocale_print(deep, sizeof deep, "indentations of %s with this tip, or ",
                       format_length(depth).text);
     clocale_print(text, size,
-                  "contacts with a radius of %s, which are %s%s with a sphere of %s, in bulk and "
-                  "track: as many curves would then tell a layer of that thickness",
+                  "contacts with a radius of %s, which are %s%s with a sphere of %s, in bulk "
+                  "and track: as many curves would then show a layer of that thickness",
                   format_length(radius).text, deep, format_length(p->depth).text,
                   format_length(radius * radius / p->depth).text);
 }
@@ -206,7 +206,7 @@ static void write_allowed_thickness(const track_layer_result *f, char *text, siz
     else if (p->bound_kind == WT_LAYER_BOUND_ANY)
         clocale_print(text, size, "every thickness that was tried, from %s on: %s", least.text,
                       is_ratio_inconclusive(f)
-                          ? "the moduli of track and bulk are not told apart"
+                          ? "the moduli of track and bulk do not differ significantly"
                           : "the curves do not determine how the modulus changes with depth");
     else if (p->bound_kind == WT_LAYER_BOUND_LOWER)
         clocale_print(text, size,

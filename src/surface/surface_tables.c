@@ -191,7 +191,7 @@ static void print_directions(const surface_result *w, char *to, size_t size)
 {
     const wt_surface_anisotropy *a = &w->directions;
     if (isnan(a->amplitude))
-        clocale_print(to, size, "inconclusive: profiles tell none; a height map would");
+        clocale_print(to, size, "inconclusive: profiles show no directions; a height map would");
     else if (surface_is_anisotropic(a))
         clocale_print(to, size,
                       "differ: C changes by %.2g of its mean, most at %.0f deg from x (chance of "

@@ -49,8 +49,8 @@ static const wt_param rows[] = {
      .help = "which image of a file: a part of its name, such as backward"},
     {PARAM("end", wt_topography_job, end, WT_Q_WAVENUMBER, ABOVE(0)), .value = "Q",
      .unset = "the end of the reliable range",
-     .help = "largest wavenumber of the spectrum, such as 1e8rad/m; beyond the reliable range it "
-             "goes on by its self-affine law"},
+     .help = "largest wavenumber of the spectrum, such as 1e8rad/m; beyond the reliable range "
+             "it follows its self-affine law"},
     {PARAM("end-slope", wt_topography_job, end_slope, WT_Q_NONE, ABOVE(0)), .value = "X",
      .unset = "",
      .help = "end it where the rms slope reaches this, such as 1.3, by its law if it must be"},

@@ -497,7 +497,7 @@ static void not_by_the_noise(void **state)
     const double straight = fit_with(&t, NULL).modulus.standard_error;
     bend(&t, 0.1e-9);
     const wt_indent_fit bent =
-        expect(&t, WT_CURVE_ACCEPTED, "baseline bent, which the error holds");
+        expect(&t, WT_CURVE_ACCEPTED, "baseline bent, which is in the error");
     assert_true(bent.baseline_p < 0.01);
     assert_true(bent.modulus.standard_error > 1.5 * straight);
     assert_near_abs(bent.modulus.value, t.modulus, 2 * bent.modulus.standard_error);

@@ -61,7 +61,7 @@ static void test_none(void **state)
                           .modulus = 1e6};
     assert_int_equal(wt_contact_table_new(&tip, 1e-11, 1e-4, &contact, NULL), WT_OK);
     assert_int_equal(wt_dwell_fit(contact, &h, &dwell, NULL), WT_OK);
-    assert_string_equal(dwell.reason, "too little baseline to tell its noise");
+    assert_string_equal(dwell.reason, "too little baseline for its noise");
     h.contact_point = 1;
     assert_int_equal(wt_dwell_fit(contact, &h, &dwell, NULL), WT_OK);
     assert_string_equal(dwell.reason, "not in contact");

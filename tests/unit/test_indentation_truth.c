@@ -201,7 +201,8 @@ static void test_budget(void **state)
     assert_true(cell(budget, 3, "relative_error") < 0.01);
     assert_string_equal(cell_text(budget, 5, "kind"), "together");
     assert_true(isnan(cell(budget, 5, "relative_error")));
-    assert_non_null(strstr(wt_table_key(budget, "says_track"), "one spot tells nothing"));
+    assert_non_null(strstr(wt_table_key(budget, "says_track"), "one spot does not determine "
+                                                               "the scatter"));
     assert_non_null(strstr(wt_table_key(budget, "says_track"), "(deflection sensitivity)"));
     wt_table_free(budget);
 }

@@ -14,8 +14,8 @@ enum { MANY = 30 };
 
 /* A reason as long as one can be. Curve 6 has it. */
 static const char long_reason[] =
-    "the 95 % interval is wide: E +- 55 % (55 % from the fit range), above 20 %; a pull that the "
-    "contact law does not describe; baseline bent, which the error holds";
+    "the 95 % interval is wide: E +- 55 % (55 % from the fit range), above 20 %; a pull that "
+    "the contact law does not describe; baseline bent, which is in the error";
 
 static void add_table(wt_result *result, const char *name, char *text)
 {

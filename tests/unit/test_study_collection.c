@@ -193,7 +193,7 @@ static void test_counts_once(void **state)
     check(one, other, NULL, "left_out",
           "specific wear rate of HC, b: its files are those of HC, a");
     one.digest = other.digest = "";
-    check(one, other, NULL, "left_out", "no digest tells them apart");
+    check(one, other, NULL, "left_out", "no digest distinguishes them");
     other.file = "other.csv";
     check(one, other, "one", "includes", "");
 }

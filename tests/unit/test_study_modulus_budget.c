@@ -142,8 +142,8 @@ static void test_words(void **state)
     d.group.n = 2;
     assert_int_equal(modulus_budget_create(&d, names, 1, &t, NULL), WT_OK);
     says = wt_table_key(t, "says_bulk");
-    if (strstr(says, "one spot tells nothing of how the sample scatters; what its curves share "
-                     "makes 5 % (spring constant), 10 % (radius of the tip)") == NULL)
+    if (strstr(says, "one spot does not determine the scatter of the sample; what its curves "
+                     "share makes 5 % (spring constant), 10 % (radius of the tip)") == NULL)
         fail_msg("%s", says);
     assert_null(wt_table_key(t, "low_bulk"));
     assert_true(isnan(cell(t, wt_table_n_rows(t) - 2, "relative_error")));

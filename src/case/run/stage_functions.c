@@ -144,7 +144,7 @@ wt_status flow_step_dma_comparison(flow_run *run, wt_error *err)
     if (status == WT_OK && tables.dma_comparison == NULL)
         status =
             wt_fail(err, WT_E_MISSING,
-                    "the curves tell no indentation rate, so no frequency corresponds to them");
+                    "the curves have no indentation rate, so no frequency corresponds to them");
     if (status == WT_OK) {
         report_row_count(run, tables.dma_comparison);
         flow_run_store_table(run, FLOW_DMA_COMPARISON, &tables.dma_comparison);
@@ -281,12 +281,12 @@ wt_status flow_step_wear(flow_run *run, wt_error *err)
     if (status != WT_OK)
         return status;
     if (run->table[FLOW_WEAR] == NULL)
-        return exclude_wear(run, "the records tell nothing of the wear", err);
+        return exclude_wear(run, "the records contain nothing about the wear", err);
     if (!isnan(run->layer.specific_wear_rate.value) || !run->c->has_layer)
         return WT_OK;
     if (!wt_table_estimate(run->table[FLOW_WEAR], "specific_wear_rate", &measured) ||
         isnan(measured.value))
-        return exclude_wear(run, "the records tell no wear rate, as the table wear says", err);
+        return exclude_wear(run, "the records give no wear rate; the table wear says why", err);
     run->layer.specific_wear_rate = measured;
     return WT_OK;
 }

@@ -240,7 +240,7 @@ static wt_status parse_choice_member(const bound_member *s, const char *choices,
             break;
         spell_suggestion_try(&near, p, word);
         if (p[word] == '\0') {
-            (void)wt_fail(err, WT_E_ARG, "'%s' is none of %s", text, choices);
+            (void)wt_fail(err, WT_E_ARG, "'%s' is not one of %s", text, choices);
             if (near.name != NULL)
                 wt_error_advice(err, "did you mean '%.*s'?", (int)near.name_length, near.name);
             else if (strstr(choices, "csv") != NULL && is_spreadsheet(text, length))
@@ -473,8 +473,8 @@ static wt_status check_member_value(const bound_member *s, wt_error *err)
         break;
     case PARAM_CHOICE:
         if (read_unsigned_member(s) >= count_choices(p))
-            status =
-                wt_fail(err, WT_E_RANGE, "%llu is none of %s", read_unsigned_member(s), p->value);
+            status = wt_fail(err, WT_E_RANGE, "%llu is not one of %s", read_unsigned_member(s),
+                             p->value);
         break;
     default:
         break;

@@ -267,7 +267,7 @@ static void remove_duplicate_points(wt_isotherm *t, wt_log *log)
     const size_t dropped = remove_repeated_points(t);
     if (dropped > 0)
         wt_log_action(log, WT_WARNING, WT_COPIED, dropped, WT_KEEP_OPTION, t->source, NULL,
-                      "%zu points of the isotherm at %.1f degC stand there twice; the copies are "
+                      "%zu points of the isotherm at %.1f degC are there twice; the copies are "
                       "left out",
                       dropped, t->temperature - WT_ZERO_CELSIUS);
 }

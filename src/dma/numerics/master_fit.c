@@ -98,7 +98,7 @@ wt_status master_check_vertical(master_work *work, wt_error *err)
     work->options.liquid = work->options.liquid && !work->flows;
     if (work->set.quantity == WT_SHIFT_MODULI || work->options.vertical != WT_VERTICAL_FREE)
         return WT_OK;
-    wt_fail(err, WT_E_ARG, "one modulus alone does not tell free vertical shifts");
+    wt_fail(err, WT_E_ARG, "one modulus alone does not determine free vertical shifts");
     wt_error_place(err, "vertical-shift");
     wt_error_expected(err, "tied, physical or none");
     return WT_E_ARG;

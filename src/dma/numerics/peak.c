@@ -263,7 +263,7 @@ static wt_status locate_peak(const double *x, const double *z, size_t n, double 
     const bool closed = !isnan(peak->at.low) && !isnan(peak->at.high);
     peak->found = status == WT_OK && !isnan(peak->at.value) && (closed || parabola);
     if (status == WT_OK && !peak->found) {
-        set_no_peak(peak, "no peak that stands out of the scatter of the points");
+        set_no_peak(peak, "no peak above the scatter of the points");
     } else if (status == WT_OK) {
         const wt_interval height = gaussian_process_interval(&s, peak->at.value);
         peak->misfit = relative_misfit(&s, x, z, n);

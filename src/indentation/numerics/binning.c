@@ -253,7 +253,7 @@ const char *dwell_nodes_create(const wt_dwell_history *h, double stiffness, aren
     while (split < h->n_approach && h->position[split] < begin)
         split++;
     if (split < LEAST_BASELINE)
-        return "too little baseline to tell its noise";
+        return "too little baseline for its noise";
     if (h->n_approach - split < HELD_BINS || h->n_dwell < HELD_BINS)
         return "too few samples in contact";
     const double before = (h->time[h->n_approach - 1] - h->time[0]) / (double)(h->n_approach - 1),

@@ -410,7 +410,7 @@ static void append_notes(const curve_fitting *f, const wt_indent_fit *fit, char 
         curve_append_note(reason, text);
     }
     if (f->solution.bent)
-        curve_append_note(reason, "; baseline bent, which the error holds");
+        curve_append_note(reason, "; baseline bent, which is in the error");
     const double error = fit->modulus.standard_error / fit->modulus.value;
     if (error > min_reported_error) {
         curve_set_reason(text, "; standard error %.0f %%", 100.0 * error);

@@ -58,7 +58,7 @@ static void read_detect_element(description_parser *p, const xmlNode *detect)
                        probe->text != NULL ? "both" : "neither");
     }
     if (!decides)
-        parse_fail(p, detect, "nothing tells a file of this format from others",
+        parse_fail(p, detect, "nothing distinguishes a file of this format from others",
                    "at least one require or names element", NULL);
     if (score < 1)
         parse_fail(p, detect, "a match would count nothing", "a score of 1 to 100",

@@ -368,7 +368,7 @@ static wt_status add_gwy_fields(image_list *list, gwy_bytes container, bool mask
             status = apply_mask(&list->images[list->n - 1], container, number, err);
     }
     return status == WT_OK && broken != WT_OK
-               ? fail_gwy(err, "container", "a component goes on beyond its object")
+               ? fail_gwy(err, "container", "a component extends beyond its object")
                : status;
 }
 

@@ -379,8 +379,8 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
         timed = timed || f->channels[i].quantity == WT_Q_TIME;
     if (status == WT_OK && !timed)
         wt_log_add(base->log, WT_WARNING, base->name, NULL,
-                   "no channel Time Stamp: samples that were not measured cannot be told from "
-                   "those that were");
+                   "no channel Time Stamp: samples that were not measured cannot be "
+                   "distinguished from those that were");
     if (status == WT_OK)
         warn_extra_bytes(f->window.size, f->end, base->name, base->log);
     base->n_curves = f->n_curves;

@@ -216,7 +216,7 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
             return status;
         wt_fail(b->err, WT_E_MISSING, "no temperature");
         wt_error_place(b->err, "table at line %zu", b->table->names_line);
-        wt_error_expected(b->err, "a column of temperature or a header line that tells it");
+        wt_error_expected(b->err, "a column of temperature or a header line with it");
         wt_error_advice(b->err, "give it with --temperature 25degC, or say where it stands in the "
                                 "names of the sheets or files with --temperature-in-name "
                                 "\"*_#C*\"");

@@ -146,7 +146,7 @@ wt_status text_table_problem(const text_table *table, wt_quantity_set quantities
         default:
             status = WT_E_MISSING;
             wt_fail(err, status, "column \"%s\" may be tension or shear", c->name);
-            wt_error_expected(err, "a column that tells which, such as \"%s\"",
+            wt_error_expected(err, "a column that decides it, such as \"%s\"",
                               c->rule->required_name);
             wt_error_advice(err, "export that column too, or say it with --deformation tension or "
                                  "--deformation shear");

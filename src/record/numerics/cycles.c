@@ -172,7 +172,9 @@ static wt_status choose_cycles(const wt_record *record, wt_cycle_kind wanted, do
             (*kind == WT_CYCLE_TIME && spans->n > 0))
             return WT_OK;
     }
-    const wt_status status = wt_fail(err, WT_E_MISSING, "the record does not tell three whole %s",
+    const wt_status status = wt_fail(err, WT_E_MISSING,
+                                     "the record does not contain three "
+                                     "whole %s",
                                      wanted == WT_CYCLE_LAP ? "laps" : "double strokes");
     wt_error_expected(err, wanted == WT_CYCLE_LAP
                                ? "a column of laps, or of distance and the radius of the track"

@@ -183,7 +183,7 @@ static void assess_running_in(const likelihoods *l, double variance, wt_running_
     for (size_t k = first; k < end; k++)
         l->before[k] += l->behind[k];
     if (change_log_odds(l, l->before, first, end, variance) < log(least_odds)) {
-        r->reason = "no running-in stands out of the scatter";
+        r->reason = "no running-in exceeds the scatter";
         return;
     }
     change_interval(l->before, first, end, r);
@@ -424,7 +424,7 @@ wt_status wt_steady_mean(const double *y, size_t n, wt_steady *steady, wt_error 
         steady->max = fmax(steady->max, y[i]);
     }
     if (n >= FEWEST && !(steady->deviation > rounding * fabs(m.mean)))
-        steady->note = "the cycles do not scatter, which tells no error";
+        steady->note = "the cycles do not scatter, so the error is not known";
     if (n < FEWEST || !(steady->deviation > rounding * fabs(m.mean)))
         return WT_OK;
     double *scratch;

@@ -147,14 +147,14 @@ helps run --no-report w.xml -o a.h5
 case_file w.xml "$rubber$rough$slides<layer>$balance$ratio</layer>$measured"
 helps run --no-report w.xml -o a.h5
 not_advice 'it does not say what it was made of (--no-provenance)' 'reason why a result is made again'
-piece 'name what tells them apart with <sample> and <condition>'
+piece 'name what distinguishes them with <sample> and <condition>'
 case_file w.xml "<sample>s</sample><condition>c</condition>$rubber$rough$slides"
 "$weartrack" run -q --no-report w.xml -o one.h5 > out 2> err; "$weartrack" run -q --no-report w.xml -o two.h5 > out 2> err
 cause 'with <sample> and <condition> in the case files' collect one.h5 two.h5
 case_file w.xml "<sample>s</sample><condition>d</condition>$rubber$rough$slides"
 "$weartrack" run -q --no-report w.xml -o two.h5 > out 2> err
 helps collect one.h5 two.h5
-no_input 'no digest tells them apart (--no-provenance)' 'a reason in a table'
+no_input 'no digest distinguishes them (--no-provenance)' 'a reason in a table'
 
 piece 'make it by weartrack indent --curves all, or <curves>all</curves> in the <indentation> of a case' 'none rejected, so that --curves rejected keeps none'
 cause 'weartrack indent --curves all' report --browse b.html bulk.h5
