@@ -215,8 +215,9 @@ static const expectation measured[] = {
     {&indentation_schema, "loss_shift", "00"},
     {&indentation_schema, "pull_shift", "00"},
     {&indentation_schema, "modulus", "kk"},
-    {&indentation_schema, "spectrum_temperature", "0."}, /* the other without a DMA */
-    {&indentation_schema, "spectrum_factor", "kn"},      /* without a DMA there is no spectrum */
+    {&indentation_schema, "indentation_temperature", "n."}, /* stated in the first */
+    {&indentation_schema, "spectrum_temperature", "0."},    /* the other without a DMA */
+    {&indentation_schema, "spectrum_factor", "kn"},         /* without a DMA there is no spectrum */
     {&indentation_schema, "contact_point", "kk"},
     {&indentation_schema, "work_of_adhesion", "nn"}, /* there is none */
     {&indentation_schema, "retract_modulus", "nk"},  /* asked for in the second */
