@@ -10,7 +10,5 @@
 /* Appends the curves of all groups, their samples and the earlier manual choices as JSON that is
  * safe inside a script element. */
 void append_browse_data(const figure_tables *tables, text_buffer *to);
-/* Appends an object with the words of the verdict of each curve that has no usable modulus. */
-void append_verdict_words(text_buffer *to);
 
 #endif

@@ -5,6 +5,7 @@
 #include "report/browse.h"
 
 #include "report/curve_finder.h"
+#include "report/report_files.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -212,17 +213,6 @@ static void add_choice_rows(const table_view *choices, text_buffer *to)
         add_exact_number(to, overrides_get(choices, row, OVERRIDES_CURVE));
         text_add(to, "]");
     }
-}
-
-void append_verdict_words(text_buffer *to)
-{
-    for (int k = WT_CURVE_DOUBTFUL + 1; k <= WT_CURVE_UNREADABLE; k++) {
-        text_add(to, k == WT_CURVE_DOUBTFUL + 1 ? "{" : ",");
-        text_json(to, wt_curve_verdict_id((wt_curve_verdict)k));
-        text_add(to, ":");
-        text_json(to, wt_curve_verdict_text((wt_curve_verdict)k));
-    }
-    text_add(to, "}");
 }
 
 void append_browse_data(const figure_tables *tables, text_buffer *to)

@@ -4,6 +4,7 @@
 #include "report/report_files.h"
 
 #include "report/report_embedded.h"
+#include "report/report_tables.h"
 
 #include <errno.h>
 #include <string.h>
@@ -111,4 +112,25 @@ wt_status read_style(const char *style, text_buffer *text, wt_error *err)
         return status;
     text_add(text, built_in);
     return WT_OK;
+}
+
+/* ---- verdicts -------------------------------------------------------------------------------- */
+
+#define VERDICT_NAMES(name, id, text) {id, text},
+static const char *const verdicts[][2] = {WT_CURVE_VERDICT_LIST(VERDICT_NAMES)};
+
+const char *verdict_words(int verdict)
+{
+    return verdict >= 0 && verdict <= WT_CURVE_UNREADABLE ? verdicts[verdict][1] : "";
+}
+
+void append_verdict_words(text_buffer *to)
+{
+    for (int k = WT_CURVE_DOUBTFUL + 1; k <= WT_CURVE_UNREADABLE; k++) {
+        text_add(to, k == WT_CURVE_DOUBTFUL + 1 ? "{" : ",");
+        text_json(to, verdicts[k][0]);
+        text_add(to, ":");
+        text_json(to, verdicts[k][1]);
+    }
+    text_add(to, "}");
 }

@@ -1,7 +1,7 @@
 /* State of a case for the page: texts, files and results.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/inputs.h"
-#include "report/browse.h"
+#include "report/report_files.h"
 #include "view/view.h"
 
 #include "core/base/array.h"
