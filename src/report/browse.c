@@ -290,17 +290,6 @@ static void add_choice_rows(const table_view *choices, text_buffer *to)
     }
 }
 
-void append_verdict_words(text_buffer *to)
-{
-    for (int k = WT_CURVE_DOUBTFUL + 1; k <= WT_CURVE_UNREADABLE; k++) {
-        text_add(to, k == WT_CURVE_DOUBTFUL + 1 ? "{" : ",");
-        text_json(to, wt_curve_verdict_id((wt_curve_verdict)k));
-        text_add(to, ":");
-        text_json(to, wt_curve_verdict_text((wt_curve_verdict)k));
-    }
-    text_add(to, "}");
-}
-
 void append_browse_data(const figure_tables *tables, text_buffer *to)
 {
     curve_finder f = {.view = &tables->curves};
