@@ -5,7 +5,6 @@
 #include "core/base/array.h"
 #include "core/system/temporary.h"
 #include "report/report_embedded.h"
-#include "report/report_tables.h"
 #include "weartrack/report.h"
 
 #include <dirent.h>
@@ -433,25 +432,4 @@ void folder_discard(report_folder *folder)
     if (folder->temporary != NULL)
         temporary_remove(folder->temporary);
     folder_free(folder);
-}
-
-/* ---- verdicts -------------------------------------------------------------------------------- */
-
-#define VERDICT_NAMES(name, id, text) {id, text},
-static const char *const verdicts[][2] = {WT_CURVE_VERDICT_LIST(VERDICT_NAMES)};
-
-const char *verdict_words(int verdict)
-{
-    return verdict >= 0 && verdict <= WT_CURVE_UNREADABLE ? verdicts[verdict][1] : "";
-}
-
-void append_verdict_words(text_buffer *to)
-{
-    for (int k = WT_CURVE_DOUBTFUL + 1; k <= WT_CURVE_UNREADABLE; k++) {
-        text_add(to, k == WT_CURVE_DOUBTFUL + 1 ? "{" : ",");
-        text_json(to, verdicts[k][0]);
-        text_add(to, ":");
-        text_json(to, verdicts[k][1]);
-    }
-    text_add(to, "}");
 }

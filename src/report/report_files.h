@@ -26,10 +26,6 @@ wt_status find_built_in_style(const char *name, const char **text, wt_error *err
 /* Appends a plot style: a built-in one by name, NULL = "paper". A name with a slash or ending in
  * .gp is a file. */
 wt_status read_style(const char *style, text_buffer *text, wt_error *err) WT_NODISCARD;
-/* Words of the verdict of a curve (a wt_curve_verdict). */
-const char *verdict_words(int verdict);
-/* Appends a JSON object with the words of each verdict without a usable modulus. */
-void append_verdict_words(text_buffer *to);
 
 /* Appends the curves of all groups, their samples and the earlier manual choices as JSON that is
  * safe inside a script element. */

@@ -5,6 +5,7 @@
 #include "core/base/array.h"
 #include "core/base/memory.h"
 #include "core/base/utf8.h"
+#include "report/report_tables.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -335,4 +336,25 @@ void text_json_list(text_buffer *text, const char *const *strings, size_t n)
         text_json(text, strings[i]);
     }
     text_add(text, "]");
+}
+
+/* ---- verdicts -------------------------------------------------------------------------------- */
+
+#define VERDICT_NAMES(name, id, text) {id, text},
+static const char *const verdicts[][2] = {WT_CURVE_VERDICT_LIST(VERDICT_NAMES)};
+
+const char *verdict_words(int verdict)
+{
+    return verdict >= 0 && verdict <= WT_CURVE_UNREADABLE ? verdicts[verdict][1] : "";
+}
+
+void append_verdict_words(text_buffer *to)
+{
+    for (int k = WT_CURVE_DOUBTFUL + 1; k <= WT_CURVE_UNREADABLE; k++) {
+        text_add(to, k == WT_CURVE_DOUBTFUL + 1 ? "{" : ",");
+        text_json(to, verdicts[k][0]);
+        text_add(to, ":");
+        text_json(to, verdicts[k][1]);
+    }
+    text_add(to, "}");
 }
