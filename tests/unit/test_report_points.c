@@ -352,8 +352,8 @@ static void add_tics(char *tics, size_t size, size_t place_of, const wt_table *t
                  words);
     }
     const size_t used = strlen(tics);
-    snprintf(tics + used, size - used, "%s'%s' %zu.2, '%s' %.1f", place_of > 0 ? ", " : "", choice,
-             place_of, tried, (double)place_of - 0.2);
+    snprintf(tics + used, size - used, "set ytics add ('%s' %zu.2)\nset ytics add ('%s' %.1f)\n",
+             choice, place_of, tried, (double)place_of - 0.2);
 }
 
 static void test_what_if(void **state)
@@ -386,7 +386,7 @@ static void test_what_if(void **state)
             ranges[n - 1].high = fmax(ranges[n - 1].high, value);
         }
         qsort(ranges, n, sizeof *ranges, wider);
-        char tics[2048] = "set ytics (";
+        char tics[4096] = "";
         size_t bars = 0;
         for (size_t i = 0; i < n; i++)
             if (ranges[i].high > ranges[i].low) {
