@@ -290,13 +290,19 @@ void page_summary(page_writer *page)
     result_value_tables tables;
     finding findings[FINDING_QUESTIONS];
     const text_buffer before = page->out;
+    bool has_remedies = false; /* otherwise the data stand on the left */
     page->out = (text_buffer){0};
     if (result_values_bind(page->result, &tables, NULL) == WT_OK &&
         (findings_compute(&tables, findings) || findings_are_stated(&page->tables->answer)))
         write_remedies(page, findings);
-    write_data_used(page);
+    if (page->out.length == 0)
+        write_data_used(page);
+    else
+        has_remedies = true;
     text_buffer left = page->out;
     page->out = (text_buffer){0};
+    if (has_remedies)
+        write_data_used(page);
     write_limits(page);
     text_buffer right = page->out;
     page->out = before;
@@ -305,7 +311,8 @@ void page_summary(page_writer *page)
                   left.length > 0 && right.length > 0 ? "summary" : "summary alone");
         if (left.length > 0)
             text_format(&page->out, "<div>\n%s</div>\n", text_string(&left));
-        text_add(&page->out, text_string(&right));
+        if (right.length > 0)
+            text_format(&page->out, "<div>\n%s</div>\n", text_string(&right));
         text_add(&page->out, "</div>\n");
     }
     text_free(&left);

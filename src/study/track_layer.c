@@ -108,11 +108,10 @@ static void write_contact_advice(const track_layer_result *f, double radius, cha
         f->tip != NULL ? depth_at_radius(f->tip, p->depth, radius) : (double)INFINITY;
     char deep[96] = "";
     if (isfinite(depth))
-        clocale_print(deep, sizeof deep, "indentations of %s with this tip, or ",
-                      format_length(depth).text);
+        clocale_print(deep, sizeof deep, "%s deep with this tip, or ", format_length(depth).text);
     clocale_print(text, size,
-                  "contacts with a radius of %s, which are %s%s with a sphere of %s, in bulk "
-                  "and track: as many curves would then show a layer of that thickness",
+                  "contacts with a radius of %s (%s%s deep with a sphere of %s) in bulk and track, "
+                  "with as many curves",
                   format_length(radius).text, deep, format_length(p->depth).text,
                   format_length(radius * radius / p->depth).text);
 }

@@ -238,9 +238,8 @@ static const model_choice choices[] = {
      has_vertical, 0, name_vertical, move_vertical,
      TRIED(WT_VERTICAL_NONE, WT_VERTICAL_PHYSICAL, WT_VERTICAL_FREE, WT_VERTICAL_TIED)},
     {"depth profile",
-     "Measure the thickness: cut a section across the track and look at its edge under a "
-     "microscope, "
-     "or indent bulk and track deeper.",
+     "Cut a section across the track and measure the layer under a microscope, or indent "
+     "bulk and track deeper.",
      NULL,
      "exponential, or of a half-space that keeps its volume, without local friction and with m = "
      "1: how energy falls off with depth is not measured",

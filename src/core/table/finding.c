@@ -105,8 +105,7 @@ static void write_remedy(const result_value_tables *t, finding *f)
     if (stated == NULL || v->remedy != NULL || !isfinite(f->rest))
         return;
     clocale_append(f->remedy, sizeof f->remedy,
-                   " If it confirms the choice that was made, %.0f %% of the range over model "
-                   "choices remain: %s to %s.",
+                   " If it confirms the choice, %.0f %% of the range remain: %s to %s.",
                    100 * f->rest, rows_short(r->rest_low, unit).value,
                    rows_short(r->rest_high, unit).value);
     const char *const curves =
@@ -114,7 +113,7 @@ static void write_remedy(const result_value_tables *t, finding *f)
             ? track_layer_key_text(&t->track_layer, TRACK_LAYER_KEY_SETTLED_BY)
             : NULL;
     if (curves != NULL && curves[0] != '\0')
-        clocale_append(f->remedy, sizeof f->remedy, " For a thickness by indentation: %s.", curves);
+        clocale_append(f->remedy, sizeof f->remedy, " By indentation: %s.", curves);
 }
 
 bool findings_compute(const result_value_tables *t, finding findings[FINDING_QUESTIONS])
