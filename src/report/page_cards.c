@@ -170,9 +170,7 @@ static void write_card(page_writer *page, const finding *f)
     if (value->range.widest != NULL)
         text_html(&page->out, "<p class=\"widest\">Widest choice: %s", value->range.widest);
     if (value->range.widest != NULL && isfinite(f->rest) && f->remedy[0] != '\0')
-        text_format(&page->out,
-                    "; without it %.0f %% of the range remain: <a href=\"#certain\">what to "
-                    "measure</a>",
+        text_format(&page->out, "; <a href=\"#certain\">measuring it</a> leaves %.0f %%",
                     100 * f->rest);
     if (value->range.widest != NULL)
         text_add(&page->out, ".</p>\n");

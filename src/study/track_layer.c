@@ -110,8 +110,7 @@ static void write_contact_advice(const track_layer_result *f, double radius, cha
     if (isfinite(depth))
         clocale_print(deep, sizeof deep, "%s deep with this tip, or ", format_length(depth).text);
     clocale_print(text, size,
-                  "contacts with a radius of %s (%s%s deep with a sphere of %s) in bulk and track, "
-                  "with as many curves",
+                  "contacts with a radius of %s (%s%s deep with a sphere of %s) in bulk and track",
                   format_length(radius).text, deep, format_length(p->depth).text,
                   format_length(radius * radius / p->depth).text);
 }

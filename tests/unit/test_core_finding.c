@@ -166,10 +166,8 @@ static void test_what_to_measure(void **state)
     assert_near(f->value.range.rest_low, 2e-6, 0);
     assert_near(f->value.range.rest_high, 4e-6, 0);
     assert_near(f->rest, 0.2, 1e-12);
-    assert_string_equal(f->remedy,
-                        "Measure other. If it confirms the choice that was made, 20 % of the range "
-                        "over model choices remain: 2.00 um to 4.00 um. For a thickness by "
-                        "indentation: deeper curves.");
+    assert_string_equal(f->remedy, "Measure other. If confirmed, 2.00 um to 4.00 um remain. By "
+                                   "indentation: deeper curves.");
     assert_string_equal(findings[FINDING_TRACK_DIFFERS].remedy, "");
     wt_table_free(table);
     wt_table_free(layer);

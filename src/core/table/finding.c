@@ -104,10 +104,8 @@ static void write_remedy(const result_value_tables *t, finding *f)
     snprintf(f->remedy, sizeof f->remedy, "%s", stated != NULL ? stated : "");
     if (stated == NULL || v->remedy != NULL || !isfinite(f->rest))
         return;
-    clocale_append(f->remedy, sizeof f->remedy,
-                   " If it confirms the choice, %.0f %% of the range remain: %s to %s.",
-                   100 * f->rest, rows_short(r->rest_low, unit).value,
-                   rows_short(r->rest_high, unit).value);
+    clocale_append(f->remedy, sizeof f->remedy, " If confirmed, %s to %s remain.",
+                   rows_short(r->rest_low, unit).value, rows_short(r->rest_high, unit).value);
     const char *const curves =
         f->question == FINDING_LAYER_THICKNESS && t->track_layer.table != NULL
             ? track_layer_key_text(&t->track_layer, TRACK_LAYER_KEY_SETTLED_BY)
