@@ -170,7 +170,8 @@ static void write_card(page_writer *page, const finding *f)
     if (value->range.widest != NULL)
         text_html(&page->out, "<p class=\"widest\">Widest choice: %s", value->range.widest);
     if (value->range.widest != NULL && isfinite(f->rest) && f->remedy[0] != '\0')
-        text_format(&page->out, "; <a href=\"#certain\">measuring it</a> leaves %.0f %%",
+        text_format(&page->out,
+                    "; <a href=\"#certain\">measuring it</a> leaves %.0f %% of the range",
                     100 * f->rest);
     if (value->range.widest != NULL)
         text_add(&page->out, ".</p>\n");

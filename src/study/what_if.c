@@ -237,8 +237,7 @@ static const model_choice choices[] = {
      "all four; the isotherms do not determine which of them is right", "no isotherms to fit again",
      has_vertical, 0, name_vertical, move_vertical,
      TRIED(WT_VERTICAL_NONE, WT_VERTICAL_PHYSICAL, WT_VERTICAL_FREE, WT_VERTICAL_TIED)},
-    {"depth profile",
-     "Measure the layer on a section under a microscope, or indent bulk and track deeper.", NULL,
+    {"depth profile", "Measure the layer on a section by microscopy, or indent deeper.", NULL,
      "exponential, or of a half-space that keeps its volume, without local friction and with m = "
      "1: how energy falls off with depth is not measured",
      "no thickness is calculated from the energy", has_profile, 0, name_profile, move_profile,
