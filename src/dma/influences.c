@@ -34,6 +34,22 @@ static double middle_frequency(const wt_sweep *sweep)
     return sqrt(low * high);
 }
 
+/* Returns the isotherm of a shift: shifts are in order of temperature, and equal ones in the order
+ * of the sweep. */
+static size_t isotherm_of_shift(const wt_sweep *sweep, size_t shift)
+{
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const double at = sweep->isotherms[i].temperature;
+        size_t before = 0;
+        for (size_t k = 0; k < sweep->n_isotherms; k++)
+            before += sweep->isotherms[k].temperature < at ||
+                      (sweep->isotherms[k].temperature == at && k < i);
+        if (before == shift)
+            return i;
+    }
+    return 0;
+}
+
 /* Returns the change of all shifts by a reference isotherm that is left out, which its neighbours
  * then place. It is no change of the shifts between isotherms. */
 static double common_change(const wt_master *all, const wt_master *fit, size_t without)
@@ -41,8 +57,10 @@ static double common_change(const wt_master *all, const wt_master *fit, size_t w
     double *const change = wt_alloc(all->n_shifts, sizeof *change);
     size_t n = 0;
     for (size_t i = 0; i < all->n_shifts; i++) {
+        if (i == without || !all->shifts[i].determined)
+            continue;
         const wt_master_shift *const other = &fit->shifts[i < without ? i : i - 1];
-        if (i != without && all->shifts[i].determined && other->determined)
+        if (other->determined)
             change[n++] = other->log_a.value - all->shifts[i].log_a.value;
     }
     const double median = n > 0 ? numbers_median(change, n) : 0.0;
@@ -56,10 +74,10 @@ static void compare_shifts(const wt_master *all, const wt_master *fit, size_t wi
     const bool is_reference = all->shifts[without].origin == WT_SHIFT_REFERENCE;
     const double common = is_reference ? common_change(all, fit, without) : 0.0;
     for (size_t i = 0; i < all->n_shifts; i++) {
-        const wt_master_shift *const shift = &all->shifts[i],
-                                     *const other = &fit->shifts[i < without ? i : i - 1];
+        const wt_master_shift *const shift = &all->shifts[i];
         if (i == without || !shift->determined || shift->origin != WT_SHIFT_FITTED)
             continue;
+        const wt_master_shift *const other = &fit->shifts[i < without ? i : i - 1];
         if (!other->determined) {
             one->lost++;
             continue;
@@ -96,9 +114,10 @@ static void leave_out(const wt_sweep *sweep, const wt_master_options *options, c
                        .loss = none};
     rest.n_isotherms = sweep->n_isotherms - 1;
     rest.isotherms = wt_alloc(sweep->n_isotherms, sizeof *rest.isotherms);
-    memcpy(rest.isotherms, sweep->isotherms, without * sizeof *rest.isotherms);
-    memcpy(rest.isotherms + without, sweep->isotherms + without + 1,
-           (rest.n_isotherms - without) * sizeof *rest.isotherms);
+    const size_t left_out = isotherm_of_shift(sweep, without);
+    memcpy(rest.isotherms, sweep->isotherms, left_out * sizeof *rest.isotherms);
+    memcpy(rest.isotherms + left_out, sweep->isotherms + left_out + 1,
+           (rest.n_isotherms - left_out) * sizeof *rest.isotherms);
     const wt_status status = wt_master_fit(&rest, options, NULL, &fit, &failure);
     free(rest.isotherms);
     if (status != WT_OK) {

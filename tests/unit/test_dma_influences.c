@@ -22,6 +22,11 @@ static wt_table *influences_of(double factor, double half_width, const wt_master
         sweep.isotherms[STIFF].storage_modulus[k] *= factor;
         sweep.isotherms[STIFF].loss_modulus[k] *= factor;
     }
+    for (size_t i = 0; i < ISOTHERMS / 2; i++) { /* the order of the sweep is not that of shifts */
+        const wt_isotherm first = sweep.isotherms[i];
+        sweep.isotherms[i] = sweep.isotherms[ISOTHERMS - 1 - i];
+        sweep.isotherms[ISOTHERMS - 1 - i] = first;
+    }
     if (wt_master_fit(&sweep, options, NULL, all, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     for (size_t i = 0; i < ISOTHERMS && !isnan(half_width); i++) {
