@@ -61,14 +61,14 @@ verdict_text model_variant_verdict(const validation *v, const model_variant *t)
                       t->n > 1 ? ", where it is farthest," : "", exp(fit->fitted_value[at]),
                       format_range(exp(ends[0]), exp(ends[1]), 3).text);
     else
-        clocale_print(result.text, sizeof result.text,
-                      "%s: at %.3g m/s measured over predicted is %.3g (95 %%%s: %s), and %s is "
-                      "asked for",
-                      validation_verdict(fit->verdict), v->steps.step[at].velocity,
-                      exp(fit->fitted_value[at]),
-                      fit->verdict == AGREEMENT_NO ? " at all steps at once" : "",
-                      format_range(exp(ends[0]), exp(ends[1]), 3).text,
-                      validation_requested_range(v->job->margin).text);
+        clocale_print(
+            result.text, sizeof result.text,
+            "%s: at %.3g m/s measured over predicted is %.3g (95 %%%s: %s); the margin is "
+            "%s",
+            validation_verdict(fit->verdict), v->steps.step[at].velocity,
+            exp(fit->fitted_value[at]), fit->verdict == AGREEMENT_NO ? " at all steps at once" : "",
+            format_range(exp(ends[0]), exp(ends[1]), 3).text,
+            validation_requested_range(v->job->margin).text);
     return result;
 }
 

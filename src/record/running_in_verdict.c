@@ -146,7 +146,7 @@ static void write_run_verdict(const run_set *all, agreement_verdict verdict, cha
     const bool by_change = assess_time(all) != AGREEMENT_NO && assess_change(all) == AGREEMENT_NO;
     describe_time(all, time, sizeof time);
     describe_change(all, change, sizeof change);
-    snprintf(text, size, "%s: %s; %s, and %s is asked for", validation_verdict(verdict),
+    snprintf(text, size, "%s: %s; %s; the margin is %s", validation_verdict(verdict),
              by_change ? change : time, by_change ? time : change,
              validation_requested_range(all->margin).text);
 }
