@@ -765,7 +765,8 @@ static void test_flash(void **state)
     velocity[1] = 100;
     if (wt_flash_temperature_compute(&sliding, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
-    assert_non_null(strstr(wt_table_key(table, "unsettled"), "no stable temperature below 300 degC"));
+    assert_non_null(
+        strstr(wt_table_key(table, "unsettled"), "no stable temperature below 300 degC"));
     see(table);
     wt_table_free(table);
 }
