@@ -156,7 +156,8 @@
     X(FACTS_UNIT, "unit", "unit of the value", TEXT)                                               \
     X(FACTS_SOURCE, "source", "where in the file it stands, or how it is known", TEXT)             \
     X(FACTS_OPTIONS, "options", "options that give what is missing", TEXT, SPARSE)                 \
-    X(FACTS_KIND, "kind", "number of the item in the list of those on which code acts", NUMBER)
+    X(FACTS_KIND, "kind", "number of the item in the list of those on which code acts", NUMBER)    \
+    X(FACTS_QUANTITY, "quantity", "number of the quantity of a column", NUMBER, SPARSE)
 #define FACTS_KEYS(X)
 
 /* Items on which code acts. The first ones are whole items, the others begin an item that has
@@ -177,7 +178,8 @@
     X(FACT_MISSING, "missing")                                                                     \
     X(FACT_TABLE, "table")                                                                         \
     X(FACT_COLUMN, "column")                                                                       \
-    X(FACT_PROFILE, "profile")
+    X(FACT_PROFILE, "profile")                                                                     \
+    X(FACT_TIP_RADIUS, "tip radius")
 
 #define DESCRIPTION_COLUMNS(X)                                                                     \
     X(DESCRIPTION_COLUMN, "column", "name in the file", TEXT)                                      \

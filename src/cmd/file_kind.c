@@ -1,4 +1,5 @@
 /* Detects the kind of a file. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <string.h>
 
 #include "cmd/file_kind.h"
@@ -53,16 +54,20 @@ static const struct {
 
 /* Row of the metadata table. */
 typedef struct metadata_row {
-    fact_item kind; /* FACT_ITEM_UNKNOWN for other items */
+    fact_item kind;       /* FACT_ITEM_UNKNOWN for other items */
+    wt_quantity quantity; /* of a column */
     const char *item, *value, *unit, *options;
 } metadata_row;
 
 static metadata_row read_row(const wt_table *metadata, size_t row)
 {
-    return (metadata_row){
-        (fact_item)wt_table_number(metadata, row, FACTS_KIND),
-        wt_table_text(metadata, row, FACTS_ITEM), wt_table_text(metadata, row, FACTS_VALUE),
-        wt_table_text(metadata, row, FACTS_UNIT), wt_table_text(metadata, row, FACTS_OPTIONS)};
+    const double quantity = wt_table_number(metadata, row, FACTS_QUANTITY);
+    return (metadata_row){(fact_item)wt_table_number(metadata, row, FACTS_KIND),
+                          isnan(quantity) ? WT_Q_NONE : (wt_quantity)quantity,
+                          wt_table_text(metadata, row, FACTS_ITEM),
+                          wt_table_text(metadata, row, FACTS_VALUE),
+                          wt_table_text(metadata, row, FACTS_UNIT),
+                          wt_table_text(metadata, row, FACTS_OPTIONS)};
 }
 
 /* Adds an item to the description. A second one is the header value of a converted value. */
@@ -86,30 +91,24 @@ static void read_shown_item(const metadata_row *row, file_kind *found)
     found->items |= bit;
 }
 
-static bool starts_with(const char *text, const char *begin)
-{
-    return strncmp(text, begin, strlen(begin)) == 0;
-}
-
 static void read_tip(const metadata_row *row, file_kind *found)
 {
-    static const char radius[] = "tip radius, "; /* name in a format description, then the unit */
-    if (starts_with(row->item, radius)) {
-        const char *of = row->item + sizeof radius - 1;
+    const char *const comma = strchr(row->item, ','); /* "tip radius, um (not used)" */
+    const char *const unit = comma != NULL ? comma + strspn(comma, ", ") : "";
+    if (row->kind == FACT_TIP_RADIUS)
         snprintf(found->tip, sizeof found->tip, "sphere:radius=%s%.*s", row->value,
-                 (int)strcspn(of, " "), of);
-    }
+                 (int)strcspn(unit, " "), unit);
 }
 
-/* Reads the quantity of a column, which begins the value, and stores the name of a column without a
- * unit, which needs its own --units. */
+/* Stores the quantity of a column, and the name of a column without a unit, which needs its own
+ * --units. */
 static void read_column(const metadata_row *row, file_kind *found)
 {
-    found->has_x |= starts_with(row->value, "position_x");
-    found->has_y |= starts_with(row->value, "position_y");
-    found->has_force |= starts_with(row->value, "friction_force");
+    found->has_x |= row->quantity == WT_Q_POSITION_X;
+    found->has_y |= row->quantity == WT_Q_POSITION_Y;
+    found->has_force |= row->quantity == WT_Q_FRICTION_FORCE;
     found->has_load |=
-        starts_with(row->value, "normal_force") || starts_with(row->value, "friction_coefficient");
+        row->quantity == WT_Q_NORMAL_FORCE || row->quantity == WT_Q_FRICTION_COEFFICIENT;
     const char *const quote = strchr(row->item, '"'); /* column "NAME" */
     const size_t used = strlen(found->unitless), length = quote != NULL ? strlen(quote) : 0;
     if (row->options[0] != '\0' && length > 1 && length + used < sizeof found->unitless)

@@ -163,9 +163,6 @@ static void print_failures_briefly(cmd_session *s, const wt_table *failures)
     for (size_t i = 0; i < n; i++) {
         const char *where = wt_table_text(failures, i, FAILURES_FILE);
         const char *what = wt_table_text(failures, i, FAILURES_MESSAGE);
-        const size_t length = strlen(where);
-        if (strncmp(what, where, length) == 0 && what[length] == ':')
-            what += length + 1 + strspn(what + length + 1, " ");
         labels[i] = "failed";
         if (asprintf(&texts[i], "%s: %s", wt_path_base(where), what) < 0)
             cmd_exit_without_memory(strlen(what));
@@ -244,11 +241,7 @@ bool cmd_print_failures(cmd_session *s, const wt_table *failures)
         cmd_log_event("failed", words, COUNT_OF(words));
         if (cmd_log_is_json() || cmd_is_brief(s))
             continue;
-        /* most messages begin with the file */
-        if (strncmp(what, where, strlen(where)) == 0)
-            cmd_message("  %s\n", what);
-        else
-            cmd_message("  %s: %s\n", where, what);
+        cmd_message("  %s: %s\n", where, what);
     }
     const char *answered = wt_table_key(failures, "status");
     cmd_set_partial(s);

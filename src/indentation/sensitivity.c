@@ -400,9 +400,10 @@ static void add_systematic_errors(direction_group groups[ROWS], const wt_slope_o
         const wt_interval *of = isnan(g->sensitivity.value) ? &g->factor : &g->sensitivity;
         g->scatter = of->standard_error * sqrt((double)g->n_units) / of->value;
         g->direction_error = direction_error(row, difference);
-        g->surface_share = sphere_share(options) * fmax(0, g->change.high);
-        const double error =
-            hypot(isnan(g->direction_error) ? 0 : g->direction_error, g->surface_share / NORMAL_95);
+        g->surface_share =
+            isnan(g->change.high) ? (double)NAN : sphere_share(options) * fmax(0, g->change.high);
+        const double error = hypot(isnan(g->direction_error) ? 0 : g->direction_error,
+                                   isnan(g->surface_share) ? 0 : g->surface_share / NORMAL_95);
         widen_interval(&g->sensitivity, error);
         widen_interval(&g->factor, error);
     }

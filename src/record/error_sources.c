@@ -12,29 +12,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-TABLE_ROW(validation_sources, VALIDATION_SOURCES, const char *source, *remedy;
+TABLE_ROW(validation_sources, VALIDATION_SOURCES, validation_source source; const char *remedy;
           double error, share, needed_share, pull, pull_error;)
 
-/* Names of the random draws. Draws with the same name form one source and one row. */
+/* Sources of the random draws. Draws with the same source have one row. */
 static const struct {
     flow_draw draw;
-    const char *words, *remedy;
+    validation_source source;
+    const char *remedy;
 } drawn[] = {
-    {FLOW_DRAW_SHIFT_LAW, "shift law", "a DMA sweep at the temperature of the record"},
-    {FLOW_DRAW_PRESSURE, "pressure", "the load and the nominal area known better"},
-    {FLOW_DRAW_TEMPERATURE, "temperature", "the temperature in sliding measured"},
-    {FLOW_DRAW_SHEAR_STRESS, "shear stress",
+    {FLOW_DRAW_SHIFT_LAW, VALIDATION_SOURCE_SHIFT_LAW,
+     "a DMA sweep at the temperature of the record"},
+    {FLOW_DRAW_PRESSURE, VALIDATION_SOURCE_PRESSURE, "the load and the nominal area known better"},
+    {FLOW_DRAW_TEMPERATURE, VALIDATION_SOURCE_TEMPERATURE, "the temperature in sliding measured"},
+    {FLOW_DRAW_SHEAR_STRESS, VALIDATION_SOURCE_SHEAR_STRESS,
      "the shear stress measured on a smooth counter surface"},
-    {FLOW_DRAW_DENSITY, "roughness", "more scans of the counter surface"},
-    {FLOW_DRAW_SOFT_STORAGE, "softening with strain", "more strain sweeps"},
-    {FLOW_DRAW_SOFT_LOSS, "softening with strain", "more strain sweeps"},
-    {FLOW_DRAW_THICKNESS, "thickness of the layer", "the layer measured at more places"},
-    {FLOW_DRAW_RATIO, "modulus ratio", "more spots indented, one cantilever for bulk and track"},
-    {FLOW_DRAW_RATIO_SLOPE, "slope of the modulus ratio",
+    {FLOW_DRAW_DENSITY, VALIDATION_SOURCE_ROUGHNESS, "more scans of the counter surface"},
+    {FLOW_DRAW_SOFT_STORAGE, VALIDATION_SOURCE_SOFTENING, "more strain sweeps"},
+    {FLOW_DRAW_SOFT_LOSS, VALIDATION_SOURCE_SOFTENING, "more strain sweeps"},
+    {FLOW_DRAW_THICKNESS, VALIDATION_SOURCE_THICKNESS, "the layer measured at more places"},
+    {FLOW_DRAW_RATIO, VALIDATION_SOURCE_RATIO,
+     "more spots indented, one cantilever for bulk and track"},
+    {FLOW_DRAW_RATIO_SLOPE, VALIDATION_SOURCE_RATIO_SLOPE,
      "bulk and track indented at rates further apart"},
-    {FLOW_DRAW_WEAR, "specific wear rate", "the track profiled or the sample weighed"},
-    {FLOW_DRAW_CRITICAL_ENERGY, "critical energy", "the layer measured at more places"},
-    {FLOW_DRAW_OBSERVED, "observed thickness", "the layer measured at more places"},
+    {FLOW_DRAW_WEAR, VALIDATION_SOURCE_WEAR, "the track profiled or the sample weighed"},
+    {FLOW_DRAW_CRITICAL_ENERGY, VALIDATION_SOURCE_CRITICAL_ENERGY,
+     "the layer measured at more places"},
+    {FLOW_DRAW_OBSERVED, VALIDATION_SOURCE_OBSERVED, "the layer measured at more places"},
 };
 
 static size_t find_drawn(flow_draw draw)
@@ -49,67 +53,65 @@ const char *draw_source_name(flow_draw draw, const char **remedy)
 {
     const size_t k = find_drawn(draw);
     *remedy = drawn[k].remedy;
-    return drawn[k].words;
+    return validation_source_text(drawn[k].source);
 }
 
-/* Plus material, record and scatter between the
-      steps. */
-enum { MOST_SOURCES = COUNT_OF(drawn) + 3 };
-
 typedef struct source {
-    const char *words, *remedy;
+    validation_source kind;
+    const char *remedy;
     double variance, needed; /* variances of ln(measured/predicted) and of the required shear
                                 stress */
     double pull, left;       /* as in the columns pull and pull_error */
 } source;
 
 typedef struct source_list {
-    source of[MOST_SOURCES];
+    source of[VALIDATION_SOURCE_UNKNOWN];
     size_t n;
     double all, all_needed;
 } source_list;
 
-static source *find_source(source_list *list, const char *words, const char *remedy)
+static source *find_source(source_list *list, validation_source kind, const char *remedy)
 {
     for (size_t i = 0; i < list->n; i++)
-        if (strcmp(list->of[i].words, words) == 0)
+        if (list->of[i].kind == kind)
             return &list->of[i];
     source *const s = &list->of[list->n++];
-    *s = (source){.words = words, .remedy = remedy, .pull = (double)NAN, .left = (double)NAN};
+    *s = (source){.kind = kind, .remedy = remedy, .pull = (double)NAN, .left = (double)NAN};
     return s;
 }
 
 /* ---- variance by source ---------------------------------------------------------------------- */
 
-/* Names the variance that is not attributed to a single draw. */
-static const char *other_sources_name(const wt_sliding *sliding, bool split)
+/* Returns the source of the variance that is not attributed to a single draw. */
+static validation_source other_sources(const wt_sliding *sliding, bool split)
 {
-    const bool with_surface = sliding->surface->modes_error != NULL;
     if (!split)
-        return VALIDATION_MATERIAL_PREFIX " and all else that is drawn";
-    return with_surface ? VALIDATION_MATERIAL_PREFIX ", and scatter of the measured spectrum"
-                        : VALIDATION_MATERIAL_PREFIX;
+        return VALIDATION_SOURCE_ALL_DRAWN;
+    return sliding->surface->modes_error != NULL ? VALIDATION_SOURCE_MATERIAL_AND_SURFACE
+                                                 : VALIDATION_SOURCE_MATERIAL;
 }
 
 static void add_other_sources(source_list *list, const wt_sliding *sliding, bool split,
                               const variance_components *parts, const variance_components *needed)
 {
     const struct {
-        const char *words, *remedy;
+        validation_source kind;
+        const char *remedy;
         double variance, needed;
-    } rest[] = {{other_sources_name(sliding, split),
+    } rest[] = {{other_sources(sliding, split),
                  !split ? "more replicates, which separate the errors"
                  : sliding->surface->modes_error != NULL
                      ? "a second DMA run; more scans of the counter surface"
                      : "a second DMA run; temperatures known better",
                  parts->material, needed->material},
-                {"record", "longer records, or more of them", parts->record, needed->record},
-                {"scatter between the steps",
+                {VALIDATION_SOURCE_RECORD, "longer records, or more of them", parts->record,
+                 needed->record},
+                {VALIDATION_SOURCE_SCATTER,
                  "more records at each velocity: the steps scatter by more than their errors",
                  parts->scatter, needed->scatter}};
     for (size_t i = 0; i < COUNT_OF(rest); i++)
         if (rest[i].variance > 0 || rest[i].needed > 0) {
-            source *const s = find_source(list, rest[i].words, rest[i].remedy);
+            source *const s = find_source(list, rest[i].kind, rest[i].remedy);
             s->variance = rest[i].variance;
             s->needed = rest[i].needed;
         }
@@ -121,7 +123,7 @@ static void list_sources(const validation *v, bool split, const variance_compone
     *list = (source_list){.all = parts->all, .all_needed = needed->all};
     for (size_t u = 0; split && u < v->p.n_lines; u++) {
         const size_t k = find_drawn(v->p.line[u]);
-        source *const s = find_source(list, drawn[k].words, drawn[k].remedy);
+        source *const s = find_source(list, drawn[k].source, drawn[k].remedy);
         s->variance += parts->line[u];
         s->needed += needed->line[u];
     }
@@ -144,7 +146,7 @@ static void find_source_pulls(const validation *v, const model_variant *t, sourc
             pull += weight[i] * t->value[i];
             told += weight[i] * slope[i];
         }
-        source *const s = find_source(list, drawn[k].words, drawn[k].remedy);
+        source *const s = find_source(list, drawn[k].source, drawn[k].remedy);
         if (!isnan(s->pull)) /* a source of two numbers has no single pull */
             pull = told = (double)NAN;
         s->pull = -pull;
@@ -186,14 +188,14 @@ static void write_advice(const validation *v, const model_variant *t, const sour
     const source *const first = &list->of[0];
     const double share = first->variance / list->all;
     clocale_print(advice->narrows, sizeof advice->narrows, "%s: %.0f %% of the variance is the %s",
-                  first->remedy, 100 * share, first->words);
+                  first->remedy, 100 * share, validation_source_text(first->kind));
     if (t->fit.verdict != AGREEMENT_INCONCLUSIVE)
         return;
     const size_t n = count_required_sources(v, t, list);
     char words[200] = "";
     for (size_t i = 0, used = 0; i < n && i < list->n && used < sizeof words; i++)
         used += (size_t)snprintf(words + used, sizeof words - used, "%s%s", i > 0 ? ", " : "",
-                                 list->of[i].words);
+                                 validation_source_text(list->of[i].kind));
     if (n > MOST_NAMED)
         clocale_print(advice->settles, sizeof advice->settles,
                       "hardly anything, because the ratio is near the end of the margin; the "
@@ -229,7 +231,7 @@ wt_status error_sources_tabulate(const validation *v, source_advice *advice, wt_
     for (size_t i = 0; i < list.n; i++) {
         const source *const s = &list.of[i];
         TABLE_ADD(
-            validation_sources, &w, s->words, s->remedy, sqrt(s->variance), s->variance / list.all,
+            validation_sources, &w, s->kind, s->remedy, sqrt(s->variance), s->variance / list.all,
             list.all_needed > 0 ? s->needed / list.all_needed : (double)NAN, s->pull, s->left);
     }
     validation_sources_set_text(&w, VALIDATION_SOURCES_KEY_ADVICE, advice->narrows);

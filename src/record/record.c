@@ -320,10 +320,11 @@ static void warn_pauses(const wt_job *work, const record_pauses *pauses, const c
         all += pauses->of[i].time;
     if (pauses->n > 0)
         wt_log_action(work->log, WT_WARNING, WT_LEFT_OUT, pauses->n, WT_KEEP_OPTION, file, NULL,
-                      "%zu pause%s of %s%.4g s in mid-record, %s at %.4g s of sliding: not "
-                      "sliding time, and left out",
-                      pauses->n, pauses->n > 1 ? "s" : "", pauses->n > 1 ? "together " : "", all,
-                      pauses->n > 1 ? "the first" : "followed by more sliding", pauses->of[0].at);
+                      pauses->n > 1 ? "%zu pauses of together %.4g s were left out, the first at "
+                                      "%.4g s of sliding; a pause is not sliding time"
+                                    : "%zu pause of %.4g s was left out at %.4g s of sliding; a "
+                                      "pause is not sliding time",
+                      pauses->n, all, pauses->of[0].at);
     if (pauses->alike > 0)
         wt_log_add(work->log, WT_WARNING, file, NULL,
                    "%zu equal gaps in the time are treated as pauses of the recorder while "

@@ -94,12 +94,30 @@
     X(VALIDATION_KEY_LEFT_OUT, "n_left_out", PLAIN, LABEL("Steps that were not"))                  \
     X(VALIDATION_KEY_REMARKS, "remarks", TEXT, LABEL("Assumed"), OPTIONAL)
 
-/* Prefix of a source that consists of the errors of the DMA and of the surface scans. */
-#define VALIDATION_MATERIAL_PREFIX "material"
+/* Sources of the error of measured over predicted friction. */
+#define VALIDATION_SOURCE_LIST(X)                                                                  \
+    X(VALIDATION_SOURCE_SHIFT_LAW, "shift law")                                                    \
+    X(VALIDATION_SOURCE_PRESSURE, "pressure")                                                      \
+    X(VALIDATION_SOURCE_TEMPERATURE, "temperature")                                                \
+    X(VALIDATION_SOURCE_SHEAR_STRESS, "shear stress")                                              \
+    X(VALIDATION_SOURCE_ROUGHNESS, "roughness")                                                    \
+    X(VALIDATION_SOURCE_SOFTENING, "softening with strain")                                        \
+    X(VALIDATION_SOURCE_THICKNESS, "thickness of the layer")                                       \
+    X(VALIDATION_SOURCE_RATIO, "modulus ratio")                                                    \
+    X(VALIDATION_SOURCE_RATIO_SLOPE, "slope of the modulus ratio")                                 \
+    X(VALIDATION_SOURCE_WEAR, "specific wear rate")                                                \
+    X(VALIDATION_SOURCE_CRITICAL_ENERGY, "critical energy")                                        \
+    X(VALIDATION_SOURCE_OBSERVED, "observed thickness")                                            \
+    X(VALIDATION_SOURCE_MATERIAL, "material")                                                      \
+    X(VALIDATION_SOURCE_MATERIAL_AND_SURFACE, "material, and scatter of the measured spectrum")    \
+    X(VALIDATION_SOURCE_ALL_DRAWN, "material and all else that is drawn")                          \
+    X(VALIDATION_SOURCE_RECORD, "record")                                                          \
+    X(VALIDATION_SOURCE_SCATTER, "scatter between the steps")
 
 /* Each row is a source of the error. */
 #define VALIDATION_SOURCES_COLUMNS(X)                                                              \
-    X(VALIDATION_SOURCES_SOURCE, AS(source), "where the error comes from", TEXT, LABEL("Source"))  \
+    X(VALIDATION_SOURCES_SOURCE, AS(source), "where the error comes from",                         \
+      ENUM(validation_source), LABEL("Source"))                                                    \
     X(VALIDATION_SOURCES_ERROR, AS(error),                                                         \
       "standard error of measured over predicted by it alone, relative, at the deciding step",     \
       NUMBER, LABEL("Error of the ratio"))                                                         \

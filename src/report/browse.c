@@ -302,7 +302,7 @@ void append_browse_data(const figure_tables *tables, text_buffer *to)
     text_add(to, "],\"choices\":[");
     add_choice_rows(&tables->overrides, to);
     text_add(to, "],\"verdicts\":");
-    append_verdict_words(to);
+    append_verdict_text(to);
     text_add(to, "}");
     curve_finder_clear(&f);
 }

@@ -119,7 +119,7 @@ static size_t add_heading_lines(text_buffer *to, const figure_drawing *d, const 
     text_add(to, "\n");
     if (d->tables->n_indentation > 1)
         text_format(&words, "%s: ", c->rows->suffix);
-    text_add(&words, refused ? verdict_words(indentation_enum(c->rows, c->row, INDENTATION_VERDICT))
+    text_add(&words, refused ? verdict_text(indentation_enum(c->rows, c->row, INDENTATION_VERDICT))
                              : verdict);
     if (!refused && isfinite(modulus.value))
         text_format(&words, ", E = %s", ESTIMATE(&modulus));

@@ -343,12 +343,12 @@ void text_json_list(text_buffer *text, const char *const *strings, size_t n)
 #define VERDICT_NAMES(name, id, text) {id, text},
 static const char *const verdicts[][2] = {WT_CURVE_VERDICT_LIST(VERDICT_NAMES)};
 
-const char *verdict_words(int verdict)
+const char *verdict_text(int verdict)
 {
     return verdict >= 0 && verdict <= WT_CURVE_UNREADABLE ? verdicts[verdict][1] : "";
 }
 
-void append_verdict_words(text_buffer *to)
+void append_verdict_text(text_buffer *to)
 {
     for (int k = WT_CURVE_DOUBTFUL + 1; k <= WT_CURVE_UNREADABLE; k++) {
         text_add(to, k == WT_CURVE_DOUBTFUL + 1 ? "{" : ",");

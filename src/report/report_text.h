@@ -35,9 +35,9 @@ void text_json(text_buffer *text, const char *string);
 /* Appends a JSON list of n strings. */
 void text_json_list(text_buffer *text, const char *const *strings, size_t n);
 /* Words of the verdict of a curve (a wt_curve_verdict). */
-const char *verdict_words(int verdict);
+const char *verdict_text(int verdict);
 /* Appends a JSON object with the words of each verdict without a usable modulus. */
-void append_verdict_words(text_buffer *to);
+void append_verdict_text(text_buffer *to);
 /* Appends a text as a gnuplot string. Control characters become blanks; characters that are not
  * UTF-8 or not allowed in XML become U+FFFD. */
 void text_quoted(text_buffer *text, const char *string);

@@ -433,12 +433,21 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_compare_job_params, wt_compare_job, rows, wt_compare_job_defaults, NO_PARTS)
 
-/* Temperatures that only the groups state. A temperature of the job is that of both. */
-static void add_group_temperatures(const compare_pair *p, wt_compare_job *job)
+/* Takes the temperatures that both groups state. A temperature of the job is that of both; one that
+ * a single group states says nothing of the other. */
+static void add_group_temperatures(const compare_pair *p, const wt_job *work, wt_compare_job *job)
 {
     const wt_estimate bulk = p->data[0].temperature, track = p->data[1].temperature;
     if (!p->present[0] || !p->present[1] || !isnan(job->temperature.value))
         return;
+    if (isnan(bulk.value) != isnan(track.value)) {
+        wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                   "only the curves of the %s state the temperature of indentation, so it is not "
+                   "used; give --indentation-temperature, and --track-temperature if the track "
+                   "differs",
+                   compare_group_name[isnan(bulk.value)]);
+        return;
+    }
     job->temperature = bulk;
     if (isnan(job->track_temperature.value) && track.value != bulk.value)
         job->track_temperature = track;
@@ -456,7 +465,7 @@ wt_status wt_compare_groups(const wt_compare_job *job, const wt_job *work,
     if (status == WT_OK)
         status = compare_read_groups(job, &p, err);
     if (status == WT_OK)
-        add_group_temperatures(&p, &with_temperatures);
+        add_group_temperatures(&p, work, &with_temperatures);
     job = &with_temperatures;
     if (status == WT_OK)
         status = make_groups_table(&p, &t.modulus_groups, err);

@@ -75,27 +75,31 @@ static file_match compare_input_files(const collected_case *a, const collected_c
     return closest;
 }
 
-/* Prefix of the sources of each category (NULL if the table has none), and the roles of their
- * files. */
-static const struct {
-    const char *source;
-    const char *roles[5];
-} sources[INPUT_CATEGORIES] = {[SHARED_MATERIAL] = {VALIDATION_MATERIAL_PREFIX,
-                                                    {"dma", "material", "topography", "roughness"}},
-                               [SHARED_LAW] = {"shift law", {"dma", "material"}},
-                               [SHARED_ROUGHNESS] = {"roughness", {"topography", "roughness"}},
-                               [SHARED_SOFTENING] = {"softening with strain", {"softening", "dma"}},
-                               [SHARED_SPECTRUM] = {NULL, {"dma", "material"}}};
+/* Roles of the files of each category. */
+static const char *const category_roles[INPUT_CATEGORIES][5] = {
+    [SHARED_MATERIAL] = {"dma", "material", "topography", "roughness"},
+    [SHARED_LAW] = {"dma", "material"},
+    [SHARED_ROUGHNESS] = {"topography", "roughness"},
+    [SHARED_SOFTENING] = {"softening", "dma"},
+    [SHARED_SPECTRUM] = {"dma", "material"}};
 
 /* Returns the category of an error source of a record; INPUT_CATEGORIES if there is none. */
-static input_category input_category_of_source(const char *source)
+static input_category input_category_of_source(validation_source source)
 {
-    input_category i = 0;
-    while (i < INPUT_CATEGORIES &&
-           (sources[i].source == NULL ||
-            strncmp(source, sources[i].source, strlen(sources[i].source)) != 0))
-        i++;
-    return i;
+    switch (source) {
+    case VALIDATION_SOURCE_MATERIAL:
+    case VALIDATION_SOURCE_MATERIAL_AND_SURFACE:
+    case VALIDATION_SOURCE_ALL_DRAWN:
+        return SHARED_MATERIAL;
+    case VALIDATION_SOURCE_SHIFT_LAW:
+        return SHARED_LAW;
+    case VALIDATION_SOURCE_ROUGHNESS:
+        return SHARED_ROUGHNESS;
+    case VALIDATION_SOURCE_SOFTENING:
+        return SHARED_SOFTENING;
+    default:
+        return INPUT_CATEGORIES;
+    }
 }
 
 double shared_covariance(const case_value *a, const case_value *b)
@@ -103,8 +107,8 @@ double shared_covariance(const case_value *a, const case_value *b)
     double sum = 0;
     for (input_category i = 0; i < INPUT_CATEGORIES; i++) {
         const double closest = sqrt(a->by_files[i] * b->by_files[i]);
-        if (closest > 0 && compare_input_files(a->of, b->of, sources[i].roles,
-                                               COUNT_OF(sources[i].roles)) != FILES_DIFFERENT)
+        if (closest > 0 && compare_input_files(a->of, b->of, category_roles[i],
+                                               COUNT_OF(category_roles[i])) != FILES_DIFFERENT)
             sum += closest;
     }
     return sum;
@@ -234,7 +238,7 @@ static wt_status find_shear_components(const collected_case *c, double variance,
     for (size_t row = 0; status == WT_OK && row < table.n_rows; row++) {
         const double of = validation_sources_get(&table, row, VALIDATION_SOURCES_NEEDED_SHARE);
         const input_category k = input_category_of_source(
-            validation_sources_text(&table, row, VALIDATION_SOURCES_SOURCE));
+            (validation_source)validation_sources_enum(&table, row, VALIDATION_SOURCES_SOURCE));
         if (of > 0 && k < INPUT_CATEGORIES)
             parts[k] += of * variance;
     }

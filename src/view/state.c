@@ -251,7 +251,7 @@ wt_status view_append_state(wt_view *view, text_buffer *to, wt_error *err)
                 stored != NULL || is_current(view, c, overrides) ? "true" : "false");
     append_names(view, to);
     text_add(to, ",\"verdicts\":");
-    append_verdict_words(to);
+    append_verdict_text(to);
     text_add(to, "}");
     free(stored);
     free(overrides);

@@ -325,7 +325,7 @@ static void test_pause(void **state)
         assert_non_null(strstr(text_cell(t.record, 0, "note"), "1 pause of 60 s left out"));
         bool said = false;
         for (size_t i = 0; i < wt_log_count(log); i++)
-            said = said || strstr(wt_log_get(log, i).text, "1 pause of 60 s in mid-record");
+            said = said || strstr(wt_log_get(log, i).text, "1 pause of 60 s was left out");
         assert_true(said);
         wt_tables_clear(&t, sizeof t);
         wt_log_free(log);

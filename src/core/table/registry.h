@@ -224,6 +224,7 @@
     X(sharing_level, SHARING_LEVELS, SHARED_BY_UNKNOWN)                                            \
     X(sharing_verdict, SHARING_VERDICTS, SHARING_UNKNOWN)                                          \
     X(validation_outcome, VALIDATION_OUTCOMES, VALIDATION_OUTCOME_UNKNOWN)                         \
+    X(validation_source, VALIDATION_SOURCE_LIST, VALIDATION_SOURCE_UNKNOWN)                        \
     X(friction_part, FRICTION_PARTS, FRICTION_PART_UNKNOWN)                                        \
     X(identification_method, IDENTIFICATION_METHODS, IDENTIFICATION_METHOD_UNKNOWN)                \
     X(critical_energy_origin, CRITICAL_ENERGY_ORIGINS, CRITICAL_ENERGY_ORIGIN_UNKNOWN)

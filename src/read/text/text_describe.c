@@ -75,6 +75,7 @@ static void describe_column(const text_table *t, const text_column *c, table_wri
                      c->rule->required_name);
         break;
     }
+    facts_put(metadata, FACTS_QUANTITY, q);
 }
 
 /* The columns of the first table; those of other tables are mostly the same. */

@@ -61,3 +61,8 @@ cause '' thermal "$fixtures/formats/jpk-thermal/noise.tnd"
 [ -n "$given" ] || fail "thermal gives no option"
 advice='no such text'
 helps indent --tip "$tip" $given "$curve" -o a.h5
+
+piece 'give --indentation-temperature, and --track-temperature if the track differs'
+"$weartrack" indent -q --group track --indentation-temperature 40degC --tip "$tip" --spring-constant 0.3N/m "$track" -o warm.h5 2> err
+cause 'only the curves of the track state' compare bulk.h5 warm.h5
+helps compare --indentation-temperature 23degC --track-temperature 40degC bulk.h5 warm.h5
