@@ -107,6 +107,7 @@ static void read_column(const metadata_row *row, file_kind *found)
     found->has_x |= row->quantity == WT_Q_POSITION_X;
     found->has_y |= row->quantity == WT_Q_POSITION_Y;
     found->has_force |= row->quantity == WT_Q_FRICTION_FORCE;
+    found->has_torque |= row->quantity == WT_Q_TORQUE;
     found->has_load |=
         row->quantity == WT_Q_NORMAL_FORCE || row->quantity == WT_Q_FRICTION_COEFFICIENT;
     const char *const quote = strchr(row->item, '"'); /* column "NAME" */

@@ -22,6 +22,7 @@ typedef struct file_kind {
     char tip[64];                      /* tip in the form of --tip; "" if not stated */
     bool has_x, has_y, one_row;        /* columns of a table of heights; an image of one row */
     bool has_force, has_load;          /* friction force; normal force or coefficient of friction */
+    bool has_torque;                   /* friction as a torque, which needs the track radius */
     bool unread;                       /* a part of it is not readable as it is */
     bool nothing;                      /* it has no readable data, whatever the options */
     uint64_t items;                    /* bits of the fact_items in the description */

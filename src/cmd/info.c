@@ -110,6 +110,8 @@ static void print_missing_options(const file_kind *found)
     for (size_t k = 0; k < FILE_KIND_N_MISSING; k++)
         if (file_kind_is_missing(found, k))
             printf(" --%s %s", file_kind_missing_rows[k].name, file_kind_missing_rows[k].example);
+    if (found->has_torque)
+        fputs(" --track-radius 10mm", stdout);
     for (size_t n = 0; *name != '\0'; name += n + 1) {
         char given[sizeof found->unitless + sizeof "=UNIT"];
         n = strcspn(name, "\n");

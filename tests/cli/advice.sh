@@ -68,7 +68,7 @@ fi
 # The rows without their calls.
 set +e
 weartrack=true
-cause() { :; }; helps() { :; }; leads() { :; }; says() { :; }; number() { :; }; fail() { :; }
+call() { :; }; cause() { :; }; helps() { :; }; leads() { :; }; says() { :; }; number() { :; }; fail() { :; }
 for file in "$here"/advice/files.sh "$here"/advice/*.sh; do . "$file"; done 2> /dev/null
 # A message that is parted over lines is found; help and comments are none.
 cat > planted.c <<'END'

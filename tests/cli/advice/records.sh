@@ -17,11 +17,13 @@ piece 'velocity not known: give --track-radius'
 { echo 'time (s),normal force (N),rotation (rpm),friction force (N)'; steady load,rotation; } > turns.csv
 cause 'velocity not known: give --track-radius' record turns.csv -o -
 helps record --track-radius 12mm turns.csv -o -
-piece 'weartrack record --track-radius 10mm'
+piece 'weartrack record --track-radius 10mm' '--track-radius 10mm'
 { echo 'time (s),normal force (N),friction torque (N mm)'; steady load; } > torque.csv
 cause 'weartrack record --track-radius 10mm' record torque.csv -o -
 helps record --track-radius 10mm torque.csv -o torque.h5
 number record friction_coefficient 0.101 0.01 torque.h5
+call info torque.csv
+says '^next: weartrack record .*--track-radius 10mm'
 piece 'no distance: give --track-radius' 'the loss of the track is not known: give --profile, --track-area or --mass-loss' 'no load: give --load'
 { echo 'time (s),normal force (N),friction force (N)'; steady load; } > still.csv
 cause 'no distance, velocity, laps or rotation in the record' record --track-area 3e-11m^2 still.csv -o -
