@@ -16,7 +16,7 @@ const cmd_command cmd_commands[] = {
     {"Indentation", NULL, NULL},
     {"indent", cmd_indent, "contact point and modulus of every force curve"},
     {"dwell", cmd_dwell, "relaxation and creep in the dwells of force curves"},
-    {"spot", cmd_spot, "roughness of a spot against the depth, and what stayed of an indentation"},
+    {"spot", cmd_spot, "roughness of a spot against the depth; what stayed of an indentation"},
     {"sensitivity", cmd_sensitivity, "deflection sensitivity from curves on a hard surface"},
     {"thermal", cmd_thermal, "spring constant from the thermal noise of the cantilever"},
     {"compare", cmd_compare, "wear track against bulk"},
@@ -24,7 +24,7 @@ const cmd_command cmd_commands[] = {
     {"master", cmd_master, "shift factors, master curve, WLF and Prony series of DMA sweeps"},
     {"ramp", cmd_ramp, "glass transition and moduli of DMA temperature sweeps"},
     {"payne", cmd_payne, "softening with strain, of DMA strain sweeps"},
-    {"psd", cmd_psd, "power spectrum of a measured surface, from height maps and profiles"},
+    {"psd", cmd_psd, "power spectrum of a surface, from height maps and profiles"},
     {"record", cmd_record, "friction and wear as a tribometer measured them"},
     {"friction", cmd_friction, "hysteresis friction and contact area against velocity"},
     {"layer", cmd_layer, "formation, wear, balance and thickness of the modified layer"},
@@ -44,8 +44,8 @@ const cmd_command cmd_commands[] = {
 static void print_main_help(FILE *out)
 {
     fputs("usage: weartrack SUBCOMMAND [OPTION]... [FILE]...\n\n"
-          "How does the rubber in a wear track differ from the bulk, and what does that do to\n"
-          "friction? From the files the instruments export to one page that answers.\n",
+          "How does the rubber in a wear track differ from the bulk, and what does that\n"
+          "do to friction? From the files the instruments export to one page that answers.\n",
           out);
     for (const cmd_command *c = cmd_commands; c->name != NULL; c++) {
         if (c->run == NULL)
@@ -54,9 +54,9 @@ static void print_main_help(FILE *out)
             fprintf(out, "  %-11s %s\n", c->name, c->help);
     }
     fputs("\n  help        the same; `weartrack help SUBCOMMAND` for one of them\n\n"
-          "options: --help, --version. Each subcommand has --help (and --help all) and a page\n"
-          "weartrack-SUBCOMMAND(1). To begin: weartrack-tutorial(7).\n"
-          "Exit status: 0 whole, 1 nothing usable or a fault, 2 usage error, 3 answered in part.\n",
+          "options: --help, --version. Each subcommand has --help (and --help all) and a\n"
+          "page weartrack-SUBCOMMAND(1). To begin: weartrack-tutorial(7).\n"
+          "Exit status: 0 whole, 1 nothing usable or a fault, 2 usage error, 3 in part.\n",
           out);
 }
 

@@ -6,7 +6,7 @@
 
 #include "cmd/cmd.h"
 
-enum { INDENT = 2, GAP = 3, NAME_MAX_WIDTH = 34, ROWS_SHOWN = 13 };
+enum { INDENT = 2, NOTE_INDENT = 6, GAP = 3, NAME_MAX_WIDTH = 34, ROWS_SHOWN = 13 };
 
 typedef enum table_column {
     COLUMN_NAME,
@@ -21,6 +21,8 @@ typedef struct short_table {
     const wt_result_rows *rows;
     size_t n_shown;
     size_t width[N_COLUMNS]; /* 0: the column is empty */
+    size_t n_notes;          /* number of lines for notes below their rows */
+    bool notes_below;        /* notes that are too long for their column stand below their rows */
     FILE *out;
 } short_table;
 
@@ -68,6 +70,11 @@ static size_t cell_width(const wt_result_row *row, table_column column)
     return cmd_text_width(text, strlen(text)) + (*text != '\0' ? level : 0);
 }
 
+static bool has_long_note(const short_table *t, const wt_result_row *row)
+{
+    return !is_whole_line(row) && cell_width(row, COLUMN_NOTE) > t->width[COLUMN_NOTE];
+}
+
 static void measure_columns(short_table *t, bool cut)
 {
     static const size_t least[N_COLUMNS] = {8, 5, 4, 13, 4}; /* of the headings */
@@ -84,9 +91,23 @@ static void measure_columns(short_table *t, bool cut)
     size_t used = INDENT;
     for (int c = 0; c < COLUMN_NOTE; c++)
         used += t->width[c] > 0 ? t->width[c] + GAP : 0;
-    if (cut && t->width[COLUMN_NOTE] > 0)
-        t->width[COLUMN_NOTE] =
-            used + least[COLUMN_NOTE] < CMD_SCREEN_WIDTH ? CMD_SCREEN_WIDTH - used : 0;
+    if (!cut || used + t->width[COLUMN_NOTE] <= CMD_SCREEN_WIDTH)
+        return;
+    t->width[COLUMN_NOTE] =
+        used + least[COLUMN_NOTE] < CMD_SCREEN_WIDTH ? CMD_SCREEN_WIDTH - used : 0;
+    bool all_long = true;
+    for (size_t i = 0; i < t->n_shown; i++) {
+        const wt_result_row row = wt_result_rows_get(t->rows, i);
+        if (has_long_note(t, &row))
+            t->n_notes += 1 + cell_width(&row, COLUMN_NOTE) / (CMD_SCREEN_WIDTH - NOTE_INDENT);
+        else
+            all_long = all_long && *row.note == '\0';
+    }
+    t->notes_below = t->n_shown + t->n_notes <= ROWS_SHOWN;
+    if (!t->notes_below)
+        t->n_notes = 0;
+    else if (all_long)
+        t->width[COLUMN_NOTE] = 0;
 }
 
 /* Prints a cell, cut to its width; returns the number of characters. */
@@ -135,6 +156,11 @@ static void print_rows(const short_table *t)
             fprintf(t->out, "%*s", INDENT, "");
             cmd_print_safely(t->out, row.name, strlen(row.name));
             fputc('\n', t->out);
+        } else if (t->notes_below && has_long_note(t, &row)) {
+            cells[COLUMN_NOTE] = "";
+            print_cells(t, row.level, cells);
+            fprintf(t->out, "%*s", NOTE_INDENT, "");
+            cmd_wrap(t->out, NOTE_INDENT, NOTE_INDENT, row.note);
         } else {
             print_cells(t, row.level, cells);
         }
@@ -224,7 +250,7 @@ void cmd_print_short_table(cmd_session *s, bool findings)
             fprintf(t.out, "  and %zu more rows: --verbose\n", n - t.n_shown);
         fputc('\n', t.out);
         enum { AROUND = 4 }; /* heading, headings of the columns, empty lines */
-        const size_t used = AROUND + t.n_shown + (n > t.n_shown);
+        const size_t used = AROUND + t.n_shown + t.n_notes + (n > t.n_shown);
         s->lines_left -= used < s->lines_left ? used : s->lines_left;
         fflush(t.out);
     }

@@ -3,9 +3,6 @@
 
 #include "cmd/cmd.h"
 
-/* Width that fits on small screens and in e-mails. */
-enum { LINE_WIDTH = 96 };
-
 size_t cmd_text_width(const char *text, size_t n)
 {
     size_t width = 0;
@@ -32,7 +29,7 @@ void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text)
         const size_t blanks = strspn(p, " ");
         const size_t word = strcspn(p + blanks, " \n");
         const size_t width = cmd_text_width(p, blanks + word);
-        if (!begin && column + width > LINE_WIDTH) {
+        if (!begin && column + width > CMD_SCREEN_WIDTH) {
             fprintf(out, "\n%*s", (int)indent, "");
             column = indent;
             begin = true;

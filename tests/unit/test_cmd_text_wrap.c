@@ -31,8 +31,8 @@ static void test_width(void **state)
         size_t words = 0, first = indent;
         for (; (end = strchr(line, '\n')) != NULL; line = end + 1, first = 0) {
             size_t width = (size_t)(end - line) + first;
-            assert_true(width <= LINE_WIDTH);
-            assert_true(end[1] == '\0' || width + 1 + WORD > LINE_WIDTH);
+            assert_true(width <= CMD_SCREEN_WIDTH);
+            assert_true(end[1] == '\0' || width + 1 + WORD > CMD_SCREEN_WIDTH);
             assert_true(first > 0 || strspn(line, " ") == indent);
             words += (width - indent + 1) / (WORD + 1);
         }
