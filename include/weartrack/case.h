@@ -86,6 +86,7 @@ typedef struct wt_result_row {
     /* As people read it: value with unit, or text; 95 % interval and range over choices of the
      * model, "" if unknown; note. */
     const char *text, *interval, *range, *note;
+    bool missing; /* the answer lacks its number or interval: the first reason says why */
     struct {
         const char *heading, *text; /* NULL after the last one */
     } reasons[WT_RESULT_ROW_REASONS];

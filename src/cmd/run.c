@@ -40,22 +40,24 @@ static void print_plan(const wt_table *plan)
     }
 }
 
+/* Lines that say where the result and the page are. */
+enum { LINES_OF_PLACES = 2 };
+
 /* Prints the findings on standard output, as they are the data of this subcommand. A pipe gets
  * their reasons and the limits, too; a terminal gets these with --verbose. */
 static void print_answer(cmd_session *s)
 {
     const wt_table *const limits = wt_result_find(s->result, "limits");
     const bool verbose = s->common.verbose, whole = verbose || isatty(STDOUT_FILENO) == 0;
+    s->lines_left -= LINES_OF_PLACES;
     s->common.verbose = whole;
     cmd_print_short_table(s, true);
     s->common.verbose = verbose; /* of the warnings on standard error */
-    if (limits == NULL || !whole)
-        return;
-    puts("Limits");
-    for (size_t i = 0; i < wt_table_n_rows(limits); i++) {
-        fputs("  ", stdout);
+    for (size_t i = 0; limits != NULL && whole && i < wt_table_n_rows(limits); i++) {
+        fputs(i == 0 ? "Limits\n  " : "  ", stdout);
         cmd_wrap(stdout, 2, 4, wt_table_text(limits, i, LIMITS_LIMIT));
     }
+    fflush(stdout); /* the answer is complete even if drawing fails */
 }
 
 typedef struct run_flags {
@@ -123,13 +125,16 @@ static wt_status run_case_and_report(run_call *r)
     cmd_session *s = &r->s;
     size_t n_failed = 0;
     wt_status status = cmd_run_case(s, r->case_file, &r->run, &n_failed);
-    cmd_print_log(s, s->log, false);
+    if (status == WT_OK) {
+        cmd_record_command(wt_result_provenance(s->result));
+        status = wt_store_write(r->result_name, s->result, s->common.provenance, &s->err);
+    }
+    if (status == WT_OK)
+        print_answer(s);
     if (s->result != NULL && n_failed > 0)
         cmd_print_failures(s, wt_result_find(s->result, "failures"));
-    if (status != WT_OK)
-        return status;
-    cmd_record_command(wt_result_provenance(s->result));
-    return wt_store_write(r->result_name, s->result, s->common.provenance, &s->err);
+    cmd_print_log(s, s->log, false);
+    return status;
 }
 
 /* True if the existing result is up to date; it then becomes the result of the session. */
@@ -228,14 +233,14 @@ static wt_status run_whole_case(run_call *r, const cmd_option_group *report_give
     if (status == WT_OK)
         status = cmd_check_output(r->result_name, &r->s.err);
     const bool kept = status == WT_OK && is_result_current(r);
-    if (kept)
+    if (kept) {
         cmd_apply_strict(&r->s, r->result_name, cmd_count_remarks(r->s.result));
-    else if (status == WT_OK)
+        print_answer(&r->s);
+    } else if (status == WT_OK) {
         status = run_case_and_report(r);
+    }
     if (status != WT_OK)
         return status;
-    print_answer(&r->s);
-    fflush(stdout); /* the answer is complete even if drawing fails */
     if (!r->s.common.quiet)
         cmd_message("result: %s%s\n", r->result_name,
                     kept ? " (kept: nothing that it was made of has changed)" : "");

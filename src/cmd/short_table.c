@@ -23,8 +23,17 @@ typedef struct short_table {
     size_t width[N_COLUMNS]; /* 0: the column is empty */
     size_t n_notes;          /* number of lines for notes below their rows */
     bool notes_below;        /* notes that are too long for their column stand below their rows */
+    bool brief;              /* reasons are not printed: a missing answer has its reason as note */
     FILE *out;
 } short_table;
+
+static wt_result_row get_row(const short_table *t, size_t i)
+{
+    wt_result_row row = wt_result_rows_get(t->rows, i);
+    if (t->brief && row.missing && row.reasons[0].text != NULL)
+        row.note = row.reasons[0].text;
+    return row;
+}
 
 static bool has_rows(const cmd_session *s)
 {
@@ -79,7 +88,7 @@ static void measure_columns(short_table *t, bool cut)
 {
     static const size_t least[N_COLUMNS] = {8, 5, 4, 13, 4}; /* of the headings */
     for (size_t i = 0; i < t->n_shown; i++) {
-        const wt_result_row row = wt_result_rows_get(t->rows, i);
+        const wt_result_row row = get_row(t, i);
         for (int c = 0; c < N_COLUMNS && !is_whole_line(&row); c++) {
             const size_t width = cell_width(&row, (table_column)c);
             const size_t limited =
@@ -97,7 +106,7 @@ static void measure_columns(short_table *t, bool cut)
         used + least[COLUMN_NOTE] < CMD_SCREEN_WIDTH ? CMD_SCREEN_WIDTH - used : 0;
     bool all_long = true;
     for (size_t i = 0; i < t->n_shown; i++) {
-        const wt_result_row row = wt_result_rows_get(t->rows, i);
+        const wt_result_row row = get_row(t, i);
         if (has_long_note(t, &row))
             t->n_notes += 1 + cell_width(&row, COLUMN_NOTE) / (CMD_SCREEN_WIDTH - NOTE_INDENT);
         else
@@ -148,7 +157,7 @@ static void print_rows(const short_table *t)
                                                     "note"};
     print_cells(t, 0, headings);
     for (size_t i = 0; i < t->n_shown; i++) {
-        const wt_result_row row = wt_result_rows_get(t->rows, i);
+        const wt_result_row row = get_row(t, i);
         const char *cells[N_COLUMNS];
         for (int c = 0; c < N_COLUMNS; c++)
             cells[c] = cell_text(&row, (table_column)c);
@@ -233,7 +242,7 @@ void cmd_print_short_table(cmd_session *s, bool findings)
     wt_result_rows *rows = wt_result_rows_new(s->result, findings);
     const size_t n = wt_result_rows_count(rows);
     const bool on_screen = findings || cmd_shows_short_table(s);
-    short_table t = {.rows = rows, .n_shown = n};
+    short_table t = {.rows = rows, .n_shown = n, .brief = !s->common.verbose};
     if (cmd_log_is_json())
         log_rows(rows);
     if (n > 0 && (on_screen || !cmd_log_is_json())) {

@@ -178,6 +178,7 @@ wt_result_row wt_result_rows_get(const wt_result_rows *r, size_t i)
         .interval = texts->interval,
         .range = texts->range,
         .note = row->note,
+        .missing = row->missing,
     };
     for (size_t k = 0; k < RESULT_ROW_REASONS; k++) {
         out.reasons[k].heading = row->reasons[k].heading;

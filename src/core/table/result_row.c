@@ -57,10 +57,11 @@ bool result_rows_of_findings(const wt_result *result, result_rows *rows)
         result_row *row = rows_add_text(&s, 0, finding_verdict_text(f->verdict), "%s",
                                         finding_question_text(f->question));
         clocale_append(row->text, sizeof row->text, "%s", finding_side_text(f));
-        if (f->as_if_layer)
+        const char *reason = stated ? answer_text(&answer, i, ANSWER_ANSWER) : f->sentence;
+        row->missing = f->verdict == FINDING_NOT_COMPUTED || f->verdict == FINDING_NOT_ENOUGH_DATA;
+        if (f->as_if_layer && !row->missing)
             rows_note(row, "as if there were a layer");
-        rows_reason(row, finding_basis_text(f->basis),
-                    stated ? answer_text(&answer, i, ANSWER_ANSWER) : f->sentence);
+        rows_reason(row, finding_basis_text(f->basis), reason);
         rows_reason(row, "to settle it", f->remedy);
         add_finding_number(&s, f);
     }

@@ -39,6 +39,7 @@ typedef struct result_row {
     row_number number; /* of RESULT_ROW_NUMBER */
     char text[64];     /* of RESULT_ROW_TEXT: a verdict or a count */
     char note[320];
+    bool missing;                                  /* of an answer: its first reason says why */
     result_row_reason reasons[RESULT_ROW_REASONS]; /* unused ones have no text */
 } result_row;
 
