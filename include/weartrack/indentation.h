@@ -143,6 +143,8 @@ typedef struct wt_indent_options {
                             of the baseline; default 0.01; 0: no test */
     double largest_error; /* largest standard error over modulus of a usable modulus; default 1 */
     double fixed_contact_point; /* [m] tip position, NaN = fitted (default) */
+    /* Tip positions [m] between which samples before contact are fitted; NaN = all (default). */
+    double baseline_from, baseline_to;
     /* false (default): the measured force is compared with that of cantilever and sample at the
      * same height, because the noise is in the force. true: with the force at the measured
      * indentation, as in most programs, for comparison with them; biased if the contact is much

@@ -41,6 +41,10 @@ wt_indent_options indent_curve_options(const indent_task *task, const curve_choi
     wt_indent_options options = task->options;
     if (!isnan(choice->contact_point))
         options.fixed_contact_point = choice->contact_point;
+    if (!isnan(choice->baseline_from))
+        options.baseline_from = choice->baseline_from;
+    if (!isnan(choice->baseline_to))
+        options.baseline_to = choice->baseline_to;
     return options;
 }
 
@@ -356,6 +360,10 @@ static wt_status fit_single_curve(indent_task *task, wt_error *err)
     it->choice = manual_overrides_curve_choice(&task->choices, task->file, one->index);
     if (!isnan(task->options.fixed_contact_point))
         it->choice.contact_point = task->options.fixed_contact_point;
+    if (!isnan(task->options.baseline_from))
+        it->choice.baseline_from = task->options.baseline_from;
+    if (!isnan(task->options.baseline_to))
+        it->choice.baseline_to = task->options.baseline_to;
     fit_item(task, it, task->scratch[0]);
     status = write_item(task, it, err);
     it->curve = spare;

@@ -18,12 +18,15 @@ TABLE_ROW(overrides, OVERRIDES, const char *group, *file; double curve;
 
 static choice_values empty_choice_values(void)
 {
-    return (choice_values){(double)NAN, (double)NAN, (double)NAN, {0}};
+    const double none = (double)NAN;
+    return (choice_values){none, none, none, none, none, {0}};
 }
 
 /* Names and limits of the overrides that have a value. */
 static const wt_param rows[] = {
     {PARAM("contact-point", choice_values, contact_point, WT_Q_LENGTH, ANY_NUMBER), .unset = ""},
+    {PARAM("baseline-from", choice_values, baseline_from, WT_Q_LENGTH, ANY_NUMBER), .unset = ""},
+    {PARAM("baseline-to", choice_values, baseline_to, WT_Q_LENGTH, ANY_NUMBER), .unset = ""},
     {PARAM("spring-constant", choice_values, spring_constant, WT_Q_SPRING_CONSTANT, ABOVE(0)),
      .unset = ""},
     {PARAM("sensitivity", choice_values, sensitivity, WT_Q_SENSITIVITY, ABOVE(0)), .unset = ""},
@@ -36,6 +39,8 @@ static const struct {
     bool for_curve, for_file; /* valid targets */
 } kinds[CHOICE_KINDS] = {[CHOICE_EXCLUDE] = {"exclude", true, true},
                          [CHOICE_CONTACT_POINT] = {"contact-point", true, false},
+                         [CHOICE_BASELINE_FROM] = {"baseline-from", true, false},
+                         [CHOICE_BASELINE_TO] = {"baseline-to", true, false},
                          [CHOICE_SPRING_CONSTANT] = {"spring-constant", false, true},
                          [CHOICE_SENSITIVITY] = {"sensitivity", false, true},
                          [CHOICE_TIP] = {"tip", false, true}};
@@ -115,7 +120,8 @@ static wt_status read_choice_row(const table_view *view, size_t row, const wt_in
         const wt_status status = wt_fail(err, WT_E_ARG, "no choice is called \"%s\"", id);
         wt_error_file(err, to->path);
         wt_error_place(err, "row %zu", row + 1);
-        wt_error_expected(err, "exclude, contact-point, spring-constant, sensitivity or tip");
+        wt_error_expected(err, "exclude, contact-point, baseline-from, baseline-to, "
+                               "spring-constant, sensitivity or tip");
         return status;
     }
     wt_status status = check_choice_target(c, err);
@@ -236,7 +242,7 @@ void manual_overrides_apply_file(const manual_overrides *choices, const flow_fil
 curve_choice manual_overrides_curve_choice(manual_overrides *choices, const flow_file *file,
                                            size_t curve)
 {
-    curve_choice of = {(double)NAN, NULL};
+    curve_choice of = {(double)NAN, (double)NAN, (double)NAN, NULL};
     for (size_t i = 0; i < choices->n; i++) {
         manual_override *c = &choices->choice[i];
         if (c->of != file || (!isnan(c->curve) && (size_t)c->curve != curve))
@@ -244,6 +250,10 @@ curve_choice manual_overrides_curve_choice(manual_overrides *choices, const flow
         c->n_curves++;
         if (c->kind == CHOICE_CONTACT_POINT)
             of.contact_point = c->values.contact_point;
+        if (c->kind == CHOICE_BASELINE_FROM)
+            of.baseline_from = c->values.baseline_from;
+        if (c->kind == CHOICE_BASELINE_TO)
+            of.baseline_to = c->values.baseline_to;
         if (c->kind == CHOICE_EXCLUDE && (of.exclude == NULL || !isnan(c->curve)))
             of.exclude = c;
     }
@@ -255,17 +265,19 @@ void manual_overrides_apply_fit(const curve_choice *choice, wt_indent_fit *fit)
     enum { NOTE = 60 }; /* characters of the note, so that the verdict of the fit has space */
     char fit_text[2 * sizeof fit->reason], text[4 * sizeof fit->reason];
     const char *verdict = wt_curve_verdict_id(fit->verdict);
-    const bool has_manual_contact = !isnan(choice->contact_point),
-               has_reason = fit->reason[0] != '\0';
-    snprintf(fit_text, sizeof fit_text, "%s%s%s", has_manual_contact ? "contact point by hand" : "",
-             has_manual_contact && has_reason ? "; " : "", fit->reason);
+    const bool contact = !isnan(choice->contact_point),
+               baseline = !isnan(choice->baseline_from) || !isnan(choice->baseline_to),
+               by_hand = contact || baseline;
+    snprintf(fit_text, sizeof fit_text, "%s%s%s%s%s%s", contact ? "contact point" : "",
+             contact && baseline ? " and " : "", baseline ? "baseline" : "",
+             by_hand ? " by hand" : "", by_hand && fit->reason[0] != '\0' ? "; " : "", fit->reason);
     if (choice->exclude == NULL) {
         utf8_copy(fit->reason, sizeof fit->reason, fit_text);
         return;
     }
     const char *note = choice->exclude->note;
     /* The reason of an accepted fit begins with its verdict. */
-    const bool has_verdict_prefix = fit->verdict == WT_CURVE_ACCEPTED && !has_manual_contact;
+    const bool has_verdict_prefix = fit->verdict == WT_CURVE_ACCEPTED && !by_hand;
     snprintf(text, sizeof text, "left out by hand%s%.*s; the fit: %s%s%s",
              note[0] != '\0' ? ": " : "", (int)utf8_truncated_length(note, strlen(note), NOTE),
              note, has_verdict_prefix ? "" : verdict,

@@ -10,6 +10,8 @@
 typedef enum choice_kind {
     CHOICE_EXCLUDE,
     CHOICE_CONTACT_POINT,
+    CHOICE_BASELINE_FROM,
+    CHOICE_BASELINE_TO,
     CHOICE_SPRING_CONSTANT,
     CHOICE_SENSITIVITY,
     CHOICE_TIP,
@@ -18,7 +20,7 @@ typedef enum choice_kind {
 
 /* Values of an override. Its kind determines the valid member. */
 typedef struct choice_values {
-    double contact_point, spring_constant, sensitivity;
+    double contact_point, baseline_from, baseline_to, spring_constant, sensitivity;
     wt_tip tip;
 } choice_values;
 
@@ -57,7 +59,7 @@ void manual_overrides_apply_file(const manual_overrides *choices, const flow_fil
                                  const wt_tip **tip);
 /* Overrides of one curve; NaN and NULL if there are none. */
 typedef struct curve_choice {
-    double contact_point;
+    double contact_point, baseline_from, baseline_to;
     const manual_override *exclude;
 } curve_choice;
 /* Returns the overrides of a curve and counts the curve. */

@@ -258,7 +258,8 @@
     X(OVERRIDES_FILE, AS(file), "file, or the end of its path", TEXT, LABEL("File"))               \
     X(OVERRIDES_CURVE, AS(curve), "number of the curve in its file; nan: all of the file", NUMBER, \
       LABEL("Curve"), OPTIONAL)                                                                    \
-    X(OVERRIDES_CHOICE, AS(choice), "exclude, contact-point, spring-constant, sensitivity or tip", \
+    X(OVERRIDES_CHOICE, AS(choice),                                                                \
+      "exclude, contact-point, baseline-from, baseline-to, spring-constant, sensitivity or tip",   \
       TEXT, LABEL("Choice"))                                                                       \
     X(OVERRIDES_VALUE, AS(value), "with its unit", TEXT, LABEL("Value"), OPTIONAL)                 \
     X(OVERRIDES_NOTE, AS(note), "why, in words", TEXT, LABEL("Why"), OPTIONAL)                     \

@@ -44,6 +44,8 @@ static const struct {
     {"max-relative-error", "0.00001", NULL, NULL},
     {"warn-relative-error", "0.00001", "misfit-p-threshold 0.99", NULL},
     {"fixed-contact-point", "1um", NULL, NULL},
+    {"baseline-from", "-5um", NULL, NULL},
+    {"baseline-to", "-5um", NULL, NULL},
     {"tip", "sphere:radius=5um", NULL, NULL},
     {"kind", "sweep", NULL, NULL}, /* which that file does not hold */
     {"group", "track", NULL, NULL},

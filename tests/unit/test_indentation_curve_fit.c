@@ -304,6 +304,34 @@ static void contact_point_given(void **state)
     assert_true(fit_with(&t, &options).modulus.value > 1.02 * t.modulus);
 }
 
+/* A baseline with a step before and a bend after the chosen part: the modulus is that of a straight
+ * one, and the contact point stays free. */
+static void baseline_given(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.noise = 0.0;
+    curve_make(&t, 0, &data);
+    const double contact = true_contact(&t), before = contact - data.height[0];
+    wt_indent_options options = every_curve();
+    options.baseline_from = contact - 0.6 * before;
+    options.baseline_to = contact - 0.2 * before;
+    for (size_t i = 0; i < t.n; i++)
+        if (data.height[i] < options.baseline_from)
+            data.force[i] += 2e-9;
+        else if (data.height[i] > options.baseline_to && data.height[i] < contact)
+            data.force[i] += 3e-9 * sin(M_PI * (data.height[i] - options.baseline_to) /
+                                        (contact - options.baseline_to));
+    wt_indent_options all = every_curve();
+    assert_true(fabs(fit_with(&t, &all).modulus.value / t.modulus - 1) > 0.01);
+    const wt_indent_fit fit = fit_with(&t, &options);
+    assert_near(fit.modulus.value, t.modulus, 1e-3);
+    assert_near(fit.contact_point.value, contact, 1e-3);
+    assert_near(fit.baseline_length, 0.6 * before, 0.02);
+    options.baseline_from = contact + 1e-9;
+    assert_int_equal(fit_with(&t, &options).verdict, WT_CURVE_NO_BASELINE);
+}
+
 /* Another zero of height and force, another order of curves before it: the same answer. */
 static void nothing_hidden_decides(void **state)
 {
@@ -557,6 +585,7 @@ int main(void)
         cmocka_unit_test(largest_force),
         cmocka_unit_test(spikes_at_the_ends),
         cmocka_unit_test(contact_point_given),
+        cmocka_unit_test(baseline_given),
         cmocka_unit_test(nothing_hidden_decides),
         cmocka_unit_test(points_for_plots),
         cmocka_unit_test(force_curve_as_read),

@@ -117,9 +117,9 @@ static void compare(const char *file, const wt_force_curve *curve)
     curve_solution solution;
     char reason[160];
     curve_reserve(workspace, approach->n_points);
-    wt_curve_verdict verdict =
-        curve_prepare(height->values, force->values, approach->n_points,
-                      curve->cantilever.spring_constant, &options, workspace, &input, reason);
+    wt_curve_verdict verdict = curve_prepare(height->values, force->values, approach->n_points,
+                                             curve->cantilever.spring_constant, &options,
+                                             (double)NAN, workspace, &input, reason);
     if (verdict != WT_CURVE_ACCEPTED)
         fail_msg("%s %zu: %s", file, curve->index, reason);
     size_t n = curve_scan(table, &input.samples, false, false, workspace, minima);

@@ -165,10 +165,11 @@ typedef struct curve_input {
 } curve_input;
 
 /* Cleans the samples, orients them and subtracts the means. Also finds defects that prevent a fit.
- * The fit continues only if the verdict is accepted. */
+ * The fit continues only if the verdict is accepted. Samples between the end of the baseline of the
+ * options and `contact` (a tip position, or NaN) are left out. */
 wt_curve_verdict curve_prepare(const double *height, const double *force, size_t n,
                                double spring_constant, const wt_indent_options *options,
-                               wt_indent_workspace *workspace, curve_input *input,
+                               double contact, wt_indent_workspace *workspace, curve_input *input,
                                char reason[160]);
 /* Reverses the direction of motion: a retract becomes an approach. */
 void curve_reverse(curve_samples *samples);

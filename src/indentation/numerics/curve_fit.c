@@ -26,7 +26,9 @@ wt_indent_options wt_indent_defaults(void)
                                .largest_error = 1.0,
                                .doubtful_error = 0.2,
                                .plain_least_squares = false,
-                               .fixed_contact_point = (double)NAN};
+                               .fixed_contact_point = (double)NAN,
+                               .baseline_from = (double)NAN,
+                               .baseline_to = (double)NAN};
 }
 
 static const wt_param rows[] = {
@@ -65,6 +67,13 @@ static const wt_param rows[] = {
     {PARAM("fixed-contact-point", wt_indent_options, fixed_contact_point, WT_Q_LENGTH, ANY_NUMBER),
      .value = "Z", .unset = "", .flags = PARAM_NO_CASE,
      .help = "do not fit the contact point: take this tip position"},
+    {PARAM("baseline-from", wt_indent_options, baseline_from, WT_Q_LENGTH, ANY_NUMBER),
+     .value = "Z", .unset = "", .flags = PARAM_NO_CASE,
+     .help = "of the samples before contact fit those from this tip position on"},
+    {PARAM("baseline-to", wt_indent_options, baseline_to, WT_Q_LENGTH, ANY_NUMBER), .value = "Z",
+     .unset = "", .flags = PARAM_NO_CASE,
+     .help = "of the samples before contact fit those up to this tip position; the contact point "
+             "may be later"},
     {PARAM_FLAG_OF("fit-retract", wt_indent_options, fit_retract),
      .help = "also fit an elastic contact to the retract alone, with its own modulus and adhesion: "
              "a check, which changes no other number"},
@@ -374,14 +383,14 @@ static wt_status check_fit_arguments(const wt_indent_options *options, const wt_
     return status == WT_OK ? curve_range_check(options, tip, err) : status;
 }
 
-static void fit_once(const curve_fitting *of, const curve_branch *retract, double spring_constant,
-                     curve_fitting *f, wt_indent_fit *fit)
+static void fit_samples(const curve_fitting *of, const curve_branch *retract,
+                        double spring_constant, curve_fitting *f, wt_indent_fit *fit)
 {
     const curve_branch *approach = of->approach;
     *f = *of;
     curve_fit_empty(fit);
     fit->verdict = curve_prepare(approach->height, approach->force, approach->n, spring_constant,
-                                 f->options, f->workspace, &f->input, fit->reason);
+                                 f->options, f->contact, f->workspace, &f->input, fit->reason);
     f->input.saturated = f->input.saturated || f->below_saturation;
     if (fit->verdict != WT_CURVE_ACCEPTED)
         return;
@@ -412,6 +421,19 @@ static void fit_once(const curve_fitting *of, const curve_branch *retract, doubl
     fit->verdict = curve_assess(f, fit);
     if (f->options->fit_retract)
         curve_report_unloading(f, fit);
+}
+
+/* Samples between the chosen end of the baseline and contact are left out once a first fit has
+ * found the contact point, which is fitted again. */
+static void fit_once(const curve_fitting *of, const curve_branch *retract, double spring_constant,
+                     curve_fitting *f, wt_indent_fit *fit)
+{
+    fit_samples(of, retract, spring_constant, f, fit);
+    if (!(of->options->baseline_to < fit->contact_point.value))
+        return;
+    curve_fitting again = *of;
+    again.contact = fit->contact_point.value;
+    fit_samples(&again, retract, spring_constant, f, fit);
 }
 
 /* Fits the forces up to a limit, as the option fit-force does. */
@@ -476,6 +498,7 @@ wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_opti
                                    .options = options,
                                    .approach = approach,
                                    .workspace = workspace,
+                                   .contact = (double)NAN,
                                    .pull_off = (double)NAN,
                                    .loss = (double)NAN,
                                    .loss_bias = (double)NAN,

@@ -39,6 +39,7 @@ typedef struct curve_fitting {
     const wt_indent_options *options;
     const curve_branch *approach;
     wt_indent_workspace *workspace;
+    double contact; /* tip position of contact in a first fit; NaN: there was none */
     curve_input input;
     curve_kind kind;
     curve_solution solution;

@@ -411,6 +411,21 @@ WIDE_REGISTERS static wt_curve_verdict orient_and_centre(curve_input *input, cha
     return WT_CURVE_ACCEPTED;
 }
 
+/* Leaves out the samples before the chosen baseline, and those between its end and contact. */
+static void keep_baseline(const wt_indent_options *options, double contact, curve_input *input)
+{
+    curve_samples *s = &input->samples;
+    size_t n_kept = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        const double at = s->position[i] + input->position_origin;
+        if (at < options->baseline_from || (at > options->baseline_to && at < contact))
+            continue;
+        s->position[n_kept] = s->position[i];
+        s->force[n_kept++] = s->force[i];
+    }
+    s->n = n_kept;
+}
+
 /* Rejects a tip that hardly advances or moves backwards. */
 static wt_curve_verdict advance_verdict(const curve_input *input, char reason[160])
 {
@@ -435,7 +450,8 @@ static wt_curve_verdict advance_verdict(const curve_input *input, char reason[16
 
 wt_curve_verdict curve_prepare(const double *height, const double *force, size_t n,
                                double spring_constant, const wt_indent_options *options,
-                               wt_indent_workspace *w, curve_input *input, char reason[160])
+                               double contact, wt_indent_workspace *w, curve_input *input,
+                               char reason[160])
 {
     *input = (curve_input){.samples = {.position = w->position,
                                        .force = w->force,
@@ -467,6 +483,12 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
     const wt_curve_verdict verdict = orient_and_centre(input, reason);
     if (verdict != WT_CURVE_ACCEPTED)
         return verdict;
+    keep_baseline(options, contact, input);
+    if (s->n < CURVE_MIN_SAMPLES) {
+        curve_set_reason(reason, "%zu samples with the chosen baseline, %d needed", s->n,
+                         CURVE_MIN_SAMPLES);
+        return WT_CURVE_TOO_SHORT;
+    }
 
     input->n_all = s->n;
     size_t top = 0;
