@@ -1,32 +1,17 @@
 /* HTTP server by libmicrohttpd. All requests are answered on the thread that waits, so that nothing
  * needs a lock. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "view/http.h"
+#include "view/view.h"
 
 #include <arpa/inet.h>
 #include <errno.h>
+#include <math.h>
 #include <microhttpd.h>
 #include <netinet/in.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* A client that is slower than this is cut off [s]. */
-enum { IDLE_SECONDS = 20, MAX_CONNECTIONS = 32, CONNECTION_MEMORY = 32 << 10 };
-
-struct http_server {
-    struct MHD_Daemon *daemon;
-    http_admit *admit;
-    http_answer *answer;
-    void *user;
-    unsigned port;
-};
-
-typedef struct http_connection {
-    char *target; /* as sent, not decoded; NULL if it is too long */
-    bool admitted;
-    unsigned status;
-    view_request request;
-    text_buffer body;
-} http_connection;
+enum { IDLE_SECONDS = 20, MAX_CONNECTIONS = 32, CONNECTION_MEMORY = 32 << 10, HTTP_OK = 200 };
 
 /* The policy lets the page load and call this server only. */
 static const char *const headers[][2] = {{"Cache-Control", "no-store"},
@@ -42,140 +27,141 @@ static const char *const headers[][2] = {{"Cache-Control", "no-store"},
                                           "frame-ancestors 'self'; base-uri 'none'; "
                                           "form-action 'none'"}};
 
-static void *start_connection(void *user, const char *target, struct MHD_Connection *connection)
+static void *start_call(void *view, const char *target, struct MHD_Connection *connection)
 {
-    (void)user;
-    (void)connection;
-    http_connection *c = wt_alloc(1, sizeof *c);
-    *c = (http_connection){0};
+    view_call *call = wt_alloc(1, sizeof *call);
+    *call = (view_call){.view = view, .connection = connection, .media = "application/json"};
     if (strnlen(target, VIEW_TARGET_LIMIT + 1) <= VIEW_TARGET_LIMIT)
-        c->target = wt_strdup(target);
-    return c;
+        call->target = wt_strdup(target);
+    return call;
 }
 
-static void end_connection(void *user, struct MHD_Connection *connection, void **state,
-                           enum MHD_RequestTerminationCode code)
+static void end_call(void *view, struct MHD_Connection *connection, void **state,
+                     enum MHD_RequestTerminationCode code)
 {
-    (void)user;
+    view_call *call = *state;
+    (void)view;
     (void)connection;
     (void)code;
-    http_connection *c = *state;
-    if (c == NULL)
+    if (call == NULL)
         return;
-    text_free(&c->body);
-    free(c->target);
-    free(c);
+    text_free(&call->body);
+    text_free(&call->reply);
+    free(call->target);
+    free(call);
     *state = NULL;
 }
 
-static enum MHD_Result send_reply(struct MHD_Connection *connection, view_reply *reply)
+static enum MHD_Result send_reply(const view_call *call)
 {
-    struct MHD_Response *response =
-        reply->bytes != NULL
-            ? MHD_create_response_from_buffer(reply->length, (void *)(size_t)reply->bytes,
-                                              MHD_RESPMEM_PERSISTENT)
-            : MHD_create_response_from_buffer(reply->text.length, reply->text.bytes,
-                                              MHD_RESPMEM_MUST_FREE);
-    if (response == NULL) {
-        text_free(&reply->text);
+    /* The reply is freed with the call, after it is sent. */
+    struct MHD_Response *response = MHD_create_response_from_buffer(
+        call->reply.length, (void *)(size_t)text_string(&call->reply), MHD_RESPMEM_PERSISTENT);
+    if (response == NULL)
         return MHD_NO;
-    }
-    (void)MHD_add_response_header(response, "Content-Type", reply->media);
-    for (size_t i = 0; i < sizeof headers / sizeof headers[0]; i++)
+    (void)MHD_add_response_header(response, "Content-Type", call->media);
+    for (size_t i = 0; i < COUNT_OF(headers); i++)
         (void)MHD_add_response_header(response, headers[i][0], headers[i][1]);
-    const enum MHD_Result result = MHD_queue_response(connection, reply->status, response);
+    const enum MHD_Result result = MHD_queue_response(call->connection, call->status, response);
     MHD_destroy_response(response);
     return result;
 }
 
-static enum MHD_Result refuse(struct MHD_Connection *connection, unsigned status)
+static const char *header(const view_call *call, const char *name)
 {
-    view_reply reply = {.status = status, .media = "text/plain; charset=utf-8"};
-    text_format(&reply.text, "%u: refused; open the address that weartrack view printed\n", status);
-    return send_reply(connection, &reply);
+    return MHD_lookup_connection_value(call->connection, MHD_HEADER_KIND, name);
 }
 
 static enum MHD_Result handle(void *user, struct MHD_Connection *connection, const char *url,
                               const char *method, const char *version, const char *upload,
                               size_t *upload_size, void **state)
 {
-    enum { HTTP_OK = 200, HTTP_BODY_TOO_LARGE = 413, HTTP_TARGET_TOO_LONG = 414 };
-    http_server *server = user;
-    http_connection *c = *state;
+    enum { TARGET_TOO_LONG = 414 };
+    const wt_view *view = user;
+    view_call *call = *state;
+    (void)connection;
     (void)url;
     (void)version;
-    if (!c->admitted) {
-        const view_head head = {
-            .method = method,
-            .target = c->target,
-            .host = MHD_lookup_connection_value(connection, MHD_HEADER_KIND, "Host"),
-            .origin = MHD_lookup_connection_value(connection, MHD_HEADER_KIND, "Origin"),
-            .site = MHD_lookup_connection_value(connection, MHD_HEADER_KIND, "Sec-Fetch-Site")};
-        c->admitted = true;
-        c->status = c->target == NULL ? HTTP_TARGET_TOO_LONG
-                                      : server->admit(server->user, &head, &c->request);
+    if (call->status == 0) {
+        const view_head head = {method, call->target, header(call, "Host"), header(call, "Origin"),
+                                header(call, "Sec-Fetch-Site")};
+        call->status = call->target == NULL
+                           ? TARGET_TOO_LONG
+                           : view_admit(&head, view->token, view->port, &call->route);
+        if (call->status == HTTP_OK)
+            return MHD_YES;
         /* A refusal before the body ends the connection, so that a large body is never read. */
-        return c->status == HTTP_OK ? MHD_YES : refuse(connection, c->status);
+        call->media = "text/plain; charset=utf-8";
+        text_format(&call->reply, "%u: refused; open the address that weartrack view printed\n",
+                    call->status);
+        return send_reply(call);
     }
     if (*upload_size > 0) {
-        if (c->body.length + *upload_size >
-            (c->request.action == VIEW_ADD ? VIEW_FILE_LIMIT : VIEW_BODY_LIMIT))
-            c->status = HTTP_BODY_TOO_LARGE;
-        else
-            text_bytes(&c->body, upload, *upload_size);
+        if (call->body.length + *upload_size > call->route->limit)
+            return MHD_NO;
+        text_bytes(&call->body, upload, *upload_size);
         *upload_size = 0;
-        return c->status == HTTP_OK ? MHD_YES : MHD_NO;
+        return MHD_YES;
     }
-    view_reply reply = {.status = HTTP_OK, .media = "application/json"};
-    server->answer(server->user, &c->request, text_string(&c->body), c->body.length, &reply);
-    return send_reply(connection, &reply);
+    view_answer(call);
+    return send_reply(call);
 }
 
-wt_status http_open(unsigned port, http_admit *admit, http_answer *answer, void *user,
-                    http_server **server, wt_error *err)
+const char *call_text(const view_call *call, const char *name)
+{
+    const char *value = NULL;
+    size_t size = 0;
+    return MHD_lookup_connection_value_n(call->connection, MHD_GET_ARGUMENT_KIND, name,
+                                         strlen(name), &value, &size) == MHD_YES &&
+                   value != NULL && strlen(value) == size
+               ? value
+               : "";
+}
+
+size_t call_number(const view_call *call, const char *name, size_t most)
+{
+    const char *text = call_text(call, name);
+    double value = 0;
+    return text[0] == '\0' ? 0
+           : wt_number_parse(text, strlen(text), '.', &value) && value >= 0 &&
+                   value < (double)most && floor(value) == value
+               ? (size_t)value
+               : most;
+}
+
+wt_status http_open(wt_view *view, wt_error *err)
 {
     struct sockaddr_in loopback = {.sin_family = AF_INET,
-                                   .sin_port = htons((uint16_t)port),
+                                   .sin_port = htons((uint16_t)view->options.port),
                                    .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
-    http_server *s = wt_alloc(1, sizeof *s);
-    *s = (http_server){.admit = admit, .answer = answer, .user = user};
     errno = 0;
-    s->daemon = MHD_start_daemon(
-        MHD_USE_AUTO, (uint16_t)port, NULL, NULL, handle, s, MHD_OPTION_SOCK_ADDR,
-        (struct sockaddr *)&loopback, MHD_OPTION_URI_LOG_CALLBACK, start_connection, NULL,
-        MHD_OPTION_NOTIFY_COMPLETED, end_connection, NULL, MHD_OPTION_CONNECTION_LIMIT,
+    view->daemon = MHD_start_daemon(
+        MHD_USE_AUTO, (uint16_t)view->options.port, NULL, NULL, handle, view, MHD_OPTION_SOCK_ADDR,
+        (struct sockaddr *)&loopback, MHD_OPTION_URI_LOG_CALLBACK, start_call, view,
+        MHD_OPTION_NOTIFY_COMPLETED, end_call, NULL, MHD_OPTION_CONNECTION_LIMIT,
         (unsigned)MAX_CONNECTIONS, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)IDLE_SECONDS,
         MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)CONNECTION_MEMORY, MHD_OPTION_END);
     const union MHD_DaemonInfo *bound =
-        s->daemon != NULL ? MHD_get_daemon_info(s->daemon, MHD_DAEMON_INFO_BIND_PORT) : NULL;
-    if (bound == NULL) {
-        const int code = errno;
-        http_close(s);
-        const wt_status status = wt_fail(err, WT_E_IO, "the server could not listen on port %u: %s",
-                                         port, code != 0 ? strerror(code) : "unknown reason");
-        wt_error_advice(err, "use another --port, or none for a free one");
-        return status;
+        view->daemon != NULL ? MHD_get_daemon_info(view->daemon, MHD_DAEMON_INFO_BIND_PORT) : NULL;
+    if (bound != NULL) {
+        view->port = bound->port;
+        return WT_OK;
     }
-    s->port = bound->port;
-    *server = s;
-    return WT_OK;
+    const wt_status status =
+        wt_fail(err, WT_E_IO, "the server could not listen on port %u: %s", view->options.port,
+                errno != 0 ? strerror(errno) : "unknown reason");
+    wt_error_advice(err, "use another --port, or none for a free one");
+    return status;
 }
 
-unsigned http_port(const http_server *server)
+wt_status http_wait(wt_view *view, unsigned milliseconds, wt_error *err)
 {
-    return server->port;
-}
-
-wt_status http_wait(http_server *server, unsigned milliseconds, wt_error *err)
-{
-    return MHD_run_wait(server->daemon, (int32_t)milliseconds) == MHD_YES || errno == EINTR
+    return MHD_run_wait(view->daemon, (int32_t)milliseconds) == MHD_YES || errno == EINTR
                ? WT_OK
                : wt_fail(err, WT_E_IO, "the server failed: %s", strerror(errno));
 }
 
-void http_close(http_server *server)
+void http_close(wt_view *view)
 {
-    if (server != NULL && server->daemon != NULL)
-        MHD_stop_daemon(server->daemon);
-    free(server);
+    MHD_stop_daemon(view->daemon); /* accepts NULL */
 }

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "view/view.h"
 
+#include "core/base/array.h"
+#include "core/base/memory.h"
 #include "core/base/param.h"
 #include "core/base/shared_params.h"
 #include "job/inputs.h"
@@ -27,29 +29,16 @@ PARAM_TABLE(wt_view_params, wt_view_options, rows, wt_view_defaults, NO_PARTS)
 
 /* ---- files of the call ----------------------------------------------------------------------- */
 
-static bool ends_with(const char *text, const char *ending)
+void view_give_file(wt_view *view, char *path)
 {
-    const size_t n = strlen(text), m = strlen(ending);
-    return n > m && strcmp(text + n - m, ending) == 0;
+    view->given = array_grow(view->given, view->n_given, sizeof *view->given);
+    view->given[view->n_given++] = path;
 }
 
-/* Returns the name of the case with another ending. */
-static char *name_beside_case(const char *name, const char *ending)
+static bool is_case_name(const char *name)
 {
-    const size_t stem = strlen(name) - (ends_with(name, ".xml") ? strlen(".xml") : 0);
-    char *made = wt_alloc(stem + strlen(ending) + 1, 1);
-    memcpy(made, name, stem);
-    memcpy(made + stem, ending, strlen(ending) + 1);
-    return made;
-}
-
-static void set_names(wt_view *view, const char *case_name)
-{
-    view->case_name = wt_strdup(case_name);
-    view->case_path = wt_path_join(view->folder.path, case_name);
-    view->report_name = name_beside_case(case_name, "-report");
-    if (view->result_name == NULL)
-        view->result_name = name_beside_case(case_name, ".h5");
+    const size_t n = strlen(name);
+    return n > strlen(".xml") && strcmp(name + n - strlen(".xml"), ".xml") == 0;
 }
 
 /* Returns the name of the case file of a result; NULL if the result is not that of a case. */
@@ -62,116 +51,121 @@ static const char *case_of_result(const wt_result *result)
     return NULL;
 }
 
-static wt_status open_folder_of(wt_view *view, const char *path, wt_error *err)
+/* Returns the absolute path, because programs run in the folder of the case and the page shows it.
+ */
+static char *absolute_path(const char *path, wt_error *err)
 {
-    char *folder = wt_path_folder(path);
-    const wt_status status = case_folder_open(folder, &view->folder, err);
-    free(folder);
-    return status;
+    char *absolute = realpath(path, NULL);
+    if (absolute == NULL) {
+        (void)wt_fail(err, WT_E_IO, "%s", strerror(errno));
+        wt_error_file(err, path);
+    }
+    return absolute;
 }
 
-static wt_status check_name(const char *name, wt_error *err)
+static wt_status set_names(wt_view *view, const char *case_name, const char *result_name,
+                           wt_error *err)
 {
-    if (case_folder_is_name(name))
+    const int stem = (int)strlen(case_name) - (is_case_name(case_name) ? (int)strlen(".xml") : 0);
+    view->case_name = wt_strdup(case_name);
+    view->case_path = wt_path_join(view->folder, case_name);
+    view->report_name = format_text("%.*s-report", stem, case_name);
+    view->result_name =
+        result_name != NULL ? wt_strdup(result_name) : format_text("%.*s.h5", stem, case_name);
+    if (is_plain_name(view->case_name) && is_plain_name(view->result_name))
         return WT_OK;
     const wt_status status = wt_fail(err, WT_E_ARG, "the name of the file cannot be used here");
-    wt_error_file(err, name);
+    wt_error_file(err, result_name != NULL ? result_name : case_name);
     wt_error_expected(err, "a name that does not begin with . or -");
     return status;
 }
 
-/* Adds a data file by its absolute path, because the programs run in the folder of the case. */
-static wt_status add_data_file(wt_view *view, const char *path, wt_error *err)
-{
-    char *absolute = realpath(path, NULL);
-    if (absolute == NULL) {
-        const wt_status status = wt_fail(err, WT_E_IO, "%s", strerror(errno));
-        wt_error_file(err, path);
-        return status;
-    }
-    view->by_files = true;
-    view_give_file(view, absolute);
-    return WT_OK;
-}
-
-/* Opens one file: a case by its ending, a result by its content, else data. */
-static wt_status open_file(wt_view *view, const char *path, wt_error *err)
-{
-    const char *name = wt_path_base(path);
-    wt_result *result = NULL;
-    wt_status status = open_folder_of(view, path, err);
-    if (status == WT_OK && ends_with(name, ".xml")) {
-        status = check_name(name, err);
-        if (status == WT_OK)
-            set_names(view, name);
-        return status;
-    }
-    if (status == WT_OK && wt_store_read(path, &result, NULL) == WT_OK) {
-        const char *of = case_of_result(result);
-        status = check_name(name, err);
-        view->result_name = wt_strdup(name);
-        set_names(view, of != NULL && case_folder_is_name(of) ? of : "case.xml");
-        wt_result_free(result);
-        return status;
-    }
-    if (status == WT_OK)
-        set_names(view, "case.xml");
-    return status == WT_OK ? add_data_file(view, path, err) : status;
-}
-
+/* Opens a folder, a case by its ending, a result by its content, or data files. */
 static wt_status open_paths(wt_view *view, wt_error *err)
 {
-    struct stat state;
     const wt_view_options *o = &view->options;
-    const char *first = o->n_paths > 0 ? o->paths[0] : ".";
-    if (o->n_paths <= 1 && stat(first, &state) == 0 && S_ISDIR(state.st_mode)) {
-        const wt_status status = case_folder_open(first, &view->folder, err);
-        if (status == WT_OK)
-            set_names(view, "case.xml");
-        return status;
+    struct stat state;
+    wt_result *result = NULL;
+    const char *first = o->n_paths > 0 ? o->paths[0] : ".", *name = wt_path_base(first);
+    const bool is_one = o->n_paths <= 1,
+               is_folder = is_one && stat(first, &state) == 0 && S_ISDIR(state.st_mode),
+               is_case = is_one && !is_folder && is_case_name(name),
+               is_result =
+                   is_one && !is_folder && !is_case && wt_store_read(first, &result, NULL) == WT_OK;
+    char *folder = is_folder ? wt_strdup(first) : wt_path_folder(first);
+    const char *of = is_result ? case_of_result(result) : is_case ? name : NULL;
+    view->folder = absolute_path(folder, err);
+    free(folder);
+    wt_status status = view->folder == NULL ? WT_E_IO
+                                            : set_names(view, of != NULL ? of : "case.xml",
+                                                        is_result ? name : NULL, err);
+    wt_result_free(result);
+    view->by_files = !is_folder && !is_case && !is_result;
+    for (size_t i = 0; status == WT_OK && view->by_files && i < o->n_paths; i++) {
+        char *path = absolute_path(o->paths[i], err);
+        status = path != NULL ? WT_OK : WT_E_IO;
+        if (path != NULL)
+            view_give_file(view, path);
     }
-    if (o->n_paths == 1)
-        return open_file(view, first, err);
-    wt_status status = open_folder_of(view, first, err);
-    if (status == WT_OK)
-        set_names(view, "case.xml");
-    for (size_t i = 0; status == WT_OK && i < o->n_paths; i++)
-        status = add_data_file(view, o->paths[i], err);
     return status;
 }
 
-/* ---- pages ----------------------------------------------------------------------------------- */
+/* ---- serving --------------------------------------------------------------------------------- */
 
-static unsigned admit(void *user, const view_head *head, view_request *request)
+/* Answers requests for about the time [ms]. False at the end: by the user or without a page. */
+static bool serve_step(wt_view *view, unsigned milliseconds, wt_status *status, wt_error *err)
 {
-    const wt_view *view = user;
-    return view_request_parse(head, view->token, http_port(view->server), request);
+    const wt_progress *p = view->progress;
+    if (p != NULL && p->report != NULL && !p->report(p->user, "serving", 0, 0))
+        return false;
+    *status = http_wait(view, milliseconds, err);
+    return *status == WT_OK && !(view->end_time > 0 && wt_time_wall() > view->end_time);
 }
 
-/* Removes pages that have not reported for a while: a hidden page reports once a minute. Returns
- * true if the server ends. */
-static bool is_last_page_closed(wt_view *view)
+/* Called while the program runs; false ends it. */
+static bool go_on(void *user)
 {
-    enum { LOST_AFTER = 180 }; /* s */
-    const double now = wt_time_wall();
-    for (size_t i = 0; i < view->n_pages;)
-        if (now - view->pages[i].last > LOST_AFTER) {
-            view->pages[i] = view->pages[--view->n_pages];
-            view->close_time = now;
-        } else {
-            i++;
-        }
-    return view->n_pages == 0 && view->close_time > 0 && now > view->close_time;
+    enum { STEP = 20 };                /* ms */
+    static const double between = 0.1; /* time between two looks at the program [s] */
+    wt_view *view = user;
+    wt_status status = WT_OK;
+    const double next = wt_time_wall() + between;
+    while (!view->program.stop && wt_time_wall() < next)
+        if (!serve_step(view, STEP, &status, NULL))
+            return false;
+    return !view->program.stop;
+}
+
+static void run_program(wt_view *view)
+{
+    enum { DAY = 86400 };
+    view_program *p = &view->program;
+    wt_error err = WT_ERROR_INIT;
+    program_result end;
+    const program_call call = {.program = view->options.program,
+                               .arguments = (const char *const *)p->arguments,
+                               .folder = view->folder,
+                               .limit = DAY,
+                               .go_on = go_on,
+                               .user = view};
+    if (program_run(&call, &end, &err) != WT_OK) {
+        end = (program_result){.outcome = PROGRAM_NOT_STARTED};
+        (void)snprintf(end.words, sizeof end.words, "%.300s", err.message);
+    }
+    p->end = end;
+    p->time = wt_time_wall() - p->time;
+    p->n_ended++;
+    p->running = false;
 }
 
 wt_status wt_view_serve(wt_view *view, const wt_progress *progress, wt_error *err)
 {
     enum { STEP = 100 }; /* ms */
     wt_status status = WT_OK;
-    while (status == WT_OK && !is_last_page_closed(view) &&
-           (progress == NULL || progress->report == NULL ||
-            progress->report(progress->user, "serving", 0, 0)))
-        status = http_wait(view->server, STEP, err);
+    view->progress = progress;
+    while (serve_step(view, STEP, &status, err))
+        if (view->program.running)
+            run_program(view);
     return status;
 }
 
@@ -195,22 +189,20 @@ wt_status wt_view_open(const wt_view_options *options, wt_view **view, wt_error 
     if (status != WT_OK)
         return status;
     wt_view *v = wt_alloc(1, sizeof *v);
-    *v = (wt_view){.options = *options, .folder = {.descriptor = -1}};
+    *v = (wt_view){.options = *options};
     status = open_paths(v, err);
     if (status == WT_OK)
         status = wt_formats_new(options->formats, &v->formats, NULL, err);
     if (status == WT_OK)
         status = create_token(v->token, err);
     if (status == WT_OK)
-        status = http_open(options->port, admit, view_answer, v, &v->server, err);
+        status = http_open(v, err);
     if (status != WT_OK) {
         wt_view_close(v);
         return status;
     }
-    v->program = view_program_new(options->program);
     v->refit = case_refit_new(v->formats);
-    (void)snprintf(v->address, sizeof v->address, "http://127.0.0.1:%u/%s/", http_port(v->server),
-                   v->token);
+    (void)snprintf(v->address, sizeof v->address, "http://127.0.0.1:%u/%s/", v->port, v->token);
     *view = v;
     return WT_OK;
 }
@@ -229,17 +221,18 @@ void wt_view_close(wt_view *view)
 {
     if (view == NULL)
         return;
-    http_close(view->server);
-    view_program_free(view->program);
+    http_close(view);
     case_refit_free(view->refit);
     wt_formats_free(view->formats);
     wt_result_free(view->result);
     wt_strings_free(view->given, view->n_given);
     wt_strings_free(view->files, view->n_files);
-    case_folder_close(&view->folder);
+    wt_strings_free(view->program.arguments, view->program.n);
+    free(view->folder);
     free(view->case_name);
     free(view->case_path);
     free(view->result_name);
     free(view->report_name);
+    free(view->overrides_name);
     free(view);
 }

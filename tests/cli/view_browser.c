@@ -531,11 +531,12 @@ static void test_other_origin(const char *address)
     (void)snprintf(expression, sizeof expression,
                    "await fetch('%sstate').then(() => 'read', () => 'refused')", address);
     check(strcmp(js(expression), "refused") == 0, "another origin reads");
-    (void)snprintf(expression, sizeof expression,
-                   "await fetch('%soverrides?was=', {method: 'POST', mode: 'no-cors', body: "
-                   "'x'}).then(() => 'sent', "
-                   "() => 'refused')",
-                   address);
+    (void)snprintf(
+        expression, sizeof expression,
+        "await fetch('%ssave?name=overrides.tsv&was=', {method: 'POST', mode: 'no-cors', body: "
+        "'x'}).then(() => 'sent', "
+        "() => 'refused')",
+        address);
     (void)js(expression);
     shell("grep -q contact-point overrides.tsv");
 }

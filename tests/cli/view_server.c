@@ -24,10 +24,13 @@ static char *answer; /* [ANSWER_SIZE] head and body of the last answer */
 static unsigned port;
 static char token[64];
 static const char *program;
+static pid_t server;
 
 static _Noreturn void fail(const char *what)
 {
     fprintf(stderr, "FAIL %s: %.600s\n", what, answer);
+    if (server > 0)
+        (void)kill(server, SIGKILL);
     exit(1);
 }
 
@@ -210,12 +213,15 @@ static void test_refusals(const char *case_text)
     (void)snprintf(head, sizeof head, "GET /state HTTP/1.1\r\nHost: 127.0.0.1:%u\r\n", port);
     check(send_request(head, "", 0) == 403 && strstr(answer, token) == NULL, "no token");
     expect(404, "GET", "../../etc/passwd", "", "");
-    expect(405, "GET", "case", "", "");
-    expect(400, "GET", "info?number=x", "", "");
+    expect(405, "GET", "save", "", "");
+    expect(422, "GET", "info?number=x", "", "no file has this number");
+    expect(422, "GET", "info?number=-1", "", "no file has this number");
+    expect(422, "GET", "info?number=1e99", "", "no file has this number");
     expect(422, "GET", "info?number=99999", "", "error");
     expect(422, "POST", "check", "<case", "error");
     expect(422, "POST", "new-case", "", "there is a case already");
-    expect(422, "POST", "case?was=", "<case version=\"1\"><unknown/></case>", "error");
+    expect(422, "POST", "save?name=case.xml&was=", "<case version=\"1\"><unknown/></case>",
+           "error");
     expect(422, "POST", "curve?group=bulk&file=..%2F..%2Fetc%2Fpasswd&number=0", case_text,
            "error");
     /* a body that is larger than allowed is not read to its end */
@@ -231,25 +237,25 @@ static void test_refusals(const char *case_text)
     (void)send_bytes(garbage, huge, 100000);
     check(receive_answer(garbage) != 200, "garbage");
     free(huge);
-    expect(200, "GET", "state", "", "caseText");
+    expect(200, "GET", "state", "", "\"case\":");
     close(silent);
 }
 
 /* A file is added once, under a plain name in the folder of the case; nothing is replaced. */
-static void test_added_files(void)
+static void test_added_files(const char *case_text)
 {
     enum { HUGE = 65 << 20 };
     char head[1024];
     struct stat state;
     check(symlink("behind.txt", "link.txt") == 0, "link");
-    expect(200, "POST", "add?name=new%20one.txt", "of a\tfile\n", "{}");
+    expect(200, "POST", "save?name=new%20one.txt", "of a\tfile\n", "digest");
     char *text = read_file("new one.txt");
     check(strcmp(text, "of a\tfile\n") == 0, "bytes of an added file");
     free(text);
     expect(200, "GET", "state", "", "/new one.txt");
-    expect(422, "POST", "add?name=new%20one.txt", "other", "has a file of this name");
-    expect(422, "POST", "add?name=case.xml", "<case version=\"1\"/>", "has a file of this name");
-    expect(422, "POST", "add?name=link.txt", "x", "has a file of this name");
+    expect(422, "POST", "save?name=new%20one.txt", "other", "has a file of this name");
+    expect(409, "POST", "save?name=case.xml", case_text, "has changed");
+    expect(422, "POST", "save?name=link.txt", "x", "has a file of this name");
     check(stat("behind.txt", &state) != 0, "a link is not followed");
     static const char *const names[] = {"..%2Foutside.txt",
                                         "%2Ftmp%2Foutside.txt",
@@ -261,29 +267,29 @@ static void test_added_files(void)
                                         "."};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char target[128];
-        (void)snprintf(target, sizeof target, "add?name=%s", names[i]);
+        (void)snprintf(target, sizeof target, "save?name=%s", names[i]);
         expect(422, "POST", target, "x", "no plain file name");
     }
-    expect(400, "POST", "add?name=a%00b", "x", "");
-    expect(400, "POST", "add?name=a%0Ab", "x", "");
-    expect(422, "POST", "add", "x", "no plain file name");
-    expect(405, "GET", "add?name=got.txt", "", "");
+    expect(422, "POST", "save?name=a%00b", "x", "no plain file name");
+    expect(422, "POST", "save?name=a%0Ab", "x", "no plain file name");
+    expect(422, "POST", "save", "x", "no plain file name");
+    expect(405, "GET", "save?name=got.txt", "", "");
     check(stat("../outside.txt", &state) != 0 && stat("got.txt", &state) != 0,
           "nothing is written");
     (void)snprintf(head, sizeof head,
-                   "POST /%s/add?name=evil.txt HTTP/1.1\r\nHost: 127.0.0.1:%u\r\n"
+                   "POST /%s/save?name=evil.txt HTTP/1.1\r\nHost: 127.0.0.1:%u\r\n"
                    "Origin: http://evil.example\r\n",
                    token, port);
     check(send_request(head, "x", 1) == 403, "a file from another origin");
     (void)snprintf(head, sizeof head,
-                   "POST /%.*s/add?name=evil.txt HTTP/1.1\r\nHost: 127.0.0.1:%u\r\n", 31, token,
+                   "POST /%.*s/save?name=evil.txt HTTP/1.1\r\nHost: 127.0.0.1:%u\r\n", 31, token,
                    port);
     check(send_request(head, "x", 1) == 403, "a file with a part of the token");
     char *huge = malloc(HUGE);
     check(huge != NULL, "memory");
     memset(huge, 'x', HUGE);
     (void)snprintf(head, sizeof head,
-                   "POST /%s/add?name=evil.txt HTTP/1.1\r\nHost: 127.0.0.1:%u\r\n", token, port);
+                   "POST /%s/save?name=evil.txt HTTP/1.1\r\nHost: 127.0.0.1:%u\r\n", token, port);
     check(send_request(head, huge, HUGE) != 200, "a file that is too large");
     free(huge);
     check(stat("evil.txt", &state) != 0, "no file of a refused request");
@@ -308,9 +314,10 @@ static void test_digits(const char *case_text)
     check(strcmp(of_curve, of_run) == 0 && strcmp(of_trial, of_run) == 0, "digits");
     /* another contact point, as an override that the shell repeats */
     char target[256], overrides[512];
-    (void)snprintf(target, sizeof target,
-                   "curve?group=bulk&file=bulk-1.jpk-force-map&number=0&contact=%.12g",
-                   atof(contact) + 5e-9);
+    (void)snprintf(
+        target, sizeof target,
+        "curve?group=bulk&file=bulk-1.jpk-force-map&number=0&name=fixed-contact-point&value=%.12gm",
+        atof(contact) + 5e-9);
     expect(200, "POST", target, case_text, "contact point by hand");
     member("\"rows\"", "modulus", moved, sizeof moved);
     check(strcmp(moved, of_run) != 0, "a moved contact point changes the modulus");
@@ -319,17 +326,18 @@ static void test_digits(const char *case_text)
         "## table: choices\n# group[text]\tfile[text]\tcurve[1]\tchoice[text]\tvalue[text]\t"
         "note[text]\nbulk\tbulk-1.jpk-force-map\t0\tcontact-point\t%.12gm\t-\n##\n",
         atof(contact) + 5e-9);
-    expect(200, "POST", "overrides?was=", overrides, "digest");
-    expect(409, "POST", "overrides?was=", overrides, "error"); /* the file is not new any more */
+    expect(200, "POST", "save?name=overrides.tsv&was=", overrides, "digest");
+    expect(409, "POST", "save?name=overrides.tsv&was=", overrides,
+           "error"); /* the file is not new any more */
     const char *section = "<indentation>";
     const char *at = strstr(case_text, section);
     char *changed = calloc(1, strlen(case_text) + 256), digest[80];
     check(at != NULL && changed != NULL, section);
     (void)sprintf(changed, "%.*s%s<overrides>overrides.tsv</overrides>%s", (int)(at - case_text),
                   case_text, section, at + strlen(section));
-    expect(200, "GET", "state", "", "caseDigest");
-    member("caseText", "caseDigest", digest, sizeof digest);
-    (void)snprintf(target, sizeof target, "case?was=%s", digest);
+    expect(200, "GET", "state", "", "digest");
+    member("\"case\":", "digest", digest, sizeof digest);
+    (void)snprintf(target, sizeof target, "save?name=case.xml&was=%s", digest);
     expect(200, "POST", target, changed, "digest");
     check(run(words) == 0, "run with overrides");
     expect(200, "GET", "table?name=indentation/bulk", "", "by hand");
@@ -344,7 +352,7 @@ static void test_link(void)
 {
     copy("case.xml", "secret.txt");
     check(unlink("overrides.tsv") == 0 && symlink("secret.txt", "overrides.tsv") == 0, "link");
-    expect(422, "POST", "overrides?was=", "x", "error");
+    expect(422, "POST", "save?name=overrides.tsv&was=", "x", "error");
     expect(200, "GET", "state", "", "symbolic links are not followed");
     char *text = read_file("secret.txt");
     check(strncmp(text, "<?xml", 5) == 0, "the file behind a link is unchanged");
@@ -395,22 +403,22 @@ int main(int argc, char **argv)
         (void)snprintf(path, sizeof path, "%s/case/%s", argv[2], names[i]);
         copy(path, names[i]);
     }
-    pid_t server = start_server("case.xml");
+    server = start_server("case.xml");
     char *case_text = read_file("case.xml");
     expect(200, "GET", "", "", "Content-Security-Policy");
     expect(200, "GET", "view.js", "", "text/javascript");
     expect(200, "GET", "state", "", "road-1.gsf"); /* numbers the files */
     expect(200, "GET", "info?number=0", "", "gsf");
     test_refusals(case_text);
-    test_added_files();
+    test_added_files(case_text);
     test_digits(case_text);
     test_link();
     test_latency(case_text);
     /* Ctrl-C ends it at once; the end of the last page after a few seconds */
     check(kill(server, SIGINT) == 0 && end_of(server, 20) == 128 + SIGINT, "Ctrl-C");
     server = start_server(".");
-    expect(200, "POST", "alive?page=00ff", "", "{}");
-    expect(200, "POST", "leave?page=00ff", "", "{}");
+    expect(200, "POST", "page?name=open", "", "{}");
+    expect(200, "POST", "page?name=leave", "", "{}");
     check(end_of(server, 30) == 0, "the end of the last page");
     free(case_text);
     free(answer);

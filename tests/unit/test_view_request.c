@@ -2,10 +2,8 @@
  * folder of the case are neither read nor written. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
 
-#include "view/case_folder.h"
-#include "view/request.h"
+#include "view/view.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -14,13 +12,13 @@
 #define TOKEN "0123456789abcdef0123456789abcdef"
 enum { PORT = 4711 };
 
-static view_request request;
+static const view_route *route;
 
 static unsigned parse(const char *method, const char *target, const char *host, const char *origin,
                       const char *site)
 {
     const view_head head = {method, target, host, origin, site};
-    return view_request_parse(&head, TOKEN, PORT, &request);
+    return view_admit(&head, TOKEN, PORT, &route);
 }
 
 static unsigned get(const char *target)
@@ -32,25 +30,16 @@ static void admits_its_page(void **state)
 {
     (void)state;
     assert_int_equal(get("/" TOKEN "/"), 200);
-    assert_int_equal(request.action, VIEW_FILE);
-    assert_string_equal(request.name, "view.html");
+    assert_ptr_equal(route, view_routes);
     assert_int_equal(get("/" TOKEN "/plot.js"), 200);
-    assert_string_equal(request.name, "plot.js");
-    assert_int_equal(
-        parse("POST", "/" TOKEN "/curve?group=track&file=a%20%C3%A4.txt&number=17&contact=-4.5e-6",
-              "localhost:4711", "http://localhost:4711", "same-origin"),
-        200);
-    assert_int_equal(request.action, VIEW_CURVE);
-    assert_string_equal(request.group, "track");
-    assert_string_equal(request.file, "a \xc3\xa4.txt");
-    assert_int_equal(request.number, 17);
-    assert_true(request.contact_point == -4.5e-6);
-    assert_int_equal(parse("POST", "/" TOKEN "/trial?name=friction+layer&replicates=200",
-                           "127.0.0.1:4711", NULL, NULL),
+    assert_ptr_equal(route, view_routes);
+    assert_int_equal(parse("POST", "/" TOKEN "/curve?group=track&file=a%20%C3%A4.txt&number=17",
+                           "localhost:4711", "http://localhost:4711", "same-origin"),
                      200);
-    assert_string_equal(request.name, "friction layer");
-    assert_int_equal(request.replicates, 200);
-    assert_true(isnan(request.contact_point));
+    assert_string_equal(route->path, "curve");
+    assert_int_equal(
+        parse("POST", "/" TOKEN "/save?name=case.xml&was=", "127.0.0.1:4711", NULL, NULL), 200);
+    assert_int_equal(route->limit, VIEW_FILE_LIMIT);
 }
 
 static void refuses_others(void **state)
@@ -82,46 +71,22 @@ static void refuses_others(void **state)
 static void refuses_what_is_malformed(void **state)
 {
     (void)state;
-    static const char *const wrong[] = {"state?",
-                                        "state?number",
-                                        "state?=1",
-                                        "state?number=-1",
-                                        "state?number=1x",
-                                        "state?number=1.5",
-                                        "state?number=1e99",
-                                        "state?unknown=1",
-                                        "state?file=%",
-                                        "state?file=%4",
-                                        "state?file=%zz",
-                                        "state?file=%00",
-                                        "state?file=%0a",
-                                        "state?file=%ff",
-                                        "state?was=xyz",
-                                        "state?contact=nan",
-                                        "state?contact=",
-                                        "state?replicates=100001",
-                                        "state?group=" TOKEN TOKEN};
-    char target[256];
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        (void)snprintf(target, sizeof target, "/" TOKEN "/%s", wrong[i]);
-        if (get(target) != (i == 0 ? 200U : 400U)) /* an empty query is none */
-            fail_msg("%s", wrong[i]);
-    }
     assert_int_equal(get("/" TOKEN "/../state"), 404);
     assert_int_equal(get("/" TOKEN "/%2e%2e/state"), 404);
     assert_int_equal(get("/" TOKEN "/sub/plot.js"), 404);
     assert_int_equal(get("/" TOKEN "/nothing"), 404);
-    assert_int_equal(get("/" TOKEN "/case"), 405);
+    assert_int_equal(get("/" TOKEN "/stat"), 404);
+    assert_int_equal(get("/" TOKEN "/state/"), 404);
+    assert_int_equal(get("/" TOKEN "/state%00"), 404);
+    assert_int_equal(get("/" TOKEN "/save"), 405);
     assert_int_equal(parse("POST", "/" TOKEN "/state", "127.0.0.1:4711", NULL, NULL), 405);
-    assert_int_equal(parse("DELETE", "/" TOKEN "/case", "127.0.0.1:4711", NULL, NULL), 405);
+    assert_int_equal(parse("DELETE", "/" TOKEN "/save", "127.0.0.1:4711", NULL, NULL), 405);
     assert_int_equal(parse("GET", NULL, "127.0.0.1:4711", NULL, NULL), 400);
     char *huge = malloc(VIEW_TARGET_LIMIT + 2);
     memset(huge, 'a', VIEW_TARGET_LIMIT + 1);
     huge[VIEW_TARGET_LIMIT + 1] = '\0';
     memcpy(huge, "/" TOKEN "/state?file=", sizeof "/" TOKEN "/state?file=" - 1);
     assert_int_equal(get(huge), 414);
-    huge[2000] = '\0'; /* longer than a name of a file */
-    assert_int_equal(get(huge), 400);
     free(huge);
 }
 
@@ -140,9 +105,7 @@ static void put(const char *name, const char *text)
 static void stays_in_its_folder(void **state)
 {
     (void)state;
-    case_folder folder;
-    text_buffer text = {0};
-    bool exists = false;
+    text_buffer text = {0}, x = {0}, after = {0}, none = {0};
     wt_error err = WT_ERROR_INIT;
     assert_non_null(mkdtemp(place));
     assert_int_equal(chdir(place), 0);
@@ -151,28 +114,29 @@ static void stays_in_its_folder(void **state)
     put("case/case.xml", "before");
     assert_int_equal(symlink("../outside.txt", "case/link.xml"), 0);
     assert_int_equal(mkfifo("case/pipe.xml", 0666), 0);
-    assert_int_equal(case_folder_open("case", &folder, &err), WT_OK);
+    text_add(&x, "x");
+    text_add(&after, "after");
     static const char *const wrong[] = {"../outside.txt", "/etc/hostname", "..", ".",    "",
                                         ".hidden",        "a/b",           "-o", "a\nb", "link.xml",
                                         "pipe.xml"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        if (case_folder_read(&folder, wrong[i], 100, &exists, &text, &err) == WT_OK || exists ||
-            text.length > 0)
+        if (case_file_read("case", wrong[i], 100, &text, &err) == WT_OK || text.length > 0)
             fail_msg("%s was read", wrong[i]);
-        if (case_folder_write(&folder, wrong[i], "x", 1, &err) == WT_OK)
-            fail_msg("%s was written", wrong[i]);
+        for (int replace = 0; replace < 2; replace++)
+            if (case_file_write("case", wrong[i], replace, &x, &err) == WT_OK)
+                fail_msg("%s was written", wrong[i]);
     }
-    assert_int_equal(case_folder_read(&folder, "case.xml", 5, &exists, &text, &err), WT_E_IO);
+    assert_int_equal(case_file_read("case", "case.xml", 5, &text, &err), WT_E_IO);
     text_free(&text);
-    assert_int_equal(case_folder_write(&folder, "case.xml", "after", 5, &err), WT_OK);
-    assert_int_equal(case_folder_write(&folder, "new.tsv", "", 0, &err), WT_OK);
-    assert_int_equal(case_folder_read(&folder, "case.xml", 5, &exists, &text, &err), WT_OK);
-    assert_true(exists);
+    assert_int_equal(case_file_write("case", "case.xml", false, &after, &err), WT_E_IO);
+    assert_int_equal(case_file_write("case", "case.xml", true, &after, &err), WT_OK);
+    assert_int_equal(case_file_write("case", "new.tsv", false, &none, &err), WT_OK);
+    assert_int_equal(case_file_read("case", "case.xml", 5, &text, &err), WT_OK);
     assert_string_equal(text_string(&text), "after");
     text_free(&text);
-    assert_int_equal(case_folder_read(&folder, "none.xml", 5, &exists, &text, &err), WT_OK);
-    assert_false(exists);
-    case_folder_close(&folder);
+    assert_int_equal(case_file_read("case", "none.xml", 5, &text, &err), WT_E_NOT_FOUND);
+    text_free(&x);
+    text_free(&after);
     FILE *file = fopen("outside.txt", "r");
     char word[16] = "";
     assert_true(file != NULL && fgets(word, sizeof word, file) != NULL);

@@ -6,7 +6,6 @@
 #include "core/base/memory.h"
 #include "job/inputs.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -124,6 +123,7 @@ wt_status case_refit_curve(case_refit *refit, const char *xml, size_t length, co
     const flow_stage_id stage = g ? FLOW_STAGE_INDENTATION_TRACK : FLOW_STAGE_INDENTATION_BULK;
     wt_case *c = NULL;
     flow_run run = {0};
+    uint64_t given = 0;
     wt_status status = case_from_bytes(xml, length, path, &c, err);
     if (status != WT_OK)
         return status;
@@ -146,9 +146,11 @@ wt_status case_refit_curve(case_refit *refit, const char *xml, size_t length, co
         job.median_curve = false;
         job.curves = samples;
         job.n_curves = COUNT_OF(samples);
-        if (!isnan(which->contact_point))
-            job.options.fixed_contact_point = which->contact_point;
-        status = wt_indent_group(&job, &run.job, tables, err);
+        if (which->option[0] != '\0')
+            status = wt_params_set(wt_indent_params(), which->option, &job.options, which->value,
+                                   &given, err);
+        if (status == WT_OK)
+            status = wt_indent_group(&job, &run.job, tables, err);
     }
     wt_case_free(c);
     return status;

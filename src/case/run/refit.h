@@ -15,7 +15,9 @@ typedef struct refit_curve {
     const char *group; /* "bulk" or "track" */
     const char *file;  /* as in the column of the table */
     size_t curve;
-    double contact_point; /* [m]; NaN: that of the manual overrides, else fitted */
+    /* Another value of an option of wt_indent_params, such as "baseline-to"; "": none. It takes
+     * precedence over the manual overrides. */
+    const char *option, *value;
 } refit_curve;
 
 /* Fits one curve. `tables` receives its row and its samples. The text of the case is the one of

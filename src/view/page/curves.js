@@ -27,17 +27,21 @@
     }
   };
   const overridesText = () => Shared.overridesText(overrides.map((row) => names.map((name) => row[name] || '')));
-  const belongs = (row, curve) => (row.group === '' || row.group === group) && row.file === curve.file &&
-    row.curve === String(curve.curve);
-  const chosen = (curve, choice) => overrides.find((row) => belongs(row, curve) && row.choice === choice);
+  const fileChoices = ['spring-constant'];
+  const isOfFile = (row, curve) => (row.group === '' || row.group === group) && row.file === curve.file;
+  const belongs = (row, curve) => isOfFile(row, curve) && row.curve === String(curve.curve);
+  const chosen = (curve, choice) => overrides.find((row) => row.choice === choice &&
+    (fileChoices.includes(choice) ? isOfFile : belongs)(row, curve));
   /* Writes follow one another, as each replaces the file of the one before. Meanwhile the rows here are
    * newer than those of the state. */
   let writing = 0, last = Promise.resolve();
   const writeNow = async () => {
     const text = overridesText(), state = View.state();
-    const {digest} = await View.call('overrides', {was: state.overridesDigest}, text);
+    if (state.overrides.name === null)
+      throw new Error('The overrides of the case are in another folder: move the file beside the case and correct <overrides>.');
+    const {digest} = await View.call('save', {name: state.overrides.name, was: state.overrides.digest}, text);
     View.setOverrides(text, digest);
-    if (!View.has('indentation/overrides')) View.edit({'indentation/overrides': state.overridesName});
+    if (!View.has('indentation/overrides')) View.edit({'indentation/overrides': state.overrides.name});
     document.documentElement.dataset.overrides = overrides.length;
   };
   const write = async () => {
@@ -50,12 +54,16 @@
       writing--;
     }
   };
-  /* Sets or removes (null) an override of the curve, writes the file and fits again. */
-  const choose = View.guard(async (curve, choice, value, note) => {
+  /* Sets or removes (null) overrides of the curve or its file, writes the file and fits again. */
+  const choose = View.guard(async (curve, values, note) => {
     undone.push(overrides.map((row) => ({...row})));
-    overrides = overrides.filter((row) => !(belongs(row, curve) && row.choice === choice));
-    if (value !== null)
-      overrides.push({group, file: curve.file, curve: String(curve.curve), choice, value, note: note || ''});
+    for (const [choice, value] of Object.entries(values)) {
+      const old = chosen(curve, choice);
+      overrides = overrides.filter((row) => row !== old);
+      if (value !== null)
+        overrides.push({group, file: curve.file, curve: fileChoices.includes(choice) ? 'nan' : String(curve.curve),
+          choice, value, note: note || ''});
+    }
     await write();
     await refit(curve);
     groupFit();
@@ -70,9 +78,8 @@
 
   /* ---- the curve ------------------------------------------------------------------------------ */
 
-  const request = View.latest(async (curve, contact, source) => {
-    const parameters = {group, file: curve.file, number: curve.curve};
-    if (contact !== null) parameters.contact = contact;
+  const request = View.latest(async (curve, option, source) => {
+    const parameters = {group, file: curve.file, number: curve.curve, ...option};
     const reply = await View.call('curve', parameters, source || View.text());
     const [row, samples] = reply.tables.map(View.table);
     return {row: row.rows[0], keys: row.keys, samples, time: reply.time};
@@ -104,23 +111,39 @@
     const out = chosen(curve, 'exclude');
     ui.exclude.checked = Boolean(out);
     ui.note.value = out ? out.note : '';
-    ui.free.disabled = !chosen(curve, 'contact-point');
+    ui.free.disabled = !byHand.some((choice) => chosen(curve, choice));
+    const lever = chosen(curve, 'spring-constant');
+    ui.lever.value = lever ? lever.value : '';
     document.documentElement.dataset.modulus = row.modulus;
     document.documentElement.dataset.contact = row.contact_point;
   };
+  const metres = (text, missing) => {
+    const found = /^([-+0-9.eE]+) *(nm|um|µm|m)$/.exec(text || '');
+    return found ? Number(found[1]) * {nm: 1e-9, um: 1e-6, 'µm': 1e-6, m: 1}[found[2]] : missing;
+  };
+  const byHand = ['contact-point', 'baseline-from', 'baseline-to'];
   const rangeValues = {'fit-depth': 'End of the fit', 'fit-depth-from': 'Begin of the fit'};
   const markers = (curve) => {
     if (fit.row.contact_point === null) return [];
-    if (ui.axis.value === 'displacement')
-      return [{x: fit.row.contact_point - origin, label: 'contact point', unit: 'm',
-        focused: document.activeElement && document.activeElement.classList.contains('marker'),
-        moved: (x, done) => drag(curve, x + origin, done)}];
+    if (ui.axis.value === 'displacement') {
+      const contact = fit.row.contact_point - origin;
+      const first = Math.min(...fit.samples.column('displacement').filter((v) => v !== null)) + contact;
+      const now = (choice, missing) => {
+        const row = chosen(curve, choice);
+        return metres(row && row.value, missing + origin) - origin;
+      };
+      /* The end stands beside the contact point while the baseline reaches it. */
+      const places = {'contact-point': [contact, 'contact point'],
+        'baseline-from': [now('baseline-from', first), 'begin of the baseline'],
+        'baseline-to': [now('baseline-to', contact + 0.06 * (first - contact)), chosen(curve, 'baseline-to') ?
+          'end of the baseline' : 'baseline to contact']};
+      return Object.entries(places).map(([choice, [x, label]]) => ({x, label, unit: 'm',
+        color: choice === 'contact-point' ? null : 'var(--s2)',
+        focused: document.activeElement && label === document.activeElement.getAttribute('aria-label'),
+        moved: (to, done) => drag(curve, choice, to + origin, done)}));
+    }
     const high = Plot.range(fit.samples.column('indentation'))[1];
-    const now = (name, missing) => {
-      const found = /^([-+0-9.eE]+) *(nm|um|µm|m)$/.exec(View.get('indentation/' + name) || '');
-      return found ? Number(found[1]) * {nm: 1e-9, um: 1e-6, 'µm': 1e-6, m: 1}[found[2]] : missing;
-    };
-    return Object.entries(rangeValues).map(([name, label]) => ({x: now(name, name === 'fit-depth' ? high : 0),
+    return Object.entries(rangeValues).map(([name, label]) => ({x: metres(View.get('indentation/' + name), name === 'fit-depth' ? high : 0),
       label, unit: 'm', moved: (x, done) => dragRange(curve, name, x, done)}));
   };
   const draw = (curve) => {
@@ -133,8 +156,8 @@
       series: s.residual});
     describe(curve);
   };
-  const update = async (curve, contact, source, done) => {
-    const made = await request(curve, contact, source);
+  const update = async (curve, option, source, done) => {
+    const made = await request(curve, option, source);
     if (made === null || rows[at] !== curve) return;
     fit = made;
     if (done) draw(curve);
@@ -145,10 +168,10 @@
   };
   const lengthText = (value) => Number(value.toPrecision(12)) + 'm';
   /* The text of the override is what is fitted, so that its digits are those of the shell. */
-  const drag = View.guard(async (curve, position, done) => {
-    const contact = Number(position.toPrecision(12));
-    await update(curve, contact, null, false);
-    if (done) await choose(curve, 'contact-point', lengthText(contact), ui.note.value);
+  const drag = View.guard(async (curve, choice, position, done) => {
+    const value = lengthText(position);
+    await update(curve, {name: choice === 'contact-point' ? 'fixed-contact-point' : choice, value}, null, false);
+    if (done) await choose(curve, {[choice]: value}, ui.note.value);
   });
   const nanometres = (value) => Number((value * 1e9).toPrecision(4)) + 'nm';
   const dragRange = View.guard(async (curve, name, value, done) => {
@@ -299,7 +322,7 @@
   });
 
   /* The box may still show the curve before, so that the overrides decide. */
-  const exclude = () => rows[at] && choose(rows[at], 'exclude', chosen(rows[at], 'exclude') ? null : '',
+  const exclude = () => rows[at] && choose(rows[at], {exclude: chosen(rows[at], 'exclude') ? null : ''},
     ui.note.value);
 
   /* ---- the panel ------------------------------------------------------------------------------ */
@@ -324,11 +347,14 @@
         list: e('ol', {class: 'list', tabindex: 0, role: 'listbox', 'aria-label': 'Curves'}),
         name: e('h2', {}), modulus: e('p', {class: 'big'}), verdict: e('p', {class: 'soft'}),
         plot: e('div', {}), residual: e('div', {}), cards: e('div', {class: 'halves'}),
-        exclude: e('input', {type: 'checkbox', onchange: () => choose(rows[at], 'exclude',
-          ui.exclude.checked ? '' : null, ui.note.value)}),
+        exclude: e('input', {type: 'checkbox', onchange: () => choose(rows[at],
+          {exclude: ui.exclude.checked ? '' : null}, ui.note.value)}),
         note: e('input', {type: 'text', size: 22, placeholder: 'reason', onchange: () => ui.exclude.checked &&
-          choose(rows[at], 'exclude', '', ui.note.value)}),
-        free: e('button', {onclick: () => choose(rows[at], 'contact-point', null)}, 'Contact point as fitted (r)'),
+          choose(rows[at], {exclude: ''}, ui.note.value)}),
+        free: e('button', {onclick: () => choose(rows[at], Object.fromEntries(byHand.map((choice) => [choice, null])))},
+          'As fitted (r)'),
+        lever: e('input', {type: 'text', size: 9, placeholder: 'as in the file', onchange: () =>
+          choose(rows[at], {'spring-constant': ui.lever.value.trim() || null}, ui.note.value)}),
         undo: e('button', {onclick: undo}, 'Undo override (u)'),
         refit: e('button', {hidden: true, class: 'main', onclick: () => groupFit(true)}, 'Fit the group again'),
         tip: e('input', {type: 'text', size: 34, onchange: () => View.edit({'indentation/tip': ui.tip.value})}),
@@ -338,7 +364,7 @@
       e('div', {class: 'columns'}, e('div', {}, ui.map, ui.scale, ui.histogram, ui.list),
         e('div', {}, ui.name, ui.modulus, ui.verdict, e('div', {class: 'tools'}, label('Axis', ui.axis),
           e('button', {onclick: () => step(-1)}, '← previous'), e('button', {onclick: () => step(1)}, 'next →'),
-          e('label', {}, ui.exclude, ' exclude (x)'), ui.note, ui.free, ui.undo),
+          e('label', {}, ui.exclude, ' exclude (x)'), ui.note, label('Spring constant of the file', ui.lever), ui.free, ui.undo),
         ui.plot, ui.residual, e('h2', {}, 'Groups'), ui.cards)));
       const keys = {ArrowDown: () => step(1), ArrowUp: () => step(-1), x: exclude,
         r: () => ui.free.click(), u: undo};
@@ -350,14 +376,14 @@
       });
     },
     async show(state) {
-      if (writing === 0) readOverrides(state.overridesText);
+      if (writing === 0) readOverrides(state.overrides.text);
       ui.tip.value = View.get('indentation/tip') || '';
       const there = ['bulk', 'track'].filter((name) => View.has('indentation/' + name));
       if (!there.includes(group)) group = there[0] || 'bulk';
       ui.group.replaceChildren(...options(there.map((name) => [name, name])));
       ui.group.value = group;
       if (there.length === 0) throw new Error('The case has no force curves (<indentation>).');
-      if (state.current && View.text() === state.caseText) {
+      if (state.current && View.text() === state.case.text) {
         groups = View.tables(await View.call('table', {name: wanted}));
         showCards();
         await showGroup();
@@ -373,6 +399,6 @@
     },
     resize: () => rows[at] && fit && draw(rows[at]),
     command: () => overrides.length === 0 ? [] :
-      [`# with ${View.quote(View.state().overridesName || 'overrides.tsv')}, which this page writes`],
+      [`# with ${View.quote(View.state().overrides.name || 'overrides.tsv')}, which this page writes`],
   });
 })();

@@ -29,7 +29,7 @@
     const p = parts(View.get(path)), id = 'slider-' + path.replace('/', '-');
     if (!p || (path.endsWith('velocity') && !found.friction)) return [];
     const isLog = path.endsWith('velocity'), to = isLog ? Math.log10 : Number;
-    const [low, high] = ends(parts(View.state().caseText && savedValue(path)) || p, path).map(to);
+    const [low, high] = ends(parts(View.state().case.text && savedValue(path)) || p, path).map(to);
     const output = element('output', {for: id, style: 'font-weight:600'}, words(View.get(path)));
     const input = element('input', {type: 'range', class: 'wide', id, min: low, max: high, step: (high - low) / 100});
     input.value = to(p.value);
@@ -49,7 +49,7 @@
     return [element('label', {for: id, class: 'wide'}, label, ': ', output), input];
   };
   const savedValue = (path) => {
-    const doc = new DOMParser().parseFromString(View.state().caseText, 'application/xml');
+    const doc = new DOMParser().parseFromString(View.state().case.text, 'application/xml');
     const at = path.split('/').reduce((e, name) => e && [...e.children].find((c) => c.localName === name),
       doc.documentElement);
     return at ? at.textContent.trim() : null;

@@ -39,7 +39,7 @@
     for (const file of chosen)
       try {
         if (file.size > LIMIT) throw new Error(`${file.name}: larger than 64 MiB; copy it into the folder of the case.`);
-        await call('add', {name: file.name}, await file.arrayBuffer().catch(() => {
+        await call('save', {name: file.name, was: ''}, await file.arrayBuffer().catch(() => {
           throw new Error(`${file.name}: it cannot be read; drop files, no folder.`);
         }));
         done.push(file.name);
@@ -48,7 +48,7 @@
       }
     if (done.length > 0) await View.load(false);
     added.textContent = done.length === 0 ? '' : `Added ${done.join(', ')}.` +
-      (View.state().caseText === null ? '' : ' A case uses the files that its text names.');
+      (View.state().case.text === null ? '' : ' A case uses the files that its text names.');
     if (faults.length > 0) throw new Error(faults.join('\n'));
   });
 
@@ -166,9 +166,9 @@
           element('h2', {}, 'Case file'), source, status)));
     },
     async show(state) {
-      create.hidden = state.caseText !== null;
+      create.hidden = state.case.text !== null;
       if (document.activeElement !== source) source.value = View.text();
-      status.textContent = state.caseText === null ? '' : state.caseProblem;
+      status.textContent = state.case.text === null ? '' : state.caseProblem;
       showForm();
       if (files.dataset.of !== state.files.join('\n')) {
         files.dataset.of = state.files.join('\n');
@@ -176,16 +176,42 @@
       }
       await conditions(state);
     },
-    command: () => View.state().caseText === null ?
-      [`weartrack new-case -o ${View.quote(View.state().caseName)} .`] : [],
+    command: () => View.state().case.text === null ?
+      [`weartrack new-case -o ${View.quote(View.state().case.name)} .`] : [],
   });
 
-  let frame, none, page, loads = 0; /* another address loads the frame again */
+  let frame, none, page, tables, drawn, loads = 0; /* another address loads the frame again */
+  /* A file of this page is saved as any download. */
+  const save = (name, media, text) => {
+    const link = element('a', {href: URL.createObjectURL(new Blob([text], {type: media})), download: name});
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  };
+  const saveTable = View.guard(async () => {
+    const name = tables.value, t = (await View.stored(name))[name];
+    const cell = (value) => value === null ? '' : String(value).replace(/[\t\r\n]+/g, ' ');
+    save(name.replace('/', '-') + '.tsv', 'text/tab-separated-values', [
+      t.names.map((column) => column + (t.units[column] ? `[${t.units[column]}]` : '')),
+      ...t.rows.map((row) => t.names.map((column) => cell(row[column])))]
+      .map((row) => row.join('\t') + '\n').join(''));
+  });
+  const drawFigures = (millimetres) => View.guard(async () => {
+    await call('run', {number: millimetres});
+    await View.wait(`Drawing figures of ${millimetres} mm`);
+    drawn.textContent = `The figures are in ${View.state().folder}/${View.state().reportName}-${millimetres}mm/figures.`;
+  });
   View.add({
     id: 'answer', title: 'Answer',
     build(host) {
       none = element('p', {}, 'There is no report yet: run the case.');
-      page = element('p', {}, element('a', {href: 'report', target: '_blank'}, 'Open the report as a page'));
+      tables = element('select', {'aria-label': 'Table'});
+      drawn = element('span', {class: 'soft', role: 'status'});
+      page = element('p', {class: 'tools'}, element('a', {href: 'report', target: '_blank'}, 'Open the page'),
+        element('a', {href: 'report', download: 'answer.html'}, 'Save the page'),
+        element('button', {onclick: () => save(View.state().case.name, 'application/xml', View.text())}, 'Save the case'),
+        tables, element('button', {onclick: saveTable}, 'Save the table'),
+        ...[85, 170].map((millimetres) => element('button', {onclick: drawFigures(millimetres)},
+          `Draw all figures, ${millimetres} mm`)), drawn);
       frame = element('iframe', {title: 'Report', sandbox: 'allow-same-origin allow-popups'});
       host.append(none, page, frame);
     },
@@ -193,6 +219,7 @@
       const has = state.reportName !== null;
       none.hidden = has;
       page.hidden = frame.hidden = !has;
+      tables.replaceChildren(...state.tables.map((name) => element('option', {value: name}, name)));
       if (has) frame.src = 'report?number=' + ++loads;
     },
     command: () => [`weartrack report ${View.quote(View.state().resultName || 'case.h5')} -o answer.html`],

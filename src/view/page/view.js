@@ -17,8 +17,7 @@ const View = (() => {
 
   /* ---- server -------------------------------------------------------------------------------- */
 
-  const posts = new Set(['check', 'trial', 'curve', 'case', 'overrides', 'add', 'new-case', 'run', 'stop', 'alive',
-    'leave']);
+  const posts = new Set(['check', 'trial', 'curve', 'save', 'new-case', 'run', 'page']);
   const address = (action, parameters) => {
     const query = new URLSearchParams(parameters || {}).toString();
     return action + (query === '' ? '' : '?' + query);
@@ -103,8 +102,8 @@ const View = (() => {
       element('thead', {}, element('tr', {}, ...shown.map((name) =>
         element('th', {scope: 'col', class: isNumber(name) ? 'number' : ''},
           (t.labels[name] || name))))),
-      element('tbody', {}, ...Array.from({length: t.n}, (_, i) => element('tr', {}, ...shown.map((name) => {
-        const value = t.column(name)[i];
+      element('tbody', {}, ...t.rows.map((row) => element('tr', {}, ...shown.map((name) => {
+        const value = row[name];
         return typeof value === 'number' ?
           element('td', {class: 'number'}, Plot.inUnit(value, t.units[name] || '1', 4)) :
           element('td', {}, value === null ? '' : String(value));
@@ -218,7 +217,7 @@ const View = (() => {
   };
   const showChanged = () => {
     const open = text !== saved;
-    $('changed').textContent = state === null || state.caseText === null ? 'There is no case yet.' :
+    $('changed').textContent = state === null || state.case.text === null ? 'There is no case yet.' :
       open ? 'The case has changes that are not saved.' :
         state.current ? 'Saved; the result is up to date.' : state.resultName === null ?
           'Saved; not run yet.' : 'Saved; the result is older than the case.';
@@ -241,7 +240,7 @@ const View = (() => {
   };
   const save = async () => {
     if (text === saved) return;
-    const {digest} = await call('case', {was: state.caseDigest}, text);
+    const {digest} = await call('save', {name: state.case.name, was: state.case.digest}, text);
     saved = text;
     await load(false);
     root.dataset.saved = digest;
@@ -279,7 +278,7 @@ const View = (() => {
     if (!state) return;
     const lines = ['cd ' + quote(state.folder)];
     if (text !== saved) lines.push(`# after saving the case`);
-    lines.push(`weartrack run ${quote(state.caseName)}`);
+    lines.push(`weartrack run ${quote(state.case.name)}`);
     if (current && current.command) lines.push(...current.command());
     $('command').textContent = lines.join('\n');
   };
@@ -333,13 +332,18 @@ const View = (() => {
   };
   const load = async (all) => {
     state = await call('state');
+    if (state.case.text === null && state.resultCase !== null) {
+      state.case.text = state.resultCase; /* as saved in the result */
+      state.caseProblem = '';
+    }
+    state.current = state.resultCase !== null && state.resultCase === state.case.text && !state.overridesAreLater;
     if (all || text === saved) {
-      text = saved = state.caseText || '';
+      text = saved = state.case.text || '';
       before.length = after.length = 0;
     }
-    $('title').textContent = state.title || state.caseName;
-    document.title = `${state.title || state.caseName} – weartrack view`;
-    $('place').textContent = `${state.folder}/${state.caseName}` +
+    $('title').textContent = state.title || state.case.name;
+    document.title = `${state.title || state.case.name} – weartrack view`;
+    $('place').textContent = `${state.folder}/${state.case.name}` +
       (state.resultName ? `, result ${state.resultName}` : '') + `, weartrack ${state.version}`;
     showChanged();
     command();
@@ -349,18 +353,16 @@ const View = (() => {
 
   /* ---- start --------------------------------------------------------------------------------- */
 
-  const page = Array.from(crypto.getRandomValues(new Uint8Array(16)), (b) =>
-    b.toString(16).padStart(2, '0')).join('');
-  const alive = () => call('alive', {page}).catch((problem) => fail(problem.message));
-  addEventListener('pagehide', () => navigator.sendBeacon(address('leave', {page})));
+  const tell = (name) => call('page', {name}).catch((problem) => fail(problem.message));
+  addEventListener('pagehide', () => navigator.sendBeacon(address('page', {name: 'leave'})));
   addEventListener('DOMContentLoaded', guard(async () => {
-    await alive();
-    setInterval(alive, 20000);
+    await tell('open');
+    setInterval(tell, 20000, 'alive');
     $('undo').onclick = () => undo(before, after);
     $('redo').onclick = () => undo(after, before);
     $('save').onclick = guard(save);
     $('run').onclick = guard(run);
-    $('stop').onclick = guard(() => call('stop'));
+    $('stop').onclick = guard(() => tell('stop'));
     $('copy').onclick = () => navigator.clipboard.writeText($('command').textContent);
     addEventListener('keydown', (event) => {
       if (!(event.ctrlKey || event.metaKey) || event.target.matches('textarea')) return;
@@ -394,10 +396,10 @@ const View = (() => {
 
   /* Tables of the result if it is that of the text, else of a trial without draws. */
   const stored = async (names) => tables(await call('table', {name: names}));
-  const results = async (names) => state.current && text === state.caseText ? stored(names) : trial(names, 0);
+  const results = async (names) => state.current && text === state.case.text ? stored(names) : trial(names, 0);
 
   return {$, call, results, stored, latest, tables, table, element, show, get, all: texts, has, edit, editDocument, changed, replace,
-    text: () => text, state: () => state, add, guard, trial, create, run, save, quote, command, load, fail,
-    setOverrides: (value, digest) => { state.overridesText = value; state.overridesDigest = digest;
+    text: () => text, state: () => state, add, guard, trial, create, run, save, quote, command, load, fail, wait,
+    setOverrides: (value, digest) => { state.overrides.text = value; state.overrides.digest = digest;
       state.current = false; showChanged(); }};
 })();
