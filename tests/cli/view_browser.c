@@ -268,14 +268,18 @@ static void open_panel(const char *id)
     check(strcmp(data("error"), "undefined") == 0, "an error of the page");
 }
 
-/* Moves the marker of the contact point with the mouse. */
-static void drag_contact(double pixels)
+/* Moves a marker of the curve with the mouse. */
+static void drag_marker(const char *label, double pixels)
 {
+    char expression[512];
     double x = 0, y = 0;
-    (void)js("(() => { const b = document.querySelector('#curves .marker "
-             ".grip').getBoundingClientRect(); "
-             "return b.x + b.width / 2 + ' ' + (b.y + b.height / 2); })()");
-    check(sscanf(value, "%lf %lf", &x, &y) == 2, "marker");
+    (void)snprintf(expression, sizeof expression,
+                   "(() => { const b = [...document.querySelectorAll('#curves .marker')].find((m) "
+                   "=> m.getAttribute('aria-label') === '%s').querySelector('.grip')"
+                   ".getBoundingClientRect(); "
+                   "return b.x + b.width / 2 + ' ' + (b.y + b.height / 2); })()",
+                   label);
+    check(sscanf(js(expression), "%lf %lf", &x, &y) == 2, label);
     mouse("mousePressed", x, y);
     for (int i = 1; i <= 4; i++)
         mouse("mouseMoved", x + pixels * i / 4, y);
@@ -284,30 +288,38 @@ static void drag_contact(double pixels)
 
 static void test_curves(void)
 {
-    char before[64], moved[64];
+    char before[64], moved[64], shorter[64];
     open_panel("curves");
     wait_for("document.documentElement.dataset.curves", "48");
     (void)snprintf(before, sizeof before, "%s", data("modulus"));
     check(atof(before) > 1e6, "a modulus is shown");
-    drag_contact(20);
+    drag_marker("contact point", 20);
     wait_for("document.documentElement.dataset.overrides", "1");
     wait_for("document.querySelector('#curves .soft').closest('section').textContent.includes("
              "'contact point by hand')",
              "true");
     (void)snprintf(moved, sizeof moved, "%s", data("modulus"));
     check(strcmp(moved, before) != 0, "dragging changes E");
+    drag_marker("baseline to contact", -60);
+    wait_for("document.documentElement.dataset.overrides", "2");
+    wait_for("document.querySelector('#curves').textContent.includes("
+             "'contact point and baseline by hand')",
+             "true");
+    (void)snprintf(shorter, sizeof shorter, "%s", data("modulus"));
+    check(strcmp(shorter, moved) != 0, "another baseline changes E");
     (void)js("document.querySelector('#curves .list').focus()");
     key("ArrowDown", 0);
     wait_for(
         "document.querySelector('#curves .list [aria-selected=true]').textContent.startsWith('1:')",
         "true");
     key("x", 0);
-    wait_for("document.documentElement.dataset.overrides", "2");
+    wait_for("document.documentElement.dataset.overrides", "3");
     key("u", 0);
-    wait_for("document.documentElement.dataset.overrides", "1");
-    key("x", 0);
     wait_for("document.documentElement.dataset.overrides", "2");
-    printf("E %s, with the contact point dragged %s\n", before, moved);
+    key("x", 0);
+    wait_for("document.documentElement.dataset.overrides", "3");
+    printf("E %s, with the contact point dragged %s, and the baseline %s\n", before, moved,
+           shorter);
 }
 
 /* The case and the overrides that the page wrote give the same digits in the shell. */
@@ -320,7 +332,8 @@ static void test_shell(const char *program)
         "document.querySelector('#curves .list [aria-selected=true]').textContent.startsWith('0:')",
         "true");
     wait_for("document.querySelector('#curves h2').textContent.endsWith('curve 0')", "true");
-    wait_for("document.querySelector('#curves').textContent.includes('contact point by hand')",
+    wait_for("document.querySelector('#curves').textContent.includes("
+             "'contact point and baseline by hand')",
              "true");
     (void)snprintf(shown, sizeof shown, "%s", data("modulus"));
     key("s", 2 /* control */);
@@ -328,7 +341,7 @@ static void test_shell(const char *program)
     (void)snprintf(
         command, sizeof command,
         "'%s' run -q --no-report case.xml >answer.txt && '%s' table case.h5 indentation/bulk "
-        ">rows.txt && grep -q '\tby hand\\|contact point by hand' rows.txt && "
+        ">rows.txt && grep -q 'contact point and baseline by hand' rows.txt && "
         "sed -n 2p rows.txt | cut -f8 >modulus.txt && grep -q 'left out by hand' rows.txt",
         program, program);
     shell(command);

@@ -287,6 +287,20 @@
     if (rows.length === 0) return null;
     return select(rows[at] || shown[0] || rows[0]);
   };
+  /* E against depth from the fitted contact points of both groups. */
+  const drawDepth = () => {
+    const all = groups.modulus_depth, series = [];
+    for (const [k, name] of ['bulk', 'track'].entries()) {
+      const part = all ? all.rows.filter((row) => row.group === name) : [];
+      if (part.length === 0) continue;
+      const x = part.map((row) => row.depth), color = Plot.colors[k];
+      series.push({kind: 'band', x, y: [], low: part.map((row) => row.low), high: part.map((row) => row.high), color},
+        {name, x, y: part.map((row) => row.modulus), color});
+    }
+    ui.depth.hidden = series.length === 0;
+    if (series.length > 0) Plot.draw(ui.depth, {title: 'E against depth', height: 220, x: {label: 'indentation', unit: 'm'},
+      y: {label: 'E at this depth', unit: 'Pa'}, series});
+  };
   const showCards = () => {
     const g = groups.modulus_groups, c = groups.comparison;
     const cards = [];
@@ -303,8 +317,9 @@
       element('p', {class: 'big'}, inUnit(ratio.value, '1')),
       element('p', {class: 'soft'}, `± ${inUnit(ratio.standard_error, '1', 2)} (standard error)`)));
     ui.cards.replaceChildren(...cards);
+    drawDepth();
   };
-  const wanted = 'indentation/bulk indentation/track modulus_groups comparison';
+  const wanted = 'indentation/bulk indentation/track modulus_groups comparison modulus_depth';
   const groupFit = View.guard(async (always) => {
     if (!always && rows.length > AUTOMATIC) {
       ui.refit.hidden = false;
@@ -346,7 +361,7 @@
         scale: e('p', {class: 'soft'}), histogram: e('div', {}),
         list: e('ol', {class: 'list', tabindex: 0, role: 'listbox', 'aria-label': 'Curves'}),
         name: e('h2', {}), modulus: e('p', {class: 'big'}), verdict: e('p', {class: 'soft'}),
-        plot: e('div', {}), residual: e('div', {}), cards: e('div', {class: 'halves'}),
+        plot: e('div', {}), residual: e('div', {}), depth: e('div', {}), cards: e('div', {class: 'halves'}),
         exclude: e('input', {type: 'checkbox', onchange: () => choose(rows[at],
           {exclude: ui.exclude.checked ? '' : null}, ui.note.value)}),
         note: e('input', {type: 'text', size: 22, placeholder: 'reason', onchange: () => ui.exclude.checked &&
@@ -365,7 +380,7 @@
         e('div', {}, ui.name, ui.modulus, ui.verdict, e('div', {class: 'tools'}, label('Axis', ui.axis),
           e('button', {onclick: () => step(-1)}, '← previous'), e('button', {onclick: () => step(1)}, 'next →'),
           e('label', {}, ui.exclude, ' exclude (x)'), ui.note, label('Spring constant of the file', ui.lever), ui.free, ui.undo),
-        ui.plot, ui.residual, e('h2', {}, 'Groups'), ui.cards)));
+        ui.plot, ui.residual, e('h2', {}, 'Groups'), ui.cards, ui.depth)));
       const keys = {ArrowDown: () => step(1), ArrowUp: () => step(-1), x: exclude,
         r: () => ui.free.click(), u: undo};
       host.addEventListener('keydown', (event) => {

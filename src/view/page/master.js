@@ -154,7 +154,8 @@
     else await compute(View.changed(values));
   });
   const choices = {'dma/vertical-shift': ['Vertical shift', ['', 'none', 'physical', 'free', 'tied']],
-    'dma/shift-by': ['Shift by', ['', 'moduli', 'storage', 'loss', 'loss-factor']]};
+    'dma/shift-by': ['Shift by', ['', 'moduli', 'storage', 'loss', 'loss-factor']],
+    'dma/prony-terms': ['Prony terms', ['', '3', '5', '8', '10', '15', '20']]};
 
   /* The same fit without the case, where its files need no words of their own. */
   const masterCommand = () => {

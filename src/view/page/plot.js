@@ -128,8 +128,10 @@ const Plot = (() => {
     grip.addEventListener('pointerdown', (event) => {
       event.preventDefault();
       grip.setPointerCapture(event.pointerId);
+      g.classList.add('held');
       const box = svg.getBoundingClientRect(), width = svg.viewBox.baseVal.width;
       const move = (e) => {
+        if (e.type !== 'pointermove') g.classList.remove('held');
         place(x.value((e.clientX - box.left) * width / box.width));
         m.moved(at, e.type !== 'pointermove');
       };
@@ -162,11 +164,13 @@ const Plot = (() => {
       event.preventDefault();
       g.focus();
       grip.setPointerCapture(event.pointerId);
+      g.classList.add('held');
       const box = svg.getBoundingClientRect(), width = svg.viewBox.baseVal.width;
       grip.onpointermove = grip.onpointerup = grip.onpointercancel = (e) => {
         const way = e.type === 'pointercancel' ? 0 : (e.clientX - event.clientX) * width / box.width;
         g.setAttribute('transform', `translate(${way} 0)`);
         if (e.type === 'pointermove') return;
+        g.classList.remove('held');
         grip.onpointermove = grip.onpointerup = grip.onpointercancel = null;
         if (way !== 0) s.handle.moved(decades(way));
       };
@@ -233,6 +237,7 @@ const Plot = (() => {
   /* o: {title, x: {label, unit, log, range}, y: the same, height, series: [{name, x, y, color, kind:
    * 'line' | 'points' | 'band', low, high, dash, width, handle: {label, value, moved}}], markers: [{x, label, unit, moved}]} */
   const draw = (host, o) => {
+    if (host.querySelector('.held')) return host.live; /* what is dragged stays until it is released */
     const width = Math.max(280, host.clientWidth || 600), height = o.height || 300;
     const left = 62, right = width - 12, top = 10, bottom = height - 42;
     const all = (key) => o.series.flatMap((s) => s.kind === 'band' && key === 'y' ?
@@ -280,7 +285,7 @@ const Plot = (() => {
     host.replaceChildren(svg);
     legend(host, o.series);
     saving(host, o);
-    return {update: fill}; /* other series in the same axes */
+    return host.live = {update: fill}; /* other series in the same axes */
   };
   const shades = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
   const shade = (share) => {

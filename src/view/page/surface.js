@@ -29,10 +29,9 @@
       `${Plot.inUnit(high, 'm')} (light)`;
   };
   const wavenumber = (value) => `${Number(value.toPrecision(4))}rad/m`;
-  const element_of = () => isMeasured() ? 'roughness/end' : 'roughness/self-affine/q1';
-  const cut = View.guard(async (value, done) => {
-    const values = {[element_of()]: wavenumber(value)};
-    ui.cut.textContent = `cut-off q1 = ${wavenumber(value)}`;
+  const cut = (element, name) => View.guard(async (value, done) => {
+    const values = {[element]: wavenumber(value)};
+    ui.cut.textContent = `${name} = ${wavenumber(value)}`;
     await friction(View.changed(values));
     if (done) View.edit(values);
   });
@@ -62,7 +61,10 @@
     if (law) {
       const x = law.column('wavenumber');
       series.push({name: 'used for friction', x, y: law.column('density'), color: 'var(--ink)', width: 1.5});
-      markers.push({x: Math.max(...x), label: 'cut-off q1', unit: 'rad/m', moved: cut});
+      for (const [at, element, label] of [...(isMeasured() || !View.has('roughness/self-affine') ? [] :
+        [[Math.min(...x), 'roughness/self-affine/q0', 'cut-off q0']]),
+      [Math.max(...x), isMeasured() ? 'roughness/end' : 'roughness/self-affine/q1', 'cut-off q1']])
+        markers.push({x: at, label, unit: 'rad/m', moved: cut(element, label)});
     }
     Plot.draw(ui.plot, {title: 'Power spectrum', height: 380, x: {label: 'wavenumber (rad/m)', log: true},
       y: {label: 'power spectrum C (m⁴)', log: true}, series, markers});
