@@ -138,7 +138,7 @@
         'baseline-to': [now('baseline-to', contact + 0.06 * (first - contact)), chosen(curve, 'baseline-to') ?
           'end of the baseline' : 'baseline to contact']};
       return Object.entries(places).map(([choice, [x, label]]) => ({x, label, unit: 'm',
-        color: choice === 'contact-point' ? null : 'var(--s2)',
+        color: choice === 'contact-point' ? null : 'var(--s2)', side: choice === 'baseline-to' ? 'left' : 'right',
         focused: document.activeElement && label === document.activeElement.getAttribute('aria-label'),
         moved: (to, done) => drag(curve, choice, to + origin, done)}));
     }

@@ -113,7 +113,7 @@ const Plot = (() => {
       const p = x.pixel(at);
       line.setAttribute('x1', p);
       line.setAttribute('x2', p);
-      const isLeft = p > (x.pixel(x.low) + x.pixel(x.high)) / 2;
+      const isLeft = m.side ? m.side === 'left' : p > (x.pixel(x.low) + x.pixel(x.high)) / 2;
       text.setAttribute('x', isLeft ? p - 5 : p + 5);
       text.setAttribute('text-anchor', isLeft ? 'end' : 'start');
       grip.setAttribute('x', p - 8);
@@ -235,7 +235,7 @@ const Plot = (() => {
     host.append(p);
   };
   /* o: {title, x: {label, unit, log, range}, y: the same, height, series: [{name, x, y, color, kind:
-   * 'line' | 'points' | 'band', low, high, dash, width, handle: {label, value, moved}}], markers: [{x, label, unit, moved}]} */
+   * 'line' | 'points' | 'band', low, high, dash, width, handle: {label, value, moved}}], markers: [{x, label, unit, moved, side: of the label}]} */
   const draw = (host, o) => {
     if (host.querySelector('.held')) return host.live; /* what is dragged stays until it is released */
     const width = Math.max(280, host.clientWidth || 600), height = o.height || 300;

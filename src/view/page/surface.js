@@ -87,7 +87,7 @@
       for (const path in choices) {
         const [label, values] = choices[path];
         const select = element('select', {onchange: () => View.edit({[path]: select.value || null})},
-          ...values.map((v) => element('option', {value: v}, v === '' ? 'default' : v)));
+          ...values.map((v) => element('option', {value: v}, {'': 'default', mend: 'on', keep: 'off'}[v] || v)));
         ui.selects[path] = select;
         ui.choice.append(element('label', {}, label + ' ', select));
       }
