@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { OK = 200, NOT_FOUND = 404, CONFLICT = 409, UNPROCESSABLE = 422, MAX_PAGE = 64 << 20 };
+enum { NOT_FOUND = 404, CONFLICT = 409, MAX_PAGE = 64 << 20 };
 
 static wt_status answer_file(view_call *call, wt_error *err)
 {
@@ -309,20 +309,3 @@ const view_route view_routes[] = {{"", 0, answer_file},
                                   {"run", VIEW_BODY_LIMIT, start_run},
                                   {"page", VIEW_BODY_LIMIT, answer_page},
                                   {NULL, 0, NULL}};
-
-void view_answer(view_call *call)
-{
-    wt_error err = WT_ERROR_INIT;
-    char message[2048];
-    if (call->route->answer(call, &err) != WT_OK) {
-        wt_error_format(&err, message, sizeof message);
-        text_free(&call->reply);
-        call->status = call->status == OK ? UNPROCESSABLE : call->status;
-        call->media = "application/json";
-        text_add(&call->reply, "{\"error\":");
-        text_json(&call->reply, message);
-        text_add(&call->reply, "}");
-    } else if (call->reply.length == 0) {
-        text_add(&call->reply, "{}");
-    }
-}

@@ -11,7 +11,8 @@
 #include <string.h>
 
 /* A client that is slower than this is cut off [s]. */
-enum { IDLE_SECONDS = 20, MAX_CONNECTIONS = 32, CONNECTION_MEMORY = 32 << 10, HTTP_OK = 200 };
+enum { IDLE_SECONDS = 20, MAX_CONNECTIONS = 32, CONNECTION_MEMORY = 32 << 10 };
+enum { HTTP_OK = 200, HTTP_TARGET_TOO_LONG = 414, HTTP_UNPROCESSABLE = 422 };
 
 /* The policy lets the page load and call this server only. */
 static const char *const headers[][2] = {{"Cache-Control", "no-store"},
@@ -72,11 +73,27 @@ static const char *header(const view_call *call, const char *name)
     return MHD_lookup_connection_value(call->connection, MHD_HEADER_KIND, name);
 }
 
+static void answer(view_call *call)
+{
+    wt_error err = WT_ERROR_INIT;
+    char message[2048];
+    if (call->route->answer(call, &err) != WT_OK) {
+        wt_error_format(&err, message, sizeof message);
+        text_free(&call->reply);
+        call->status = call->status == HTTP_OK ? HTTP_UNPROCESSABLE : call->status;
+        call->media = "application/json";
+        text_add(&call->reply, "{\"error\":");
+        text_json(&call->reply, message);
+        text_add(&call->reply, "}");
+    } else if (call->reply.length == 0) {
+        text_add(&call->reply, "{}");
+    }
+}
+
 static enum MHD_Result handle(void *user, struct MHD_Connection *connection, const char *url,
                               const char *method, const char *version, const char *upload,
                               size_t *upload_size, void **state)
 {
-    enum { TARGET_TOO_LONG = 414 };
     const wt_view *view = user;
     view_call *call = *state;
     (void)connection;
@@ -86,8 +103,8 @@ static enum MHD_Result handle(void *user, struct MHD_Connection *connection, con
         const view_head head = {method, call->target, header(call, "Host"), header(call, "Origin"),
                                 header(call, "Sec-Fetch-Site")};
         call->status = call->target == NULL
-                           ? TARGET_TOO_LONG
-                           : view_admit(&head, view->token, view->port, &call->route);
+                           ? HTTP_TARGET_TOO_LONG
+                           : view_admit(&head, view->token, view->port, view->routes, &call->route);
         if (call->status == HTTP_OK)
             return MHD_YES;
         /* A refusal before the body ends the connection, so that a large body is never read. */
@@ -103,7 +120,7 @@ static enum MHD_Result handle(void *user, struct MHD_Connection *connection, con
         *upload_size = 0;
         return MHD_YES;
     }
-    view_answer(call);
+    answer(call);
     return send_reply(call);
 }
 

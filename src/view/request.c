@@ -35,7 +35,7 @@ static bool has_token(const char *target, const char *token)
 }
 
 unsigned view_admit(const view_head *head, const char *token, unsigned port,
-                    const view_route **route)
+                    const view_route *routes, const view_route **route)
 {
     enum {
         OK = 200,
@@ -54,12 +54,12 @@ unsigned view_admit(const view_head *head, const char *token, unsigned port,
         return FORBIDDEN;
     const char *path = head->target + VIEW_TOKEN_LENGTH + 2;
     const size_t length = strcspn(path, "?");
-    const view_route *r = view_routes + 1;
+    const view_route *r = routes + 1;
     while (r->path != NULL && (strlen(r->path) != length || memcmp(r->path, path, length) != 0))
         r++;
     if (r->path == NULL && path[strspn(path, allowed)] == '\0' &&
         (length == 0 || strchr(path, '.') != NULL))
-        r = view_routes;
+        r = routes;
     if (r->path == NULL)
         return NOT_FOUND;
     *route = r;

@@ -10,6 +10,12 @@
 #include <string.h>
 #include <sys/stat.h>
 
+void view_give_file(wt_view *view, char *path)
+{
+    view->given = array_grow(view->given, view->n_given, sizeof *view->given);
+    view->given[view->n_given++] = path;
+}
+
 static void add_file(wt_view *view, const char *path)
 {
     enum { MAX_FILES = 2000 };

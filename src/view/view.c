@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "view/view.h"
 
-#include "core/base/array.h"
 #include "core/base/memory.h"
 #include "core/base/param.h"
 #include "core/base/shared_params.h"
@@ -28,12 +27,6 @@ static const wt_param rows[] = {
 PARAM_TABLE(wt_view_params, wt_view_options, rows, wt_view_defaults, NO_PARTS)
 
 /* ---- files of the call ----------------------------------------------------------------------- */
-
-void view_give_file(wt_view *view, char *path)
-{
-    view->given = array_grow(view->given, view->n_given, sizeof *view->given);
-    view->given[view->n_given++] = path;
-}
 
 static bool is_case_name(const char *name)
 {
@@ -189,7 +182,7 @@ wt_status wt_view_open(const wt_view_options *options, wt_view **view, wt_error 
     if (status != WT_OK)
         return status;
     wt_view *v = wt_alloc(1, sizeof *v);
-    *v = (wt_view){.options = *options};
+    *v = (wt_view){.options = *options, .routes = view_routes};
     status = open_paths(v, err);
     if (status == WT_OK)
         status = wt_formats_new(options->formats, &v->formats, NULL, err);

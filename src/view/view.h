@@ -35,7 +35,7 @@ typedef struct view_head {
 /* Checks the head of a request for the server on this port and finds its route. Returns the HTTP
  * status: 200, or the reason for the refusal. */
 unsigned view_admit(const view_head *head, const char *token, unsigned port,
-                    const view_route **route);
+                    const view_route *routes, const view_route **route);
 
 /* The program that the server runs for whole cases: weartrack itself, one at a time. */
 typedef struct view_program {
@@ -63,6 +63,7 @@ struct wt_view {
     size_t n_files;
     char token[VIEW_TOKEN_LENGTH + 1], address[96];
     struct MHD_Daemon *daemon;
+    const view_route *routes; /* static */
     unsigned port;
     wt_formats *formats;
     case_refit *refit;
@@ -94,7 +95,7 @@ wt_status http_wait(wt_view *view, unsigned milliseconds, wt_error *err) WT_NODI
 void http_close(wt_view *view);
 /* Returns a parameter of the request, "" without one or if it contains a zero; borrowed. */
 const char *call_text(const view_call *call, const char *name);
-/* Returns a parameter that is a whole number; 0 without one, `most` if it is no such number. */
+/* Returns a parameter that is an integer from 0 on; 0 without one, `most` if it is invalid. */
 size_t call_number(const view_call *call, const char *name, size_t most);
 
 /* ---- files of the folder: case_file.c. No name with a folder, no link, no special file.
@@ -111,7 +112,6 @@ wt_status case_file_read(const char *folder, const char *name, size_t limit, tex
 wt_status case_file_write(const char *folder, const char *name, bool replace,
                           const text_buffer *text, wt_error *err) WT_NODISCARD;
 
-void view_answer(view_call *call);
 /* Appends case, overrides, files and results as JSON. */
 wt_status view_answer_state(view_call *call, wt_error *err) WT_NODISCARD;
 /* Adds a data file to those of the case to be written; takes ownership of the path. */

@@ -20,7 +20,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (int i = 0; i < LINES && rest != NULL; i++)
         line[i] = strsep(&rest, "\n");
     const view_head head = {line[0], line[1], line[2], line[3], line[4]};
-    if (view_admit(&head, token, PORT, &route) == 200 &&
+    if (view_admit(&head, token, PORT, view_routes, &route) == 200 &&
         (strncmp(line[1] + 1, token, sizeof token - 1) != 0 || line[2] == NULL ||
          (strcmp(line[2], "127.0.0.1:4711") != 0 && strcmp(line[2], "localhost:4711") != 0) ||
          (line[3] != NULL && strstr(line[3], ":4711") == NULL) || route->answer == NULL ||

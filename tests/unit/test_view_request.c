@@ -18,7 +18,7 @@ static unsigned parse(const char *method, const char *target, const char *host, 
                       const char *site)
 {
     const view_head head = {method, target, host, origin, site};
-    return view_admit(&head, TOKEN, PORT, &route);
+    return view_admit(&head, TOKEN, PORT, view_routes, &route);
 }
 
 static unsigned get(const char *target)

@@ -112,8 +112,8 @@
     ui.exclude.checked = Boolean(out);
     ui.note.value = out ? out.note : '';
     ui.free.disabled = !byHand.some((choice) => chosen(curve, choice));
-    const lever = chosen(curve, 'spring-constant');
-    ui.lever.value = lever ? lever.value : '';
+    const stated = chosen(curve, 'spring-constant');
+    ui.spring.value = stated ? stated.value : '';
     document.documentElement.dataset.modulus = row.modulus;
     document.documentElement.dataset.contact = row.contact_point;
   };
@@ -368,8 +368,8 @@
           choose(rows[at], {exclude: ''}, ui.note.value)}),
         free: e('button', {onclick: () => choose(rows[at], Object.fromEntries(byHand.map((choice) => [choice, null])))},
           'As fitted (r)'),
-        lever: e('input', {type: 'text', size: 9, placeholder: 'as in the file', onchange: () =>
-          choose(rows[at], {'spring-constant': ui.lever.value.trim() || null}, ui.note.value)}),
+        spring: e('input', {type: 'text', size: 9, placeholder: 'as in the file', onchange: () =>
+          choose(rows[at], {'spring-constant': ui.spring.value.trim() || null}, ui.note.value)}),
         undo: e('button', {onclick: undo}, 'Undo override (u)'),
         refit: e('button', {hidden: true, class: 'main', onclick: () => groupFit(true)}, 'Fit the group again'),
         tip: e('input', {type: 'text', size: 34, onchange: () => View.edit({'indentation/tip': ui.tip.value})}),
@@ -379,7 +379,7 @@
       e('div', {class: 'columns'}, e('div', {}, ui.map, ui.scale, ui.histogram, ui.list),
         e('div', {}, ui.name, ui.modulus, ui.verdict, e('div', {class: 'tools'}, label('Axis', ui.axis),
           e('button', {onclick: () => step(-1)}, '← previous'), e('button', {onclick: () => step(1)}, 'next →'),
-          e('label', {}, ui.exclude, ' exclude (x)'), ui.note, label('Spring constant of the file', ui.lever), ui.free, ui.undo),
+          e('label', {}, ui.exclude, ' exclude (x)'), ui.note, label('Spring constant of the file', ui.spring), ui.free, ui.undo),
         ui.plot, ui.residual, e('h2', {}, 'Groups'), ui.cards, ui.depth)));
       const keys = {ArrowDown: () => step(1), ArrowUp: () => step(-1), x: exclude,
         r: () => ui.free.click(), u: undo};
