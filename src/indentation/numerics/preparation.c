@@ -416,6 +416,8 @@ static void keep_baseline(const wt_indent_options *options, double contact, curv
 {
     curve_samples *s = &input->samples;
     size_t n_kept = 0;
+    if (isnan(options->baseline_from) && isnan(options->baseline_to))
+        return;
     for (size_t i = 0; i < s->n; i++) {
         const double at = s->position[i] + input->position_origin;
         if (at < options->baseline_from || (at > options->baseline_to && at < contact))
