@@ -7,7 +7,7 @@
   const usable = (verdict) => ['accepted', 'wide', 'doubtful'].includes(verdict);
   const words = (verdict) => View.state().verdicts[verdict] || verdict;
   const AUTOMATIC = 1000; /* larger groups are refitted by a button */
-  let ui = null, groups = {}, group = 'bulk', rows = [], shown = [], at = -1, fit = null, origin = 0;
+  let ui = null, groups = {}, group = 'bulk', rows = [], shown = [], at = -1, fit = null, origin = 0, originOf = '';
   let live = null;
 
   /* ---- overrides: rows of the file that indent reads ------------------------------------------ */
@@ -196,7 +196,10 @@
     const made = await request(curve, null, null);
     if (made === null) return;
     fit = made;
-    origin = fit.row.contact_point || 0;
+    /* The same curve, fitted again with its group, stays where it is on the axis. */
+    const name = `${group} ${curve.file} ${curve.curve}`;
+    if (name !== originOf) origin = fit.row.contact_point || 0;
+    originOf = name;
     draw(curve);
     drawMap();
   });

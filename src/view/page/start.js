@@ -65,33 +65,26 @@
     return true;
   });
   const unfilled = 'FILL IN'; /* as new-case marks what is in no file */
+  /* Comment before an element, in which new-case gives examples. */
+  const hint = (at) => {
+    let before = at.previousSibling;
+    while (before && before.nodeType === Node.TEXT_NODE) before = before.previousSibling;
+    return before && before.nodeType === Node.COMMENT_NODE ? before.data.trim() : '';
+  };
   /* Elements and attributes that have to be filled in, in the order of the file. */
   const gaps = (doc) => [...doc.querySelectorAll('*')].flatMap((at) => [
     ...[...at.attributes].filter((a) => a.value.includes(unfilled)).map((a) => ({label: `${a.name} of <${at.localName}>`,
       value: a.value, set: (text) => { if (text === null) at.removeAttribute(a.name); else a.value = text; }})),
     ...(at.children.length === 0 && at.textContent.includes(unfilled) ? [{
-      label: `${at.localName} in <${at.parentNode.localName}>`, value: at.textContent,
+      label: `${at.localName} in <${at.parentNode.localName}>`, value: at.textContent, hint: hint(at),
       set: (text) => { if (text === null) at.remove(); else at.textContent = text; }}] : [])]);
-  const gap = (found, k) => {
-    const input = element('input', {type: 'text', id: 'gap-' + k, 
-      placeholder: found.value === unfilled ? '' : found.value.replace(unfilled + ', ', ''),
-      onchange: () => View.editDocument((doc) => gaps(doc)[k].set(input.value.trim() || null))});
-    return [element('label', {for: 'gap-' + k}, found.label), input];
-  };
-  /* Sections that new-case wrote as a comment become part of the case. */
-  const sections = ['indentation', 'dma', 'roughness', 'sliding', 'layer', 'record'];
-  const commented = (name) => new RegExp(`<!--[^<]*(<${name}>(?:(?!-->)[\\s\\S])*</${name}>)\\s*-->`);
-  const add = (name) => element('button', {onclick: () =>
-    View.replace(View.text().replace(commented(name), '$1'))}, `Add <${name}>`);
-  const field = ([path, label]) => {
-    const id = 'field-' + path.replace('/', '-');
+  /* A field whose text is checked in the case while it is typed, and put into it with the last key. */
+  const checked = (id, label, attributes, made) => {
     const problem = element('span', {class: 'problem wide', role: 'status', id: id + '-problem'});
-    const input = element('input', {type: 'text', id, value: View.get(path) || '',
-      placeholder: 'not stated', 'aria-describedby': id + '-problem'});
-    const made = () => View.changed({[path]: input.value.trim() === '' ? null : input.value.trim()});
+    const input = element('input', {type: 'text', id, 'aria-describedby': id + '-problem', ...attributes});
     input.addEventListener('input', async () => {
       try {
-        await check(made());
+        await check(made(input.value.trim() || null));
         problem.textContent = '';
         input.removeAttribute('aria-invalid');
       } catch (error) {
@@ -101,11 +94,20 @@
         input.setAttribute('aria-invalid', true);
       }
     });
-    input.addEventListener('change', async () => {
-      if (!input.hasAttribute('aria-invalid')) View.replace(made());
+    input.addEventListener('change', () => {
+      if (!input.hasAttribute('aria-invalid')) View.replace(made(input.value.trim() || null));
     });
     return [element('label', {for: id}, label), input, problem];
   };
+  const gap = (found, k) => checked('gap-' + k, found.label, {placeholder: found.value === unfilled ? found.hint :
+    found.value.replace(unfilled + ', ', '')}, (text) => View.madeDocument((doc) => gaps(doc)[k].set(text)));
+  /* Sections that new-case wrote as a comment become part of the case. */
+  const sections = ['indentation', 'dma', 'roughness', 'sliding', 'layer', 'record'];
+  const commented = (name) => new RegExp(`<!--[^<]*(<${name}>(?:(?!-->)[\\s\\S])*</${name}>)\\s*-->`);
+  const add = (name) => element('button', {onclick: () =>
+    View.replace(View.text().replace(commented(name), '$1'))}, `Add <${name}>`);
+  const field = ([path, label]) => checked('field-' + path.replace('/', '-'), label,
+    {value: View.get(path) || '', placeholder: 'not stated'}, (text) => View.changed({[path]: text}));
   const showForm = () => {
     if (form.contains(document.activeElement)) return; /* a value is being typed */
     const doc = new DOMParser().parseFromString(View.text(), 'application/xml');
@@ -114,7 +116,8 @@
     missing.hidden = missingTitle.hidden = open.length === 0;
     more.replaceChildren(...sections.filter((name) => !View.has(name) && commented(name).test(View.text())).map(add));
     document.documentElement.dataset.missing = open.length;
-    form.replaceChildren(...fields.filter(([path]) => View.has(path.split('/')[0])).flatMap(field));
+    form.replaceChildren(...fields.filter(([path]) => View.has(path.split('/')[0]) &&
+      !(View.get(path) || '').includes(unfilled)).flatMap(field));
   };
   const checkText = async () => {
     try {

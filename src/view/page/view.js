@@ -203,12 +203,13 @@ const View = (() => {
     caseChanged();
   };
   const edit = (values) => replace(changed(values));
-  const editDocument = (work) => {
+  const madeDocument = (work) => {
     const doc = parse(text);
     if (!doc) throw new Error('The case is not well-formed XML; see the panel Start.');
     work(doc, child, insert, remove);
-    replace(serialize(doc, text));
+    return serialize(doc, text);
   };
+  const editDocument = (work) => replace(madeDocument(work));
   const undo = (from, to) => {
     if (from.length === 0) return;
     to.push(text);
@@ -398,7 +399,7 @@ const View = (() => {
   const stored = async (names) => tables(await call('table', {name: names}));
   const results = async (names) => state.current && text === state.case.text ? stored(names) : trial(names, 0);
 
-  return {$, call, results, stored, latest, tables, table, element, show, get, all: texts, has, edit, editDocument, changed, replace,
+  return {$, call, results, stored, latest, tables, table, element, show, get, all: texts, has, edit, editDocument, madeDocument, changed, replace,
     text: () => text, state: () => state, add, guard, trial, create, run, save, quote, command, load, fail, wait,
     setOverrides: (value, digest) => { state.overrides.text = value; state.overrides.digest = digest;
       state.current = false; showChanged(); }};
