@@ -78,15 +78,10 @@
     return null;
   };
   const choiceOf = (curve) => chosen[keyOf(curve)] || {};
-  const lengthOf = (text) => {
-    const parts = /^([-+0-9.eE]+) *(m|mm|um|µm|nm|pm)$/.exec(text);
-    const sizes = {m: 1, mm: 1e-3, um: 1e-6, 'µm': 1e-6, nm: 1e-9, pm: 1e-12};
-    return parts === null ? NaN : Number(parts[1]) * sizes[parts[2]];
-  };
   for (const row of data.choices) {
     const [group, file, choice, value, note, number] = row;
     const curve = number === null ? null : curveOf(file, number, group);
-    const contact = choice === 'contact-point' ? lengthOf(value) : NaN;
+    const contact = choice === 'contact-point' ? Shared.lengthOf(value) : NaN;
     if (curve === null || (choice !== 'exclude' && Number.isNaN(contact))) {
       kept.push(row);
       continue;

@@ -13,6 +13,12 @@ const Shared = (() => {
     const [size, prefix] = prefixOf(value);
     return Number((value / size).toPrecision(digits)) + ' ' + prefix + unit;
   };
+  /* A length with its unit in metres, NaN if it is none. */
+  const lengthOf = (text) => {
+    const parts = /^([-+0-9.eE]+) *(m|mm|um|µm|nm|pm)$/.exec(text);
+    const sizes = {m: 1, mm: 1e-3, um: 1e-6, 'µm': 1e-6, nm: 1e-9, pm: 1e-12};
+    return parts === null ? NaN : Number(parts[1]) * sizes[parts[2]];
+  };
   /* A cell of a text stream, and its text. */
   const escapeCell = (text) => {
     if (text === '') return '-';
@@ -27,5 +33,5 @@ const Shared = (() => {
   const overridesText = (rows) => '## table: choices\n' +
     '# group[text]\tfile[text]\tcurve[1]\tchoice[text]\tvalue[text]\tnote[text]\n' +
     rows.map((row) => row.map(escapeCell).join('\t') + '\n').join('') + '##\n';
-  return {prefixOf, inUnit, unescapeCell, overridesText};
+  return {prefixOf, inUnit, lengthOf, unescapeCell, overridesText};
 })();

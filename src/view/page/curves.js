@@ -118,8 +118,8 @@
     document.documentElement.dataset.contact = row.contact_point;
   };
   const metres = (text, missing) => {
-    const found = /^([-+0-9.eE]+) *(nm|um|µm|m)$/.exec(text || '');
-    return found ? Number(found[1]) * {nm: 1e-9, um: 1e-6, 'µm': 1e-6, m: 1}[found[2]] : missing;
+    const length = Shared.lengthOf(text || '');
+    return Number.isNaN(length) ? missing : length;
   };
   const byHand = ['contact-point', 'baseline-from', 'baseline-to'];
   const rangeValues = {'fit-depth': 'End of the fit', 'fit-depth-from': 'Begin of the fit'};

@@ -6,7 +6,6 @@ not_advice 'will not be replaced: it is not a weartrack report' 'what a file is 
 not_advice 'install the Debian package libjs-dygraphs and build weartrack again' 'of the build'
 no_input 'make it again from its case, or use the weartrack that wrote it' 'a file of a version to come'
 no_input 'no browser found; open the address by hand' 'of a computer without a browser: cli_view_server'
-no_input 'move the file beside the case and correct <overrides>' 'of the page: cli_view_server'
 no_input 'use another --port, or none for a free one' 'of the server: cli_view_server'
 not_advice 'Give force curves of bulk and track to' 'a remark of a result, which needs other data'
 not_advice 'Give the wear rate and the critical energy to' 'a remark of a result, which needs other data'
