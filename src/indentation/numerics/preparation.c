@@ -411,7 +411,8 @@ WIDE_REGISTERS static wt_curve_verdict orient_and_centre(curve_input *input, cha
     return WT_CURVE_ACCEPTED;
 }
 
-/* Leaves out the samples before the chosen baseline, and those between its end and contact. */
+/* Leaves out the samples before the chosen baseline, and those between its end and contact but for
+ * the last, from which the loading time counts. */
 static void keep_baseline(const wt_indent_options *options, double contact, curve_input *input)
 {
     curve_samples *s = &input->samples;
@@ -420,7 +421,10 @@ static void keep_baseline(const wt_indent_options *options, double contact, curv
         return;
     for (size_t i = 0; i < s->n; i++) {
         const double at = s->position[i] + input->position_origin;
-        if (at < options->baseline_from || (at > options->baseline_to && at < contact))
+        const bool is_last_before =
+            i + 1 == s->n || s->position[i + 1] + input->position_origin >= contact;
+        if (at < options->baseline_from ||
+            (at > options->baseline_to && at < contact && !is_last_before))
             continue;
         s->position[n_kept] = s->position[i];
         s->force[n_kept++] = s->force[i];
