@@ -322,7 +322,7 @@ static bool try_line_spectrum(const master_work *work)
         lines.noise[q] = s->noise[q];
     }
     if (spectrum_fit(&lines, SPECTRUM_TRIAL, NULL) == WT_OK) {
-        (void)spectrum_noise_update(&lines, 1.0);
+        (void)spectrum_noise_update(&lines, 1.0, 0.0);
         for (int q = 0; q < MODULI; q++)
             better = better || lines_reduce_noise(&lines, s, q);
     }
@@ -456,7 +456,7 @@ wt_status master_test_superposition(master_work *work, wt_error *err)
     /* also tested without a request if the misfit may affect the shifts */
     work->tested = !work->options.series_only || work->part ||
                    fmax(work->missed[STORAGE], work->missed[LOSS]) > shift_relevant_misfit;
-    const double rho = s->rho;
+    spectrum_keep(s);
     wt_status status = master_set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
     s->rho = work->within.rho;
     spectrum_set_point_noise(s, work->within.shape);
@@ -464,11 +464,11 @@ wt_status master_test_superposition(master_work *work, wt_error *err)
         status = spectrum_fit(s, work->is_gross ? SPECTRUM_ROUGH : SPECTRUM_NOISE, err);
     if (status == WT_OK && work->tested)
         work->lack = superposition_test(s, work->within.uncertainty);
-    s->rho = rho;
     spectrum_set_point_noise(s, master_uniform_noise);
     if (status == WT_OK) /* restores the columns that the cells use */
         status =
             master_set_widths(work, work->options.vertical, start_geometry, start_departure, err);
+    spectrum_return(s);
     return status;
 }
 

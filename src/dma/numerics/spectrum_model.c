@@ -101,6 +101,7 @@ static void allocate_spectrum(spectrum *s)
     s->time = arena_numbers(m, s->n_terms);
     s->value = arena_numbers(m, most);
     s->trial = arena_numbers(m, most);
+    s->kept_value = arena_numbers(m, most);
     s->precision = bordered_new(m, border, s->n_curves);
     s->covariance = bordered_new(m, border, s->n_curves);
     s->factor = bordered_new(m, border, s->n_curves);

@@ -305,34 +305,26 @@ static double product_trace(const bordered_matrix *covariance, const bordered_ma
     return sum + 2.0 * sides;
 }
 
-double spectrum_noise_update(spectrum *s, double share)
+double spectrum_noise_update(spectrum *s, double share, double enough)
 {
-    double change = 0.0;
+    double change = 0.0, next[MODULI];
     for (int q = 0; q < MODULI; q++) {
         const double square = s->noise[q] * s->noise[q];
         s->freedom[q] = product_trace(&s->covariance, &s->normal[q]) / square;
         const double left = fmax(count_used_points(s, q) - s->freedom[q], 1.0);
-        const double next = fmax(sqrt(spectrum_squares(s, q) / left), least_noise);
-        const double move = log(next / s->noise[q]);
-        change = fmax(change, fabs(move));
-        s->noise[q] = share < 1.0 ? s->noise[q] * exp(share * move) : next;
+        next[q] = fmax(sqrt(spectrum_squares(s, q) / left), least_noise);
+        change = fmax(change, fabs(log(next[q] / s->noise[q])));
     }
     const double rank = (double)(s->bend_end - s->bend_first);
     const double used = rank - spectrum_roughness_trace(s) / (s->smooth * s->smooth);
     const double rough = spectrum_roughness(s, s->value);
-    const double next = fmax(sqrt(rough / fmax(used, 1e-3)), least_smooth);
-    double move = log(next / s->smooth);
+    const double move = log(fmax(sqrt(rough / fmax(used, 1e-3)), least_smooth) / s->smooth);
     change = fmax(change, 0.1 * fabs(move));
-    /* the steps shrink geometrically: the ratio of two predicts the remaining distance */
-    const double ratio = s->smooth_move != 0.0 ? move / s->smooth_move : 0.0;
-    s->smooth_move = move;
-    if (share < 1.0) {
-        move *= share;
-    } else if (ratio > 0.2) {
-        move *= fmin(1.0 / (1.0 - fmin(ratio, 0.9)), 1.0 / fmax(fabs(move), 0.1));
-        s->smooth_move = 0.0; /* the next step starts a new pair */
-    }
-    s->smooth = fmax(s->smooth * exp(move), least_smooth);
+    if (change < enough)
+        return change; /* the unknowns can settle */
+    for (int q = 0; q < MODULI; q++)
+        s->noise[q] = share < 1.0 ? s->noise[q] * pow(next[q] / s->noise[q], share) : next[q];
+    s->smooth = fmax(s->smooth * exp(share * move), least_smooth);
     return change;
 }
 
@@ -386,12 +378,18 @@ void spectrum_update_curvature(spectrum *s)
 
 void spectrum_student_weights(spectrum *s)
 {
+    const size_t width = s->n_linear + 2;
     for (size_t i = 0; i < s->n_curves; i++)
         for (int q = 0; q < MODULI; q++)
             for (size_t k = s->first[i]; spectrum_is_fitted(s, i, q) && k < s->first[i + 1]; k++) {
                 const double r = s->residual[q][k] / s->noise[q];
                 const double square = r * r / s->weight[q][k];
-                s->weight[q][k] = (student_freedom + 1.0) / (student_freedom + square);
+                const double weight = (student_freedom + 1.0) / (student_freedom + square);
+                const double by = sqrt(weight / s->weight[q][k]);
+                s->weight[q][k] = weight;
+                s->residual[q][k] *= by;
+                for (size_t j = 0; j < width; j++)
+                    s->row[q][k * width + j] *= by;
             }
 }
 
