@@ -265,7 +265,7 @@ wt_status posterior_finish(wt_posterior *p, double reference, wt_error *err)
                          .log_a = arena_numbers(&p->memory, n),
                          .covariance = arena_matrix(&p->memory, n, n),
                          .slope = p->slope,
-                         .scratch = arena_numbers(&p->memory, n * (LAW_MAX_UNKNOWNS + 2))};
+                         .scratch = arena_numbers(&p->memory, n * LAW_SCRATCH)};
     factor_extra_covariance(p);
     weigh_cells(p);
     set_cell_shifts(p, posterior_best(p));

@@ -33,6 +33,7 @@ struct search {
     law_data *data;
     arena memory;
     gsl_matrix *root[LAW_SPREADS]; /* factor of the covariance for each temperature error */
+    size_t spread;                 /* temperature error of the last largest likelihood */
     double best;                   /* score */
     double largest;                /* its likelihood */
     law_shape chosen;
@@ -51,29 +52,61 @@ static wt_status factor_spreads(struct search *search, wt_error *err)
     return status;
 }
 
-/* Computes -2 ln of the largest and of the mean likelihood over the temperature errors. */
-static wt_status law_likelihoods(const struct search *search, const law_shape *shape,
-                                 double *largest, double *mean, wt_error *err)
+/* Computes -2 ln likelihood with one temperature error. */
+static wt_status spread_likelihood(const struct search *search, const law_shape *shape, size_t i,
+                                   double *value, wt_error *err)
+{
+    law_fit fit;
+    const wt_status status = law_fit_gls(search->data, shape, search->root[i], &fit, err);
+    *value = status == WT_OK ? fit.chi_square + fit.log_det : HUGE_VAL;
+    return status;
+}
+
+/* Computes -2 ln of the largest likelihood over the temperature errors, uphill from the last best
+ * one. */
+static wt_status largest_likelihood(struct search *search, const law_shape *shape, double *largest,
+                                    wt_error *err)
+{
+    wt_status status = spread_likelihood(search, shape, search->spread, largest, err);
+    const size_t start = search->spread;
+    for (int up = 1; up >= 0 && search->spread <= start; up--)
+        for (size_t i = start; status == WT_OK && (up ? i + 1 < LAW_SPREADS : i > 0);) {
+            double value;
+            i = up ? i + 1 : i - 1;
+            status = spread_likelihood(search, shape, i, &value, err);
+            if (status == WT_OK && !(value < *largest) && *largest < HUGE_VAL)
+                break;
+            if (value < *largest) {
+                *largest = value;
+                search->spread = i;
+            }
+        }
+    return status;
+}
+
+/* Computes -2 ln of the largest and of the mean likelihood over the temperature errors. Only few
+ * isotherms use the mean. */
+static wt_status law_likelihoods(struct search *search, const law_shape *shape, double *largest,
+                                 double *mean, wt_error *err)
 {
     const law_data *data = search->data;
     double value[LAW_SPREADS], sum = 0.0, weights = 0.0;
+    wt_status status = WT_OK;
     *largest = HUGE_VAL;
-    for (size_t i = 0; i < LAW_SPREADS; i++) {
-        law_fit fit;
-        const wt_status status = law_fit_gls(data, shape, search->root[i], &fit, err);
-        if (status != WT_OK)
-            return status;
-        value[i] = fit.chi_square + fit.log_det;
+    if (data->n >= LEAST_CORRECTED)
+        status = largest_likelihood(search, shape, largest, err);
+    for (size_t i = 0; status == WT_OK && data->n < LEAST_CORRECTED && i < LAW_SPREADS; i++) {
+        status = spread_likelihood(search, shape, i, &value[i], err);
         *largest = fmin(*largest, value[i]);
     }
-    if (!(*largest < HUGE_VAL))
+    if (status == WT_OK && !(*largest < HUGE_VAL))
         return wt_fail(err, WT_E_RANGE, "the pole of the law is not determined");
-    for (size_t i = 0; i < LAW_SPREADS; i++) {
+    for (size_t i = 0; status == WT_OK && data->n < LEAST_CORRECTED && i < LAW_SPREADS; i++) {
         sum += law_spread_prior(data, law_spread(i)) * exp(-0.5 * (value[i] - *largest));
         weights += law_spread_prior(data, law_spread(i));
     }
-    *mean = *largest - 2.0 * log(sum / weights);
-    return WT_OK;
+    *mean = data->n < LEAST_CORRECTED ? *largest - 2.0 * log(sum / weights) : (double)NAN;
+    return status;
 }
 
 static double law_criterion(const law_data *data, const law_shape *shape, double largest,
