@@ -464,11 +464,11 @@ wt_status master_test_superposition(master_work *work, wt_error *err)
         status = spectrum_fit(s, work->is_gross ? SPECTRUM_ROUGH : SPECTRUM_NOISE, err);
     if (status == WT_OK && work->tested)
         work->lack = superposition_test(s, work->within.uncertainty);
+    s->rho = s->kept_rho;
     spectrum_set_point_noise(s, master_uniform_noise);
     if (status == WT_OK) /* restores the columns that the cells use */
         status =
             master_set_widths(work, work->options.vertical, start_geometry, start_departure, err);
-    spectrum_return(s);
     return status;
 }
 

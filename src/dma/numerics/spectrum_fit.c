@@ -136,7 +136,7 @@ static double line_search(spectrum *s)
         const double best = share * slope / (2.0 * share * slope - gain); /* in steps */
         if (gain >= 0.0 && (slope > far || best > shortest))
             break;
-        share *= slope > far || !(best > 0.0) ? 0.5 : best; /* also handles NaN */
+        share *= slope > far ? 0.5 : fmax(best, 0.5); /* also handles NaN */
     }
     return gain >= 0.0 ? gain : -1.0;
 }
