@@ -28,10 +28,10 @@ static const double whole_steps = 30.0;
 /* The fit ends if a step gains less than this of -2 ln likelihood (1 is a standard error), and
  * noise and smoothness change by less than this share. */
 static const double least_gain = SPECTRUM_MIN_GAIN, min_change = 2e-3;
-/* Limits of rough fits: a third of a standard error and 2 % of the noise suffice to find points
+/* Limits of rough fits: a third of a standard error and 0.5 % of the noise suffice to find points
  * with five standard deviations. With fixed noise only the objective matters, whose differences
  * become weights, exp(-0.01). */
-static const double rough_gain = 0.1, rough_change = 0.02, held_gain = 0.02;
+static const double rough_gain = 0.1, rough_change = 0.005, held_gain = 0.02;
 /* Limits of a trial, which must only detect 30 % less noise, half of the objective. They are
  * shares of the objective gained by a step and left for the next. */
 static const double trial_gain = 0.005, trial_left = 0.1;

@@ -419,7 +419,7 @@ void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t w
     if (s->rho == 0.0 || !previous_point(s, curve, q, s->first[curve + 1], &at))
         return;
     for (; previous_point(s, curve, q, at, &before); at = before) {
-        const double rho = pow(s->rho, (double)(at - before));
+        const double rho = at - before == 1 ? s->rho : pow(s->rho, (double)(at - before));
         const double scale = 1.0 / sqrt(1.0 - rho * rho);
         for (size_t j = 0; j < width; j++)
             v[(at - from) * width + j] =
@@ -429,6 +429,7 @@ void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t w
 
 double spectrum_log_det_correlation(const spectrum *s)
 {
+    const double of_neighbours = log(1.0 - s->rho * s->rho);
     double sum = 0.0;
     for (size_t i = 0; i < s->n_curves && s->rho != 0.0; i++)
         for (int q = 0; q < MODULI; q++) {
@@ -436,7 +437,8 @@ double spectrum_log_det_correlation(const spectrum *s)
             if (!previous_point(s, i, q, s->first[i + 1], &at))
                 continue;
             for (; previous_point(s, i, q, at, &before); at = before)
-                sum += log(1.0 - pow(s->rho, 2.0 * (double)(at - before)));
+                sum += at - before == 1 ? of_neighbours
+                                        : log(1.0 - pow(s->rho, 2.0 * (double)(at - before)));
         }
     return sum;
 }
