@@ -28,12 +28,13 @@ static const double same_temperature = 0.1;
 static const double max_start_shift = 0.5;
 /* Terms per decade of a smooth spectrum, of a trial and of a line spectrum. E'' of equal terms h
  * apart in ln tau ripples by 2/cosh(pi^2/h): 1e-5 at 3 per decade, 8e-4 at 2, 5 % at 1. At 10
- * per decade a line is within a factor 1.12 of a term. A trial costs an eighth of that. Above
+ * per decade a line is within a factor 1.12 of a term. A trial costs an eighth of that; E'' of
+ * terms beyond its margin [decade] is known from those within to 1e-3. Above
  * the curvature limit [ln] a spectrum is not smooth. Moduli resolve slopes up to 1, because
  * steeper ones hide under the flanks of a Maxwell element. A corner between two such slopes has
  * curvature 1.5 at 3 per decade; the limit is twice that. Lines between the terms then shift the
  * isotherms by more than their errors. */
-static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0,
+static const double smooth_terms = 3.0, trial_terms = 5.0, trial_margin = 1.5, sharp_terms = 10.0,
                     sharp_curvature = 3.0;
 /* Misfit of a modulus beyond its noise from which the shifts are meaningless [ln]. On a plateau
  * with d ln E'/d ln w = 0.1 it is 0.17 decade, about master_max_shift_error. If
@@ -231,8 +232,9 @@ static wt_status new_spectrum(master_work *work, wt_error *err)
     wt_posterior *p = work->posterior;
     const size_t evaluations = work->s->evaluations;
     spectrum_free(work->s);
-    wt_status status = spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
-                                    work->terms_per_decade, work->options.liquid, work->s, err);
+    wt_status status =
+        spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
+                     work->terms_per_decade, HUGE_VAL, work->options.liquid, work->s, err);
     work->s->evaluations = evaluations;
     if (status != WT_OK)
         return status;
@@ -309,7 +311,7 @@ static bool try_line_spectrum(const master_work *work)
     spectrum lines;
     bool better = false;
     if (spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b, trial_terms,
-                     work->options.liquid, &lines, NULL) != WT_OK)
+                     trial_margin, work->options.liquid, &lines, NULL) != WT_OK)
         return false;
     double *b = arena_numbers(&lines.memory, s->n_curves);
     const spectrum_prior held = {.held = true, .mean = b};

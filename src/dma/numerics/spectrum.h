@@ -125,11 +125,11 @@ typedef struct spectrum {
     double kept_noise[MODULI], kept_smooth, kept_rho;
 } spectrum;
 
-/* Creates a spectrum of the curves in `use`, with start shifts a and b [decade]. The caller
- * frees s. */
+/* Creates a spectrum of the curves in `use`, with start shifts a and b [decade]. `margin` limits
+ * the extension beyond the measured range [decade], at least 1. The caller frees s. */
 wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, const double *a,
-                       const double *b, double terms_per_decade, bool liquid, spectrum *s,
-                       wt_error *err) WT_NODISCARD;
+                       const double *b, double terms_per_decade, double margin, bool liquid,
+                       spectrum *s, wt_error *err) WT_NODISCARD;
 void spectrum_free(spectrum *s);
 /* Sets the prior of b and the unknowns; the present shifts are unchanged. */
 void spectrum_set_prior(spectrum *s, const spectrum_prior *prior);

@@ -178,9 +178,10 @@ static void set_start_terms(spectrum *s, const double *a, const double *b)
 }
 
 wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, const double *a,
-                       const double *b, double terms_per_decade, bool liquid, spectrum *s,
-                       wt_error *err)
+                       const double *b, double terms_per_decade, double margin, bool liquid,
+                       spectrum *s, wt_error *err)
 {
+    const double fast = fmin(fast_margin, margin), slow = fmin(slow_margin, margin);
     double low = HUGE_VAL, high = -HUGE_VAL;
     *s = (spectrum){.liquid = liquid,
                     .loading = set->loading,
@@ -205,11 +206,11 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         wt_error_advice(err, "check the unit of the frequencies, and the shifts if they are given");
         return WT_E_RANGE;
     }
-    s->n_fast = (size_t)ceil(fast_margin * terms_per_decade);
-    s->n_measured = (size_t)ceil((high + fast_margin - low) * terms_per_decade);
-    s->n_terms = 1 + s->n_measured + (size_t)ceil(slow_margin * terms_per_decade);
+    s->n_fast = (size_t)ceil(fast * terms_per_decade);
+    s->n_measured = (size_t)ceil((high + fast - low) * terms_per_decade);
+    s->n_terms = 1 + s->n_measured + (size_t)ceil(slow * terms_per_decade);
     s->n_linear = s->n_terms + (liquid ? 0 : 1);
-    s->log_tau = -(high + fast_margin) * M_LN10;
+    s->log_tau = -(high + fast) * M_LN10;
     allocate_spectrum(s);
     double *start = s->trial; /* a, then b */
     size_t curve = 0, k = 0;
