@@ -1,17 +1,20 @@
 /* Shift factors of 20 isotherms, and of 154 with 2,000 points. The textbook method: neighbour by
- * neighbour, E' only, best of 2000 trial shifts by linear interpolation.
+ * neighbour, E' only, by linear interpolation of log10 E'; a coarse scan, then golden sections.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include <math.h>
-
 #include "bench/bench.h"
 
-enum { MOST = 154, POINTS = 13, TERMS = 56, TRIALS = 2000 };
+#include "core/math/root.h"
+
+#include <math.h>
+
+enum { MOST = 154, POINTS = 13, TERMS = 56, SECTIONS = 16 };
 
 typedef struct shift_case {
     wt_sweep sweep;
     int n;
     double truth[MOST];
     double ours[MOST], textbook[MOST];
+    double x[MOST][POINTS], y[MOST][POINTS]; /* log10 of frequency and E', filled by the textbook */
 } shift_case;
 
 static void moduli(double omega, double *storage, double *loss)
@@ -60,55 +63,59 @@ static void shift_weartrack(void *data)
     wt_master_clear(&master);
 }
 
-/* log10 E' of an isotherm at log10 omega x by linear interpolation; false outside. */
-static bool interpolate(const wt_isotherm *iso, double x, double *y)
+typedef struct shift_pair {
+    const double *from_x, *from_y, *to_x, *to_y; /* [POINTS] */
+} shift_pair;
+
+/* Returns minus the mean square distance of an isotherm shifted onto its neighbour. */
+static double closeness(double shift, void *user)
 {
-    for (size_t j = 0; j + 1 < iso->n; j++) {
-        const double x0 = log10(iso->angular_frequency[j]);
-        const double x1 = log10(iso->angular_frequency[j + 1]);
-        if (x < x0 || x > x1)
+    const shift_pair *p = user;
+    double cost = 0;
+    int n = 0, k = 0;
+    for (int j = 0; j < POINTS; j++) {
+        const double x = p->from_x[j] + shift;
+        while (k < POINTS - 2 && x > p->to_x[k + 1])
+            k++;
+        if (x < p->to_x[0] || x > p->to_x[POINTS - 1])
             continue;
-        const double y0 = log10(iso->storage_modulus[j]), y1 = log10(iso->storage_modulus[j + 1]);
-        *y = y0 + (y1 - y0) * (x - x0) / (x1 - x0);
-        return true;
+        const double slope = (p->to_y[k + 1] - p->to_y[k]) / (p->to_x[k + 1] - p->to_x[k]);
+        const double d = p->from_y[j] - p->to_y[k] - slope * (x - p->to_x[k]);
+        cost += d * d;
+        n++;
     }
-    return false;
+    return n < 4 ? -(double)INFINITY : -cost / n;
 }
 
-static double pair_shift(const wt_isotherm *from, const wt_isotherm *to)
+static double pair_shift(shift_case *c, int from, int to)
 {
-    double best = 0, best_cost = (double)INFINITY;
-    for (int t = 0; t < TRIALS; t++) {
-        const double shift = -2.8 + 5.6 * t / (TRIALS - 1);
-        double cost = 0;
-        int n = 0;
-        for (size_t j = 0; j < from->n; j++) {
-            double y = 0;
-            if (!interpolate(to, log10(from->angular_frequency[j]) + shift, &y))
-                continue;
-            const double d = log10(from->storage_modulus[j]) - y;
-            cost += d * d;
-            n++;
-        }
-        if (n >= 4 && cost / n < best_cost) {
-            best_cost = cost / n;
+    static const double farthest = 2.1, step = 0.1;
+    shift_pair pair = {c->x[from], c->y[from], c->x[to], c->y[to]};
+    double best = 0, most = -(double)INFINITY;
+    for (double shift = -farthest; shift < farthest; shift += step) {
+        const double close = closeness(shift, &pair);
+        if (close > most) {
+            most = close;
             best = shift;
         }
     }
-    return best;
+    return root_maximum(closeness, &pair, best - step, best + step, SECTIONS);
 }
 
 static void shift_textbook(void *data)
 {
     shift_case *c = data;
     const int reference = c->n / 2;
+    for (int i = 0; i < c->n; i++)
+        for (int j = 0; j < POINTS; j++) {
+            c->x[i][j] = log10(c->sweep.isotherms[i].angular_frequency[j]);
+            c->y[i][j] = log10(c->sweep.isotherms[i].storage_modulus[j]);
+        }
     c->textbook[reference] = 0;
     for (int i = reference - 1; i >= 0; i--)
-        c->textbook[i] =
-            c->textbook[i + 1] + pair_shift(&c->sweep.isotherms[i], &c->sweep.isotherms[i + 1]);
+        c->textbook[i] = c->textbook[i + 1] + pair_shift(c, i, i + 1);
     for (int i = reference + 1; i < c->n; i++)
-        c->textbook[i] =
-            c->textbook[i - 1] + pair_shift(&c->sweep.isotherms[i], &c->sweep.isotherms[i - 1]);
+        c->textbook[i] = c->textbook[i - 1] + pair_shift(c, i, i - 1);
 }
 
 static void compare(int n)

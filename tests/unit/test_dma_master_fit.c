@@ -372,8 +372,7 @@ enum { FEW = 8 };
 static wt_status choose(size_t n, const double *temperature, const double *variance, double *log_a,
                         law_shape *chosen)
 {
-    double slope[FEW], scratch[FEW * (LAW_MAX_UNKNOWNS + 1)], covariance[FEW * FEW] = {0},
-                                                                               root[FEW * FEW];
+    double slope[FEW], scratch[FEW * LAW_SCRATCH], covariance[FEW * FEW] = {0}, root[FEW * FEW];
     gsl_matrix_view c = gsl_matrix_view_array(covariance, n, n);
     gsl_matrix_view r = gsl_matrix_view_array(root, n, n);
     law_data data = {n, temperature, log_a, &c.matrix, slope, scratch};

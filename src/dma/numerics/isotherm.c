@@ -521,33 +521,42 @@ void spectrum_find_initial_shifts(const shift_set *set, size_t anchor, wt_vertic
 
 static double shared_decades(const shift_curve *p, double a_p, const shift_curve *s, double a_s)
 {
-    return fmin(p->x[p->n - 1] + a_p, s->x[s->n - 1] + a_s) - fmax(p->x[0] + a_p, s->x[0] + a_s);
+    const double p_low = p->x[0] + a_p, p_high = p->x[p->n - 1] + a_p, s_low = s->x[0] + a_s,
+                 s_high = s->x[s->n - 1] + a_s;
+    return (p_high < s_high ? p_high : s_high) - (p_low > s_low ? p_low : s_low);
 }
 
 size_t spectrum_select_connected(const shift_set *set, size_t anchor, const double *a, bool *placed,
                                  double *overlap)
 {
+    arena memory = {0};
+    bool *final = arena_alloc(&memory, set->n, sizeof *final);
     size_t count = 1;
     for (size_t i = 0; i < set->n; i++)
         overlap[i] = i == anchor || (placed[i] && set->curves[i].is_shift_fixed) ? HUGE_VAL : 0.0;
-    /* The overlap of an isotherm is the largest minimum overlap on a path to the anchor. */
-    for (bool grown = true; grown;) {
-        grown = false;
+    /* The overlap of an isotherm is the largest minimum overlap on a path to the anchor. That of
+     * the isotherm with the largest one is final. */
+    for (;;) {
+        size_t p = set->n;
         for (size_t i = 0; i < set->n; i++)
-            for (size_t p = 0; placed[i] && p < set->n; p++) {
-                if (p == i || !placed[p])
-                    continue;
-                const double both =
-                    fmin(shared_decades(&set->curves[p], a[p], &set->curves[i], a[i]), overlap[p]);
-                if (both > overlap[i]) {
-                    overlap[i] = both;
-                    grown = true;
-                }
-            }
+            if (placed[i] && !final[i] && overlap[i] > 0.0 &&
+                (p == set->n || overlap[i] > overlap[p]))
+                p = i;
+        if (p == set->n)
+            break;
+        final[p] = true;
+        for (size_t i = 0; i < set->n; i++) {
+            if (!placed[i] || final[i])
+                continue;
+            const double shared = shared_decades(&set->curves[p], a[p], &set->curves[i], a[i]),
+                         both = shared < overlap[p] ? shared : overlap[p];
+            overlap[i] = both > overlap[i] ? both : overlap[i];
+        }
     }
     for (size_t i = 0; i < set->n; i++) {
         placed[i] = placed[i] && overlap[i] > 0.0;
         count += placed[i] && i != anchor;
     }
+    arena_free(&memory);
     return count;
 }

@@ -28,12 +28,13 @@ static const double same_temperature = 0.1;
 static const double max_start_shift = 0.5;
 /* Terms per decade of a smooth spectrum, of a trial and of a line spectrum. E'' of equal terms h
  * apart in ln tau ripples by 2/cosh(pi^2/h): 1e-5 at 3 per decade, 8e-4 at 2, 5 % at 1. At 10
- * per decade a line is within a factor 1.12 of a term. A trial costs an eighth of that. Above
+ * per decade a line is within a factor 1.12 of a term. A trial costs an eighth of that; E'' of
+ * terms beyond its margin [decade] is known from those within to 1e-3. Above
  * the curvature limit [ln] a spectrum is not smooth. Moduli resolve slopes up to 1, because
  * steeper ones hide under the flanks of a Maxwell element. A corner between two such slopes has
  * curvature 1.5 at 3 per decade; the limit is twice that. Lines between the terms then shift the
  * isotherms by more than their errors. */
-static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0,
+static const double smooth_terms = 3.0, trial_terms = 5.0, trial_margin = 1.5, sharp_terms = 10.0,
                     sharp_curvature = 3.0;
 /* Misfit of a modulus beyond its noise from which the shifts are meaningless [ln]. On a plateau
  * with d ln E'/d ln w = 0.1 it is 0.17 decade, about master_max_shift_error. If
@@ -231,8 +232,9 @@ static wt_status new_spectrum(master_work *work, wt_error *err)
     wt_posterior *p = work->posterior;
     const size_t evaluations = work->s->evaluations;
     spectrum_free(work->s);
-    wt_status status = spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
-                                    work->terms_per_decade, work->options.liquid, work->s, err);
+    wt_status status =
+        spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b,
+                     work->terms_per_decade, HUGE_VAL, work->options.liquid, work->s, err);
     work->s->evaluations = evaluations;
     if (status != WT_OK)
         return status;
@@ -309,7 +311,7 @@ static bool try_line_spectrum(const master_work *work)
     spectrum lines;
     bool better = false;
     if (spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b, trial_terms,
-                     work->options.liquid, &lines, NULL) != WT_OK)
+                     trial_margin, work->options.liquid, &lines, NULL) != WT_OK)
         return false;
     double *b = arena_numbers(&lines.memory, s->n_curves);
     const spectrum_prior held = {.held = true, .mean = b};
@@ -322,7 +324,7 @@ static bool try_line_spectrum(const master_work *work)
         lines.noise[q] = s->noise[q];
     }
     if (spectrum_fit(&lines, SPECTRUM_TRIAL, NULL) == WT_OK) {
-        (void)spectrum_noise_update(&lines, 1.0);
+        (void)spectrum_noise_update(&lines, 1.0, 0.0);
         for (int q = 0; q < MODULI; q++)
             better = better || lines_reduce_noise(&lines, s, q);
     }
@@ -456,7 +458,7 @@ wt_status master_test_superposition(master_work *work, wt_error *err)
     /* also tested without a request if the misfit may affect the shifts */
     work->tested = !work->options.series_only || work->part ||
                    fmax(work->missed[STORAGE], work->missed[LOSS]) > shift_relevant_misfit;
-    const double rho = s->rho;
+    spectrum_keep(s);
     wt_status status = master_set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
     s->rho = work->within.rho;
     spectrum_set_point_noise(s, work->within.shape);
@@ -464,7 +466,7 @@ wt_status master_test_superposition(master_work *work, wt_error *err)
         status = spectrum_fit(s, work->is_gross ? SPECTRUM_ROUGH : SPECTRUM_NOISE, err);
     if (status == WT_OK && work->tested)
         work->lack = superposition_test(s, work->within.uncertainty);
-    s->rho = rho;
+    s->rho = s->kept_rho;
     spectrum_set_point_noise(s, master_uniform_noise);
     if (status == WT_OK) /* restores the columns that the cells use */
         status =

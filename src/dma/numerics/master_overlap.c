@@ -502,15 +502,13 @@ void master_set_shift_errors(master_work *work)
         p->extra_error[work->curve[i]] = hypot(sqrt(square), own);
         all += work->edge[i].placed ? sure : 0.0;
         steps += work->edge[i].placed ? shared_step_variance(work, i, i) : 0.0;
-        for (size_t k = 0; k < n; k++)
+        for (size_t k = 0; k < n && !may; k++)
             if (work->placed[k] && !is_user_stated(work, k) && work->edge[i].placed &&
                 work->edge[k].placed && (i < work->root) == (k < work->root))
                 gsl_matrix_set(p->extra_covariance, work->curve[i], work->curve[k],
                                shared_step_variance(work, i, k));
     }
     gsl_matrix_scale(p->extra_covariance, steps > 0.0 ? all / steps : 1.0);
-    if (may)
-        gsl_matrix_set_zero(p->extra_covariance);
     for (size_t i = 0; i < n; i++) /* without an overlap the error is independent */
         if (work->placed[i] && !is_user_stated(work, i) && !work->edge[i].placed)
             gsl_matrix_set(p->extra_covariance, work->curve[i], work->curve[i],

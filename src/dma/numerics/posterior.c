@@ -138,14 +138,14 @@ static void component_alloc(wt_posterior *p, posterior_component *component)
     component->inverse = arena_matrix(&p->memory, n, n);
 }
 
-/* Computes the feedback of the law on spectrum and shifts. */
-static wt_status component_fill(wt_posterior *p, posterior_component *component, wt_error *err)
+/* Computes the feedback of the law on spectrum and shifts; root: scratch. */
+static wt_status component_fill(wt_posterior *p, posterior_component *component, gsl_matrix *root,
+                                wt_error *err)
 {
     const law_data *data = &p->data;
     const size_t n = data->n, k = component->law.n_unknowns;
     gsl_matrix *x = arena_matrix(&p->memory, n, k), *mx = arena_matrix(&p->memory, n, k);
     gsl_vector *gap = arena_vector(&p->memory, n);
-    gsl_matrix *root = arena_matrix(&p->memory, n, n);
     component_alloc(p, component);
     const wt_status status = law_gls_covariance(data, component->spread, root, err);
     if (status != WT_OK)
@@ -211,7 +211,7 @@ static wt_status weigh_components(wt_posterior *p, gsl_matrix *root, wt_error *e
             *kept = p->components[i];
             sum += kept->weight;
             set_cell_shifts(p, kept->cell);
-            status = component_fill(p, kept, err);
+            status = component_fill(p, kept, root, err);
         }
     for (size_t i = 0; i < p->n_components; i++)
         p->components[i].weight /= sum;
@@ -265,7 +265,7 @@ wt_status posterior_finish(wt_posterior *p, double reference, wt_error *err)
                          .log_a = arena_numbers(&p->memory, n),
                          .covariance = arena_matrix(&p->memory, n, n),
                          .slope = p->slope,
-                         .scratch = arena_numbers(&p->memory, n * (LAW_MAX_UNKNOWNS + 2))};
+                         .scratch = arena_numbers(&p->memory, n * LAW_SCRATCH)};
     factor_extra_covariance(p);
     weigh_cells(p);
     set_cell_shifts(p, posterior_best(p));

@@ -36,14 +36,46 @@ static double excess_probability(double x, void *user)
     return mixture_probability(l->part, l->n, l->freedom, x) - l->probability;
 }
 
+/* Newton steps to a quantile of normal distributions from that of one with the same mean and
+ * deviation. Returns NaN if they do not converge. */
+enum { MOST_STEPS = 20 };
+static const double close_enough = 1e-6; /* [deviations]; the next step is its square */
+
+static double normal_mixture_quantile(const mixture_level *l)
+{
+    double mean = 0.0, square = 0.0, step = HUGE_VAL;
+    for (size_t i = 0; i < l->n; i++)
+        mean += l->part[i].weight * l->part[i].mean;
+    for (size_t i = 0; i < l->n; i++)
+        square += l->part[i].weight * (l->part[i].deviation * l->part[i].deviation +
+                                       (l->part[i].mean - mean) * (l->part[i].mean - mean));
+    const double deviation = sqrt(square);
+    double x = mean + deviation * (l->probability < 0.5 ? -NORMAL_95 : NORMAL_95);
+    for (int k = 0; k < MOST_STEPS && fabs(step) > close_enough * deviation; k++) {
+        double below = -l->probability, density = 0.0;
+        for (size_t i = 0; i < l->n; i++) {
+            const double scaled = (x - l->part[i].mean) / l->part[i].deviation;
+            below += l->part[i].weight * gsl_cdf_ugaussian_P(scaled);
+            density += l->part[i].weight / l->part[i].deviation * exp(-0.5 * scaled * scaled) /
+                       sqrt(2.0 * M_PI);
+        }
+        step = below / density;
+        x -= fmax(-deviation, fmin(step, deviation));
+    }
+    return fabs(step) <= close_enough * deviation ? x : (double)NAN;
+}
+
 static double mixture_quantile(mixture_level l)
 {
     double low = HUGE_VAL, high = -HUGE_VAL;
+    double quantile = isinf(l.freedom) ? normal_mixture_quantile(&l) : (double)NAN;
+    if (isfinite(quantile))
+        return quantile;
     for (size_t i = 0; i < l.n; i++) {
         low = fmin(low, l.part[i].mean - max_deviations * l.part[i].deviation);
         high = fmax(high, l.part[i].mean + max_deviations * l.part[i].deviation);
     }
-    double quantile = low < high ? low : high; /* where exact components reach the probability */
+    quantile = low < high ? low : high; /* where exact components reach the probability */
     if (excess_probability(low, &l) < 0.0 &&
         root_find(excess_probability, &l, low, high, 0.0, &quantile, NULL) != WT_OK)
         quantile = (double)NAN;

@@ -10,7 +10,7 @@
 /* Maximum number of unknowns: offset of the reference, main constant (C1 or activation energy),
  * energy below the joint, shift of an outlier, ln of the pole distance below the coldest
  * isotherm. A law has some of them. */
-enum { LAW_MAX_UNKNOWNS = 5 };
+enum { LAW_MAX_UNKNOWNS = 5, LAW_SCRATCH = 2 * LAW_MAX_UNKNOWNS + 1 };
 /* With fewer isotherms the law is Arrhenius, because an offset and two constants leave no degree
  * of freedom. */
 enum { LAW_MIN_ISOTHERMS = 4 };
@@ -37,7 +37,7 @@ typedef struct law_data {
     double *log_a;             /* [n] */
     gsl_matrix *covariance;    /* [n * n] of log_a */
     double *slope;             /* [n] slope of the law [decade/K], set by law_select */
-    double *scratch;           /* [n * (LAW_MAX_UNKNOWNS + 2)] */
+    double *scratch;           /* [n * LAW_SCRATCH] */
 } law_data;
 
 typedef struct law_fit {

@@ -9,6 +9,7 @@
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
+#include <string.h>
 
 /* An isotherm is an outlier if a separate shift improves -2 ln likelihood by more than this.
  * chi^2 with one degree of freedom exceeds 20 with probability 8e-6. */
@@ -33,47 +34,82 @@ struct search {
     law_data *data;
     arena memory;
     gsl_matrix *root[LAW_SPREADS]; /* factor of the covariance for each temperature error */
+    bool is_factored[LAW_SPREADS]; /* for the present slopes */
+    size_t spread;                 /* temperature error of the last largest likelihood */
     double best;                   /* score */
     double largest;                /* its likelihood */
     law_shape chosen;
 };
 
-/* Factors the covariances for the present slopes. */
-static wt_status factor_spreads(struct search *search, wt_error *err)
+/* Factors the covariance for a temperature error and the present slopes, once. */
+static wt_status factor_spread(struct search *search, size_t i, wt_error *err)
 {
     const size_t n = search->data->n;
-    wt_status status = WT_OK;
-    for (size_t i = 0; i < LAW_SPREADS && status == WT_OK; i++) {
-        if (search->root[i] == NULL)
-            search->root[i] = arena_matrix(&search->memory, n, n);
-        status = law_gls_covariance(search->data, law_spread(i), search->root[i], err);
-    }
+    if (search->is_factored[i])
+        return WT_OK;
+    if (search->root[i] == NULL)
+        search->root[i] = arena_matrix(&search->memory, n, n);
+    search->is_factored[i] = true;
+    return law_gls_covariance(search->data, law_spread(i), search->root[i], err);
+}
+
+/* Computes -2 ln likelihood with one temperature error. */
+static wt_status spread_likelihood(struct search *search, const law_shape *shape, size_t i,
+                                   double *value, wt_error *err)
+{
+    law_fit fit;
+    wt_status status = factor_spread(search, i, err);
+    if (status == WT_OK)
+        status = law_fit_gls(search->data, shape, search->root[i], &fit, err);
+    *value = status == WT_OK ? fit.chi_square + fit.log_det : HUGE_VAL;
     return status;
 }
 
-/* Computes -2 ln of the largest and of the mean likelihood over the temperature errors. */
-static wt_status law_likelihoods(const struct search *search, const law_shape *shape,
-                                 double *largest, double *mean, wt_error *err)
+/* Computes -2 ln of the largest likelihood over the temperature errors, uphill from the last best
+ * one. */
+static wt_status largest_likelihood(struct search *search, const law_shape *shape, double *largest,
+                                    wt_error *err)
+{
+    wt_status status = spread_likelihood(search, shape, search->spread, largest, err);
+    const size_t start = search->spread;
+    for (int up = 1; up >= 0 && search->spread <= start; up--)
+        for (size_t i = start; status == WT_OK && (up ? i + 1 < LAW_SPREADS : i > 0);) {
+            double value;
+            i = up ? i + 1 : i - 1;
+            status = spread_likelihood(search, shape, i, &value, err);
+            if (status == WT_OK && !(value < *largest) && *largest < HUGE_VAL)
+                break;
+            if (value < *largest) {
+                *largest = value;
+                search->spread = i;
+            }
+        }
+    return status;
+}
+
+/* Computes -2 ln of the largest and of the mean likelihood over the temperature errors. Only few
+ * isotherms use the mean. */
+static wt_status law_likelihoods(struct search *search, const law_shape *shape, double *largest,
+                                 double *mean, wt_error *err)
 {
     const law_data *data = search->data;
     double value[LAW_SPREADS], sum = 0.0, weights = 0.0;
+    wt_status status = WT_OK;
     *largest = HUGE_VAL;
-    for (size_t i = 0; i < LAW_SPREADS; i++) {
-        law_fit fit;
-        const wt_status status = law_fit_gls(data, shape, search->root[i], &fit, err);
-        if (status != WT_OK)
-            return status;
-        value[i] = fit.chi_square + fit.log_det;
+    if (data->n >= LEAST_CORRECTED)
+        status = largest_likelihood(search, shape, largest, err);
+    for (size_t i = 0; status == WT_OK && data->n < LEAST_CORRECTED && i < LAW_SPREADS; i++) {
+        status = spread_likelihood(search, shape, i, &value[i], err);
         *largest = fmin(*largest, value[i]);
     }
-    if (!(*largest < HUGE_VAL))
+    if (status == WT_OK && !(*largest < HUGE_VAL))
         return wt_fail(err, WT_E_RANGE, "the pole of the law is not determined");
-    for (size_t i = 0; i < LAW_SPREADS; i++) {
+    for (size_t i = 0; status == WT_OK && data->n < LEAST_CORRECTED && i < LAW_SPREADS; i++) {
         sum += law_spread_prior(data, law_spread(i)) * exp(-0.5 * (value[i] - *largest));
         weights += law_spread_prior(data, law_spread(i));
     }
-    *mean = *largest - 2.0 * log(sum / weights);
-    return WT_OK;
+    *mean = data->n < LEAST_CORRECTED ? *largest - 2.0 * log(sum / weights) : (double)NAN;
+    return status;
 }
 
 static double law_criterion(const law_data *data, const law_shape *shape, double largest,
@@ -160,14 +196,17 @@ static wt_status outlier_gains(struct search *search, const law_shape *shape, do
     gsl_matrix *scratch = arena_matrix(m, n, n), *inverse = arena_matrix(m, n, n),
                *x = arena_matrix(m, n, k), *mx = arena_matrix(m, n, k);
     gsl_vector *gap = arena_vector(m, n), *pull = arena_vector(m, n);
-    double least[LAW_SPREADS];
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < LAW_SPREADS; i++) {
         law_fit fit;
-        status = law_fit_gls(data, shape, search->root[i], &fit, err);
+        status = factor_spread(search, i, err);
+        if (status == WT_OK)
+            status = law_fit_gls(data, shape, search->root[i], &fit, err);
         if (status != WT_OK)
             break;
-        least[i] = fit.chi_square + fit.log_det - search->largest;
+        if (search->largest - fit.log_det < outlier_trial_share * outlier_gain)
+            continue; /* no gain exceeds chi^2 */
+        const double least = fit.chi_square + fit.log_det - search->largest;
         law_design(data, shape, fit.unknown, x);
         for (size_t p = 0; p < n; p++)
             gsl_vector_set(gap, p,
@@ -182,7 +221,7 @@ static wt_status outlier_gains(struct search *search, const law_shape *shape, do
                     own -=
                         gsl_matrix_get(mx, p, u) * fit.covariance[u][w] * gsl_matrix_get(mx, p, w);
             const double pulled = gsl_vector_get(pull, p);
-            gain[p] = fmax(gain[p], pulled * pulled / fmax(own, 1e-300) - least[i]);
+            gain[p] = fmax(gain[p], pulled * pulled / fmax(own, 1e-300) - least);
         }
     }
     return status;
@@ -194,9 +233,7 @@ static wt_status find_outlier_isotherm(struct search *search, wt_error *err)
     const struct search plain = *search;
     const size_t n = search->data->n;
     double *gain = arena_numbers(&search->memory, n);
-    wt_status status = factor_spreads(search, err);
-    if (status == WT_OK)
-        status = outlier_gains(search, &plain.chosen, gain, err);
+    wt_status status = outlier_gains(search, &plain.chosen, gain, err);
     if (status == WT_E_RANGE)
         return WT_OK; /* for some temperature error the law does not fall, so it defines no outlier
                        */
@@ -248,9 +285,8 @@ static wt_status iterate_law_selection(struct search *search, const law_shape *s
         if (status != WT_OK)
             break;
         set_slopes(data, shape, fit.unknown);
+        memset(search->is_factored, 0, sizeof search->is_factored);
         if (round == 1)
-            status = factor_spreads(search, err);
-        if (round == 1 && status == WT_OK)
             status = try_all_laws(search, start, err);
     }
     if (status == WT_OK && !(search->best < HUGE_VAL))

@@ -90,7 +90,6 @@ typedef struct spectrum {
     size_t bend_first, bend_end;      /* range of the second differences with the measured prior */
     spectrum_extrapolation beyond[2]; /* priors on the fast and the slow side */
     double smooth;                    /* standard deviation of the second differences */
-    double smooth_move;               /* last step of ln smooth */
     double rho;                       /* correlation of neighbouring points */
 
     bool settled;       /* the last fit converged */
@@ -112,6 +111,7 @@ typedef struct spectrum {
     gsl_vector *gradient;
     double
         rounding; /* relative addition to the diagonal that makes the precision positive definite */
+    bool inverted;          /* factor and covariance are those of the precision */
     double log_det;         /* ln determinant of the precision */
     double criterion;       /* -2 ln evidence */
     double freedom[MODULI]; /* effective number of parameters of a modulus */
@@ -121,13 +121,15 @@ typedef struct spectrum {
     double *previous_weight[MODULI]; /* [n] previous weights */
     gsl_vector *direction;
     double *trial;
+    double *kept_value; /* [n_unknowns] a fit to return to */
+    double kept_noise[MODULI], kept_smooth, kept_rho;
 } spectrum;
 
-/* Creates a spectrum of the curves in `use`, with start shifts a and b [decade]. The caller
- * frees s. */
+/* Creates a spectrum of the curves in `use`, with start shifts a and b [decade]. `margin` limits
+ * the extension beyond the measured range [decade], at least 1. The caller frees s. */
 wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, const double *a,
-                       const double *b, double terms_per_decade, bool liquid, spectrum *s,
-                       wt_error *err) WT_NODISCARD;
+                       const double *b, double terms_per_decade, double margin, bool liquid,
+                       spectrum *s, wt_error *err) WT_NODISCARD;
 void spectrum_free(spectrum *s);
 /* Sets the prior of b and the unknowns; the present shifts are unchanged. */
 void spectrum_set_prior(spectrum *s, const spectrum_prior *prior);
@@ -211,7 +213,11 @@ typedef enum spectrum_mode {
     SPECTRUM_TRIAL        /* the same with an accuracy that suffices to compare the noise */
 } spectrum_mode;
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
-/* Chooses the correlation along the isotherms by the criterion. */
+/* Keeps the present fit, and returns to the kept one, which has the same unknowns. The equations
+ * stay those of the last fit. */
+void spectrum_keep(spectrum *s);
+void spectrum_return(spectrum *s);
+/* Chooses the correlation along the isotherms by the criterion, after a fit without one. */
 wt_status spectrum_choose_rho(spectrum *s, wt_error *err) WT_NODISCARD;
 /* Gain of -2 ln likelihood at which a fit ends. Its root is the remaining step in standard
  * errors, 3 %. */
@@ -221,10 +227,11 @@ wt_status spectrum_choose_rho(spectrum *s, wt_error *err) WT_NODISCARD;
 double spectrum_step_left(const spectrum *s);
 
 /* ---- spectrum_noise.c */
-/* Updates noise and smoothness by a share of the requested change. Returns the largest relative
- * change requested. */
-double spectrum_noise_update(spectrum *s, double share);
+/* Updates noise and smoothness by a share of the requested change unless that is less than
+ * `enough`. Returns the largest relative change requested. */
+double spectrum_noise_update(spectrum *s, double share, double enough);
 void spectrum_criterion(spectrum *s);
+/* Sets the weights of a Student distribution, also in the rows of independent points. */
 void spectrum_student_weights(spectrum *s);
 /* Updates the weights of the second differences from their neighbourhood, because a transition
  * is more curved than a plateau. Beyond the slow end no weight exceeds 1. */

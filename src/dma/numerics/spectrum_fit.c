@@ -11,7 +11,10 @@
 
 /* Limits of a step. Twelve dampings by ten leave 1e-12 of it. With a large misfit the objective
  * has curved valleys, where a half or an eighth of a step gains more than a damped one. */
-enum { MAX_DAMPINGS = 12, MAX_HALVINGS = 4 };
+enum { MAX_DAMPINGS = 12, MAX_TRIALS = 4 };
+/* A step is shortened to the minimum of the parabola if that is nearer than this share of it, and
+ * less than `far` standard errors remain (squared). Farther away the objective is no parabola. */
+static const double shortest = 0.7, far = 4.0;
 /* Maximum number of steps. A fit that reaches it is reported as not converged, except a start. */
 static const int max_steps[] = {[SPECTRUM_NOISE] = 300,
                                 [SPECTRUM_ROUGH] = 80,
@@ -25,10 +28,10 @@ static const double whole_steps = 30.0;
 /* The fit ends if a step gains less than this of -2 ln likelihood (1 is a standard error), and
  * noise and smoothness change by less than this share. */
 static const double least_gain = SPECTRUM_MIN_GAIN, min_change = 2e-3;
-/* Limits of rough fits: a third of a standard error and 2 % of the noise suffice to find points
+/* Limits of rough fits: a third of a standard error and 0.5 % of the noise suffice to find points
  * with five standard deviations. With fixed noise only the objective matters, whose differences
  * become weights, exp(-0.01). */
-static const double rough_gain = 0.1, rough_change = 0.02, held_gain = 0.02;
+static const double rough_gain = 0.1, rough_change = 0.005, held_gain = 0.02;
 /* Limits of a trial, which must only detect 30 % less noise, half of the objective. They are
  * shares of the objective gained by a step and left for the next. */
 static const double trial_gain = 0.005, trial_left = 0.1;
@@ -40,6 +43,9 @@ static const double max_rounding = 1e-8;
  * and is not damped. The diagonal of a vertical shift is the one without it. */
 static bool factor_damped(spectrum *s, double damping)
 {
+    if (s->inverted && damping == s->rounding)
+        return true; /* of the same precision */
+    s->inverted = false;
     bordered_copy(&s->factor, &s->precision);
     for (size_t i = 0; i < s->n_linear; i++)
         *gsl_matrix_ptr(s->factor.border, i, i) *= 1.0 + damping;
@@ -85,6 +91,8 @@ static wt_status invert_precision(spectrum *s, wt_error *err)
     /* With little noise and a loose prior, rounding may remove a diagonal element; the loop adds
      * it back. */
     double rounding = 0.0;
+    if (s->inverted)
+        return WT_OK;
     while (!factor_damped(s, rounding) && rounding < max_rounding)
         rounding = fmax(10.0 * rounding, (double)s->n_unknowns * DBL_EPSILON);
     if (!(rounding < max_rounding))
@@ -92,6 +100,7 @@ static wt_status invert_precision(spectrum *s, wt_error *err)
     s->rounding = rounding;
     s->log_det = bordered_log_det(&s->factor);
     bordered_inverse(&s->factor, s->scratch, &s->covariance);
+    s->inverted = true;
     return WT_OK;
 }
 
@@ -111,16 +120,23 @@ static bool has_converged(spectrum *s, double enough_gain)
     return !factor_damped(s, 0.0) || spectrum_step_left(s) < sqrt(enough_gain);
 }
 
-/* Tries a step and shortens it until the objective does not rise. Returns the gain, or a
- * negative number. */
+/* Tries a step and shortens it to the minimum of a parabola through its start and end if it goes
+ * far beyond that. The terms are exponential, so some steps are twice too long, without which the
+ * iteration swings about the minimum. Returns the gain, or a negative number. */
 static double line_search(spectrum *s)
 {
-    double gain = -1.0, share = 1.0;
-    for (int i = 0; i < MAX_HALVINGS && !(gain >= 0.0); i++, share *= 0.5) { /* also handles NaN */
+    double gain = -1.0, share = 1.0, slope = 0.0;
+    for (size_t u = 0; u < s->n_unknowns; u++)
+        slope += s->gradient->data[u] * s->direction->data[u];
+    for (int i = 0; i < MAX_TRIALS; i++) {
         for (size_t u = 0; u < s->n_unknowns; u++)
             s->trial[u] = s->value[u] + share * gsl_vector_get(s->direction, u);
         spectrum_evaluate(s, s->trial, true); /* most trials are accepted */
         gain = s->objective - spectrum_objective(s, s->trial);
+        const double best = share * slope / (2.0 * share * slope - gain); /* in steps */
+        if (gain >= 0.0 && (slope > far || best > shortest))
+            break;
+        share *= slope > far ? 0.5 : fmax(best, 0.5); /* also handles NaN */
     }
     return gain >= 0.0 ? gain : -1.0;
 }
@@ -171,37 +187,51 @@ static void prepare_equations(spectrum *s)
     make_equations(s);
 }
 
+void spectrum_keep(spectrum *s)
+{
+    memcpy(s->kept_value, s->value, s->n_unknowns * sizeof *s->value);
+    memcpy(s->kept_noise, s->noise, sizeof s->noise);
+    s->kept_smooth = s->smooth;
+    s->kept_rho = s->rho;
+}
+
+void spectrum_return(spectrum *s)
+{
+    memcpy(s->value, s->kept_value, s->n_unknowns * sizeof *s->value);
+    memcpy(s->noise, s->kept_noise, sizeof s->noise);
+    s->smooth = s->kept_smooth;
+    s->rho = s->kept_rho;
+}
+
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
 {
     const bool rough = mode == SPECTRUM_ROBUST || mode == SPECTRUM_ROUGH;
     const bool held = mode == SPECTRUM_FIXED_NOISE || mode == SPECTRUM_TRIAL;
+    const double settled = rough ? rough_change : min_change;
     const double least = rough ? rough_gain : held ? held_gain : least_gain;
     wt_status status = WT_OK;
     double damping = 0.0, gain = HUGE_VAL, change = 0.0;
     bool done = false;
     gsl_quiet();
-    s->smooth_move = 0.0;
     prepare_equations(s);
     for (int i = 0; status == WT_OK && !done && i < max_steps[mode]; i++) {
         status = damped_step(s, &damping, &gain, err);
         if (status != WT_OK)
             break;
+        if (mode == SPECTRUM_ROBUST)
+            spectrum_student_weights(s);
         make_equations(s);
         if (!held) {
             status = invert_precision(s, err);
             if (status != WT_OK)
                 break;
-            change = spectrum_noise_update(s, fmin(1.0, whole_steps / (double)(i + 1)));
-        }
-        if (mode == SPECTRUM_ROBUST) {
-            spectrum_student_weights(s);
-            prepare_equations(s);
-        } else {
-            assemble_objective(s);
+            change = spectrum_noise_update(s, fmin(1.0, whole_steps / (double)(i + 1)), settled);
+            if (change >= settled)
+                assemble_objective(s);
         }
         const bool trial = mode == SPECTRUM_TRIAL;
         const double enough = trial ? fmax(least, trial_gain * s->objective) : least;
-        done = gain < enough && change < (rough ? rough_change : min_change) &&
+        done = gain < enough && change < settled &&
                has_converged(s, trial ? fmax(least, trial_left * s->objective) : least);
     }
     s->settled = done;
@@ -221,16 +251,17 @@ enum { RHOS = sizeof rhos / sizeof *rhos };
 
 wt_status spectrum_choose_rho(spectrum *s, wt_error *err)
 {
-    double best = s->criterion, chosen = s->rho;
+    double best = s->criterion;
     wt_status status = WT_OK;
+    spectrum_keep(s);
     for (size_t i = 1; status == WT_OK && i < RHOS; i++) {
         s->rho = rhos[i];
         status = spectrum_fit(s, SPECTRUM_ROUGH, err);
         if (status != WT_OK || s->criterion >= best)
             break; /* the criterion has one minimum */
         best = s->criterion;
-        chosen = rhos[i];
+        spectrum_keep(s);
     }
-    s->rho = chosen;
-    return status == WT_OK ? spectrum_fit(s, SPECTRUM_NOISE, err) : status;
+    spectrum_return(s);
+    return status;
 }

@@ -101,6 +101,7 @@ static void allocate_spectrum(spectrum *s)
     s->time = arena_numbers(m, s->n_terms);
     s->value = arena_numbers(m, most);
     s->trial = arena_numbers(m, most);
+    s->kept_value = arena_numbers(m, most);
     s->precision = bordered_new(m, border, s->n_curves);
     s->covariance = bordered_new(m, border, s->n_curves);
     s->factor = bordered_new(m, border, s->n_curves);
@@ -177,9 +178,10 @@ static void set_start_terms(spectrum *s, const double *a, const double *b)
 }
 
 wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, const double *a,
-                       const double *b, double terms_per_decade, bool liquid, spectrum *s,
-                       wt_error *err)
+                       const double *b, double terms_per_decade, double margin, bool liquid,
+                       spectrum *s, wt_error *err)
 {
+    const double fast = fmin(fast_margin, margin), slow = fmin(slow_margin, margin);
     double low = HUGE_VAL, high = -HUGE_VAL;
     *s = (spectrum){.liquid = liquid,
                     .loading = set->loading,
@@ -204,11 +206,11 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         wt_error_advice(err, "check the unit of the frequencies, and the shifts if they are given");
         return WT_E_RANGE;
     }
-    s->n_fast = (size_t)ceil(fast_margin * terms_per_decade);
-    s->n_measured = (size_t)ceil((high + fast_margin - low) * terms_per_decade);
-    s->n_terms = 1 + s->n_measured + (size_t)ceil(slow_margin * terms_per_decade);
+    s->n_fast = (size_t)ceil(fast * terms_per_decade);
+    s->n_measured = (size_t)ceil((high + fast - low) * terms_per_decade);
+    s->n_terms = 1 + s->n_measured + (size_t)ceil(slow * terms_per_decade);
     s->n_linear = s->n_terms + (liquid ? 0 : 1);
-    s->log_tau = -(high + fast_margin) * M_LN10;
+    s->log_tau = -(high + fast) * M_LN10;
     allocate_spectrum(s);
     double *start = s->trial; /* a, then b */
     size_t curve = 0, k = 0;
@@ -418,7 +420,7 @@ void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t w
     if (s->rho == 0.0 || !previous_point(s, curve, q, s->first[curve + 1], &at))
         return;
     for (; previous_point(s, curve, q, at, &before); at = before) {
-        const double rho = pow(s->rho, (double)(at - before));
+        const double rho = at - before == 1 ? s->rho : pow(s->rho, (double)(at - before));
         const double scale = 1.0 / sqrt(1.0 - rho * rho);
         for (size_t j = 0; j < width; j++)
             v[(at - from) * width + j] =
@@ -428,6 +430,7 @@ void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t w
 
 double spectrum_log_det_correlation(const spectrum *s)
 {
+    const double of_neighbours = log(1.0 - s->rho * s->rho);
     double sum = 0.0;
     for (size_t i = 0; i < s->n_curves && s->rho != 0.0; i++)
         for (int q = 0; q < MODULI; q++) {
@@ -435,7 +438,8 @@ double spectrum_log_det_correlation(const spectrum *s)
             if (!previous_point(s, i, q, s->first[i + 1], &at))
                 continue;
             for (; previous_point(s, i, q, at, &before); at = before)
-                sum += log(1.0 - pow(s->rho, 2.0 * (double)(at - before)));
+                sum += at - before == 1 ? of_neighbours
+                                        : log(1.0 - pow(s->rho, 2.0 * (double)(at - before)));
         }
     return sum;
 }

@@ -54,8 +54,8 @@ static double isotherm_position(const spectrum *s, size_t curve, size_t k)
     return to > from ? (2.0 * s->x[k] - from - to) / (to - from) : 0.0;
 }
 
-/* Fits the polynomial of a curve in a modulus; fills rest and left. */
-static struct within fit_isotherm_polynomial(const spectrum *s, size_t curve, int q,
+/* Fits the polynomial of a curve in a modulus; fills rest and left if `points`. */
+static struct within fit_isotherm_polynomial(const spectrum *s, size_t curve, int q, bool points,
                                              struct noise_work *w)
 {
     const size_t from = s->first[curve], to = s->first[curve + 1];
@@ -66,10 +66,11 @@ static struct within fit_isotherm_polynomial(const spectrum *s, size_t curve, in
     double cross_block[MOST_WIDTH * MOST_WIDTH] = {0}, *v = w->v;
     struct within sum = {0.0, -(double)n, 0.0};
     for (size_t k = from; k < to; k++) {
+        const double at = isotherm_position(s, curve, k);
         double power = spectrum_weight(s, k, q);
         sum.freedom += power > 0.0;
         v[k * width + n] = s->residual[q][k];
-        for (size_t i = 0; i < n; i++, power *= isotherm_position(s, curve, k))
+        for (size_t i = 0; i < n; i++, power *= at)
             v[k * width + i] = power;
     }
     if (sum.freedom < (double)LEAST_LEFT)
@@ -77,14 +78,14 @@ static struct within fit_isotherm_polynomial(const spectrum *s, size_t curve, in
     spectrum_whiten(s, curve, q, v + from * width, width);
     for (size_t k = from; k < to; k++)
         for (size_t i = 0; i < width; i++)
-            for (size_t j = 0; j < width; j++)
+            for (size_t j = 0; j <= i; j++)
                 cross_block[i * width + j] += v[k * width + i] * v[k * width + j];
     gsl_matrix_view cross = gsl_matrix_view_array(cross_block, width, width);
     if (gsl_linalg_cholesky_decomp1(&cross.matrix) != GSL_SUCCESS)
         return (struct within){0.0, 0.0, 0.0};
     /* multiplies each row by the inverse factor: orthogonal polynomials and the residual */
     const double last = gsl_matrix_get(&cross.matrix, n, n);
-    for (size_t k = from; k < to; k++) {
+    for (size_t k = from; points && k < to; k++) {
         gsl_vector_view row = gsl_vector_view_array(v + k * width, width);
         gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, &cross.matrix, &row.vector);
         w->left[k] = s->weight[q][k] > 0.0 ? 1.0 : 0.0;
@@ -105,7 +106,7 @@ static double restricted_likelihood(const spectrum *s, struct noise_work *w)
     for (int q = 0; q < MODULI; q++) {
         struct within sum = {0};
         for (size_t i = 0; i < s->n_curves; i++) {
-            const struct within one = fit_isotherm_polynomial(s, i, q, w);
+            const struct within one = fit_isotherm_polynomial(s, i, q, false, w);
             sum.squares += one.squares;
             sum.freedom += one.freedom;
             sum.log_det += one.log_det;
@@ -176,7 +177,7 @@ static double update_noise_shape(spectrum *s, struct noise_work *w, double shape
     for (size_t i = 0; i < s->n_curves; i++) {
         double squares = SPECTRUM_KAPPA_PRIOR_POINTS, freedom = SPECTRUM_KAPPA_PRIOR_POINTS;
         for (int q = 0; q < MODULI; q++) {
-            const struct within one = fit_isotherm_polynomial(s, i, q, w);
+            const struct within one = fit_isotherm_polynomial(s, i, q, true, w);
             if (!(one.freedom > 0.0 && w->scale[q] > 0.0))
                 continue;
             squares += one.squares / w->scale[q] * s->kappa[i] * s->kappa[i];
@@ -305,34 +306,26 @@ static double product_trace(const bordered_matrix *covariance, const bordered_ma
     return sum + 2.0 * sides;
 }
 
-double spectrum_noise_update(spectrum *s, double share)
+double spectrum_noise_update(spectrum *s, double share, double enough)
 {
-    double change = 0.0;
+    double change = 0.0, next[MODULI];
     for (int q = 0; q < MODULI; q++) {
         const double square = s->noise[q] * s->noise[q];
         s->freedom[q] = product_trace(&s->covariance, &s->normal[q]) / square;
         const double left = fmax(count_used_points(s, q) - s->freedom[q], 1.0);
-        const double next = fmax(sqrt(spectrum_squares(s, q) / left), least_noise);
-        const double move = log(next / s->noise[q]);
-        change = fmax(change, fabs(move));
-        s->noise[q] = share < 1.0 ? s->noise[q] * exp(share * move) : next;
+        next[q] = fmax(sqrt(spectrum_squares(s, q) / left), least_noise);
+        change = fmax(change, fabs(log(next[q] / s->noise[q])));
     }
     const double rank = (double)(s->bend_end - s->bend_first);
     const double used = rank - spectrum_roughness_trace(s) / (s->smooth * s->smooth);
     const double rough = spectrum_roughness(s, s->value);
-    const double next = fmax(sqrt(rough / fmax(used, 1e-3)), least_smooth);
-    double move = log(next / s->smooth);
+    const double move = log(fmax(sqrt(rough / fmax(used, 1e-3)), least_smooth) / s->smooth);
     change = fmax(change, 0.1 * fabs(move));
-    /* the steps shrink geometrically: the ratio of two predicts the remaining distance */
-    const double ratio = s->smooth_move != 0.0 ? move / s->smooth_move : 0.0;
-    s->smooth_move = move;
-    if (share < 1.0) {
-        move *= share;
-    } else if (ratio > 0.2) {
-        move *= fmin(1.0 / (1.0 - fmin(ratio, 0.9)), 1.0 / fmax(fabs(move), 0.1));
-        s->smooth_move = 0.0; /* the next step starts a new pair */
-    }
-    s->smooth = fmax(s->smooth * exp(move), least_smooth);
+    if (change < enough)
+        return change; /* the unknowns can settle */
+    for (int q = 0; q < MODULI; q++)
+        s->noise[q] = share < 1.0 ? s->noise[q] * pow(next[q] / s->noise[q], share) : next[q];
+    s->smooth = fmax(s->smooth * exp(share * move), least_smooth);
     return change;
 }
 
@@ -386,12 +379,18 @@ void spectrum_update_curvature(spectrum *s)
 
 void spectrum_student_weights(spectrum *s)
 {
+    const size_t width = s->n_linear + 2;
     for (size_t i = 0; i < s->n_curves; i++)
         for (int q = 0; q < MODULI; q++)
             for (size_t k = s->first[i]; spectrum_is_fitted(s, i, q) && k < s->first[i + 1]; k++) {
                 const double r = s->residual[q][k] / s->noise[q];
                 const double square = r * r / s->weight[q][k];
-                s->weight[q][k] = (student_freedom + 1.0) / (student_freedom + square);
+                const double weight = (student_freedom + 1.0) / (student_freedom + square);
+                const double by = sqrt(weight / s->weight[q][k]);
+                s->weight[q][k] = weight;
+                s->residual[q][k] *= by;
+                for (size_t j = 0; j < width; j++)
+                    s->row[q][k * width + j] *= by;
             }
 }
 

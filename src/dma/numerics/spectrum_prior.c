@@ -325,6 +325,7 @@ static void add_normal_equations(bordered_matrix *into, const bordered_matrix *n
 
 void spectrum_assemble(spectrum *s)
 {
+    s->inverted = false;
     gsl_vector_set_zero(s->gradient);
     s->precision.m = s->n_linear + s->prior->n_smooth;
     bordered_zero(&s->precision);
