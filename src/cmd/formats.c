@@ -128,7 +128,7 @@ int cmd_formats(int argc, char **argv)
     if (check && cmd_begin(&s))
         check_description(&s, &read);
     else if (!check && !list && !show)
-        cmd_usage_error(&s, "say list, show ID or check DESCRIPTION.xml [SAMPLE]");
+        cmd_usage_error(&s, "expected list, show ID or check DESCRIPTION.xml [SAMPLE]");
     else if (!check && cmd_require_text_output(&s) && cmd_begin_reading(&s, NULL)) {
         cmd_print_log(&s, s.log, true);
         write_formats(&s, show ? s.files[1] : NULL);
