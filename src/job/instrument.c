@@ -6,10 +6,14 @@
 
 #include <string.h>
 
-char *flow_instrument(const wt_job *work, wt_input *input, const flow_file *file)
+char *flow_instrument(const wt_job *work, wt_input *input, const wt_format_info *format,
+                      const wt_read_options *read)
 {
-    const wt_read_options options = flow_read_options(file);
-    const char *const title = file->format->title;
+    wt_read_options options = *read;
+    options.format = format->id;
+    if (work->provenance == NULL)
+        return NULL;
+    const char *const title = format->title;
     const char *instrument = "";
     wt_table *metadata = NULL;
     table_view t = {0};
