@@ -429,9 +429,10 @@ WT_API void wt_sha256(const void *bytes, size_t length, char hex[65]);
 /* ---- provenance ----------------------------------------------------------------------------- */
 
 typedef struct wt_provenance_input {
-    const char *path;   /* as the user wrote it */
-    const char *role;   /* "bulk", "track", "dma", "case", ... */
-    const char *format; /* id of the reader or description, with its version */
+    const char *path;       /* as the user wrote it */
+    const char *role;       /* "bulk", "track", "dma", "case", ... */
+    const char *format;     /* id of the reader or description, with its version */
+    const char *instrument; /* as the file states it, and the title of the format; "" if unknown */
     uint64_t bytes;
     char sha256[65];      /* "" if not requested */
     uint64_t fingerprint; /* hash of the bytes, equal for copies; 0 = unknown */

@@ -231,7 +231,9 @@ typedef struct wt_posterior wt_posterior;
 typedef struct wt_master {
     wt_deformation deformation;
     wt_loading loading;
-    double reference_temperature; /* [K] */
+    double reference_temperature;   /* [K] */
+    double strain_low, strain_high; /* range of the mean strain amplitudes of the isotherms; NaN if
+                                       the files state none */
     wt_vertical_shift vertical;
     wt_shift_route shift_route;
     double terms_per_decade; /* of the spectrum */

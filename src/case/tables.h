@@ -60,6 +60,8 @@
     X(INPUTS_PATH, "path", "path as given", TEXT, LABEL("File"))                                   \
     X(INPUTS_ROLE, "role", "what it was used for", TEXT, LABEL("Role"))                            \
     X(INPUTS_FORMAT, "format", "format it was read as", TEXT, LABEL("Format"))                     \
+    X(INPUTS_INSTRUMENT, "instrument", "instrument that the file states, and the kind of export",  \
+      TEXT, OPTIONAL, SPARSE, LABEL("Instrument"))                                                 \
     X(INPUTS_BYTES, "bytes", "size of the file", SI(DATA_SIZE), LABEL("Size"))                     \
     X(INPUTS_SHA256, "sha256", "SHA-256 digest of the file", TEXT, LABEL("SHA-256"))
 #define INPUTS_KEYS(X)
@@ -164,6 +166,7 @@
  * a number or a name: "table 1". */
 #define FACT_ITEMS(X)                                                                              \
     X(FACT_FORMAT, "format")                                                                       \
+    X(FACT_INSTRUMENT, "instrument")                                                               \
     X(FACT_CURVES, "curves")                                                                       \
     X(FACT_NOISE, "thermal noise")                                                                 \
     X(FACT_RECORD, "record of friction")                                                           \

@@ -34,10 +34,9 @@ int cmd_accuracy(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "accuracy",
         .arguments = "CASE.xml [OPTION]...",
-        .description =
-            "Error against run time of the numbers of a case, as tolerance, replicates and "
-            "isotherms are swept; which error costs each most, what it takes to know it, and "
-            "what would make it smaller.",
+        .description = "Reports which error costs each number of a case most, what would make it "
+                       "smaller, and the error against run time for several tolerances, numbers of "
+                       "replicates and numbers of isotherms.",
         .common = "output formats columns provenance"};
     cmd_session s = cmd_session_defaults();
     wt_accuracy_job job = wt_accuracy_job_defaults();

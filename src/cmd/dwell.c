@@ -7,11 +7,10 @@ int cmd_dwell(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "dwell",
         .arguments = "--tip TIP [OPTION]... FILE...",
-        .description =
-            "Relaxation at constant height and creep at constant force of the dwell (pause) "
-            "behind the approach of force curves, and modulation in it: storage and loss "
-            "modulus at the frequencies that a dwell determines, with their errors. Folders "
-            "and patterns are allowed.",
+        .description = "Analyses the dwell (pause) after the approach of force curves: relaxation "
+                       "at constant height, creep at constant force, and modulation. It reports "
+                       "storage and loss modulus with their errors at the frequencies that a dwell "
+                       "determines. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
         .notes = "The tables dwell, dwell_moduli and dwell_points follow one another.",
         .n_files = CMD_ONE_OR_MORE};

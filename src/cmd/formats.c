@@ -108,11 +108,10 @@ int cmd_formats(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "formats",
         .arguments = "list | show ID | check DESCRIPTION.xml [SAMPLE]",
-        .description =
-            "list: the formats that are understood, and whether each was checked on a genuine "
-            "file.\nshow: the description of one of them; `show schema` prints the schema of "
-            "descriptions.\ncheck: checks a description, and with a sample shows what is "
-            "understood of it.",
+        .description = "list prints the formats that can be read, and whether each was checked on "
+                       "a measured file.\nshow prints the description of one format; `show schema` "
+                       "prints the schema of descriptions.\ncheck checks a description; with a "
+                       "sample file it also shows which columns it reads.",
         .common = "output formats columns provenance"};
     wt_read_options read = wt_read_defaults();
     cmd_option_group part = {
@@ -128,7 +127,7 @@ int cmd_formats(int argc, char **argv)
     if (check && cmd_begin(&s))
         check_description(&s, &read);
     else if (!check && !list && !show)
-        cmd_usage_error(&s, "say list, show ID or check DESCRIPTION.xml [SAMPLE]");
+        cmd_usage_error(&s, "expected list, show ID or check DESCRIPTION.xml [SAMPLE]");
     else if (!check && cmd_require_text_output(&s) && cmd_begin_reading(&s, NULL)) {
         cmd_print_log(&s, s.log, true);
         write_formats(&s, show ? s.files[1] : NULL);

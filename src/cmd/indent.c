@@ -21,6 +21,7 @@ static void report_no_modulus(cmd_session *s, const wt_table *indentation)
                "no curve has a modulus; the columns verdict and reason of the table indentation "
                "state the cause");
     cmd_set_partial(s);
+    s->next = NULL;
     if (wt_table_n_rows(s->work.failures) >= wt_table_n_rows(indentation))
         s->status = CMD_FAILED;
 }

@@ -207,8 +207,8 @@ int cmd_info(int argc, char **argv)
     static const cmd_usage usage = {
         .name = "info",
         .arguments = "[OPTION]... FILE...",
-        .description = "Says what each file is and who recognised it, its segments, channels and "
-                       "calibration, and what is missing or odd. - is standard input.",
+        .description = "Reports for each file its format, segments, channels and calibration, and "
+                       "what is missing or unexpected. - is standard input.",
         .common = "formats columns files-from",
         .n_files = CMD_ONE_OR_MORE};
     wt_read_options read = wt_read_defaults();

@@ -17,38 +17,36 @@ cmd_common_options cmd_common_defaults(void)
 static const wt_param common_rows[] = {
     {PARAM_TEXT_OF("output", cmd_common_options, output), .value = "FILE", .letter = 'o',
      .unset = "", .flags = PARAM_WRITTEN,
-     .help = "write there instead of standard output, tables of results as HDF5 if the name ends "
-             "in .h5 or .hdf5, as JSON for .json, the first of them as CSV for .csv; - is standard "
-             "output"},
+     .help = "write the output to this file instead of standard output: tables of results as HDF5 "
+             "if the name ends in .h5 or .hdf5, as JSON for .json, and the first of them as CSV "
+             "for .csv; - is standard output"},
     {PARAM_TEXT_OF("formats", cmd_common_options, formats), .value = "FOLDER", .unset = "",
-     .help =
-         "use the format descriptions (*.xml) of this folder too; one with the id of a built-in "
-         "description takes its place"},
+     .help = "also use the format descriptions (*.xml) of this folder; one with the id of a "
+             "built-in description replaces it"},
     {PARAM_TEXTS_OF("columns", cmd_common_options, columns, n_columns),
      .value = "NAME=QUANTITY:UNIT", .unset = "",
      .help =
-         "column of tables whose names are not known, such as \"Stor. Mod.=storage_modulus:MPa\"; "
-         "the unit only where the file says none; repeatable"},
+         "quantity of a column whose name is not known, such as \"Stor. "
+         "Mod.=storage_modulus:MPa\"; the unit applies only if the file states none; repeatable"},
     {PARAM_TEXT_OF("files-from", cmd_common_options, files_from), .value = "FILE", .unset = "",
-     .help =
-         "files to read, besides those named in the call: their names, a line each or parted by "
-         "zero bytes; - is standard input"},
+     .help = "read the names of further files from this file, one in each line or separated by "
+             "zero bytes; - is standard input"},
     {PARAM_FLAG_OF("provenance", cmd_common_options, provenance),
      .help = "version, command line, digests and times in what is written"},
     {PARAM_FLAG_OF("cost", cmd_common_options, cost),
-     .help = "also the table cost: time, nodes, files and errors of every stage"},
+     .help = "also write the table cost: time, nodes, files and errors of each stage"},
     {PARAM_CHOICE_OF("log", cmd_common_options, log, "text|json"),
-     .help = "what is said on standard error: for people, or one object of JSON a line with all "
-             "messages, failures, the progress every second, and the exit status"},
+     .help = "form of standard error: text for people, or JSON with one object in each line for "
+             "every message, every failure, the progress once a second, and the exit status"},
     {PARAM_FLAG_OF("quiet", cmd_common_options, quiet), .letter = 'q',
-     .help = "print errors only: no table of the main numbers, no progress, no warnings"},
+     .help = "print errors only, without the table of the main numbers, progress and warnings"},
     {PARAM_FLAG_OF("verbose", cmd_common_options, verbose), .letter = 'v',
-     .help = "print every main number with its reasons, and all warnings in full; a terminal gets "
-             "at most 20 lines without this"},
+     .help = "print every main number with its reasons, and all warnings in full; without this a "
+             "terminal gets at most 20 lines"},
     {PARAM_FLAG_OF("strict", cmd_common_options, strict),
-     .help = "exit status 1 if there is a remark (warning), too"},
+     .help = "a remark (warning) makes the exit status 1, too"},
     {PARAM_FLAG_OF("help", cmd_common_options, help), .letter = 'h',
-     .help = "print this; --help all has every option"},
+     .help = "print this help; --help all lists every option"},
 };
 PARAM_LOCAL_TABLE(common_params, cmd_common_options, common_rows, cmd_common_defaults, NO_PARTS)
 

@@ -8,10 +8,10 @@ int cmd_ramp(int argc, char **argv)
         .name = "ramp",
         .arguments = "[OPTION]... FILE...",
         .description =
-            "Glass transition of DMA temperature sweeps: the temperatures at which tan delta "
-            "and the loss modulus have their peaks, at each frequency, with their errors; with "
-            "--at the moduli and tan delta at temperatures. Isotherms are taken apart by "
-            "frequency. Folders and patterns are allowed.",
+            "Determines the glass transition from DMA temperature sweeps: the temperatures of the "
+            "peaks of tan delta and of the loss modulus at each frequency, with their errors. With "
+            "--at it also reports the moduli and tan delta at these temperatures. Isotherms are "
+            "split by frequency. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
         .notes = "The tables glass_transition, moduli_at (with --at) and ramp follow one another.",
         .n_files = CMD_ONE_OR_MORE};

@@ -74,16 +74,16 @@ PARAM_LOCAL_TABLE(output_params, cmd_common_options, output_rows, cmd_common_def
 
 static const wt_param run_flag_rows[] = {
     {PARAM_FLAG_OF("plan", run_flags, plan),
-     .help = "only say which stages would run and why, and why the others would not"},
+     .help = "only print which stages would run and why, and why the others would not"},
     {PARAM_TEXT_OF("report", run_flags, report), .value = "PLACE", .letter = 'r',
      .unset = "the name of the case with -report, in the current folder",
-     .help = "where the report goes: one page if it ends in .html, else a folder; a report that is "
-             "there is replaced, anything else is not"},
+     .help = "place of the report: one page if the name ends in .html, else a folder; an existing "
+             "report is replaced, and anything else is not"},
     {PARAM_FLAG_OF("no-report", run_flags, no_report), .help = "write no report"},
     {PARAM_FLAG_OF("keep", run_flags, keep),
-     .help = "do not run again what would give the same: the result is there, and neither version, "
-             "command line, case nor any file that was read has changed; nothing was missing, and "
-             "--formats is not used"},
+     .help = "do not repeat a run with the same outcome: the result exists, was complete, was made "
+             "without --formats, and neither the version, the command line, the case nor any file "
+             "that was read has changed"},
 };
 CMD_OPTIONS(run_flag_params, run_flags, run_flag_rows)
 

@@ -8,8 +8,8 @@ int cmd_spot(int argc, char **argv)
         .name = "spot",
         .arguments = "--tip TIP --depth D [OPTION]... IMAGE",
         .description =
-            "Of a height image of the spot before an indentation: the roughness over the "
-            "contact against the depth, and whether the spot is too rough for it.",
+            "Computes the roughness of a spot over the contact from a height image taken before an "
+            "indentation, and reports whether the spot is too rough for that depth.",
         .common = "output formats columns provenance cost",
         .n_files = 1};
     wt_indent_job indent = wt_indent_job_defaults();

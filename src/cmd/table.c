@@ -30,7 +30,8 @@ static wt_status choose_table(const wt_result *result, const char *path, const c
     if (name != NULL)
         wt_fail(err, WT_E_NOT_FOUND, "there is no table '%s'", name);
     else
-        wt_fail(err, WT_E_MISSING, "there are %zu tables: say which", n);
+        wt_fail(err, WT_E_MISSING, "the name of the table is missing: the result has %zu tables",
+                n);
     spell_suggestion near =
         spell_suggestion_begin(name != NULL ? name : "", name != NULL ? strlen(name) : 0);
     for (size_t i = 0; i < n; i++) {

@@ -110,6 +110,10 @@ wt_status flow_shift_table(const wt_master *m, wt_table **table, wt_error *err)
     if (wt_master_shift_quantity(m) != WT_SHIFT_MODULI)
         shift_factors_set_text(&t, SHIFT_FACTORS_KEY_SHIFTED_BY, shift_quantity_name(m));
     set_route_keys(&t, m);
+    if (m->strain_high > 0) {
+        shift_factors_set_value(&t, SHIFT_FACTORS_KEY_STRAIN_LOW, m->strain_low, 0, 0);
+        shift_factors_set_value(&t, SHIFT_FACTORS_KEY_STRAIN_HIGH, m->strain_high, 0, 0);
+    }
     shift_factors_set_text(&t, SHIFT_FACTORS_KEY_DEFORMATION,
                            flow_deformation_name(m->deformation));
     set_superposition_keys(&t, m);

@@ -84,6 +84,10 @@
     X(SHIFT_FACTORS_KEY_STEP_LEFT, "step_left", PLAIN,                                             \
       LABEL("Not settled: a further step moves a number by up to (standard errors)"), OPTIONAL)    \
     X(SHIFT_FACTORS_KEY_DEFORMATION, "deformation", ENUM(deformation), LABEL("Deformation"))       \
+    X(SHIFT_FACTORS_KEY_STRAIN_LOW, "strain_low", SI(STRAIN),                                      \
+      LABEL("Least strain amplitude of an isotherm"), OPTIONAL)                                    \
+    X(SHIFT_FACTORS_KEY_STRAIN_HIGH, "strain_high", SI(STRAIN),                                    \
+      LABEL("Largest strain amplitude of an isotherm"), OPTIONAL)                                  \
     X(SHIFT_FACTORS_KEY_SUPERPOSITION, "superposition", ENUM(superposition),                       \
       HEADLINE("Time-temperature superposition"))                                                  \
     X(SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "lack_of_fit_p", PLAIN, LABEL("Lack of fit, p"), OPTIONAL)  \

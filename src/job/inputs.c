@@ -450,9 +450,11 @@ wt_status flow_record_input(const wt_job *work, wt_input *input, const flow_file
     const wt_format_info *info = file->format;
     char format[128];
     snprintf(format, sizeof format, "%s %s", info->id, info->version != NULL ? info->version : "");
-    const wt_status status = wt_job_add_input(
-        work, (wt_provenance_input){.path = file->name, .role = role, .format = format}, input,
-        err);
+    char *const instrument = flow_instrument(work, input, info, &file->set->read);
+    const wt_provenance_input row = {
+        .path = file->name, .role = role, .format = format, .instrument = instrument};
+    const wt_status status = wt_job_add_input(work, row, input, err);
+    free(instrument);
     if (status != WT_OK)
         wt_error_file(err, file->name);
     return status;

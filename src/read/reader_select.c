@@ -50,52 +50,47 @@ static const wt_param rows[] = {
     SPRING_CONSTANT(wt_read_options, PARAM_NO_CASE, NULL),
     SENSITIVITY(wt_read_options, PARAM_NO_CASE, NULL),
     {PARAM("temperature", wt_read_options, temperature, WT_Q_TEMPERATURE, ABOVE(0)), .value = "T",
-     .unset = "", .help = "temperature of DMA files that say none, such as 20degC"},
+     .unset = "", .help = "temperature of DMA files that state none, such as 20degC"},
     {PARAM_TEXT_OF("temperature-in-name", wt_read_options, temperature_in_name), .value = "PATTERN",
      .unset = "",
-     .help = "where in the names of DMA files, or sheets, that say no temperature it stands, in "
-             "degrees Celsius: # is the number and * anything, such as \"*_#C.txt\"",
+     .help = "place of the temperature in the names of DMA files or sheets that state none, in "
+             "degrees Celsius: # is the number and * any text, such as \"*_#C.txt\"",
      .check = check_name_pattern},
     {PARAM("frequency", wt_read_options, frequency, WT_Q_FREQUENCY, ABOVE(0)), .value = "F",
      .unset = "",
-     .help = "frequency of strain and temperature sweeps whose files say none, such as 10Hz"},
+     .help = "frequency of strain and temperature sweeps whose files state none, such as 10Hz"},
     {PARAM_TEXTS_OF("units", wt_read_options, units, n_units), .value = "NAME=UNIT", .unset = "",
-     .help = "unit of a column that carries none, such as \"E'=MPa\"; repeatable"},
+     .help = "unit of a column for which the file states none, such as \"E'=MPa\"; repeatable"},
     {PARAM("pixel-size", wt_read_options, pixel_size, WT_Q_LENGTH, ABOVE(0)), .value = "L",
      .unset = "",
-     .help = "distance of the pixels of height maps whose files do not give their "
-             "size, such as 0.5um"},
+     .help = "pixel spacing of height maps whose files do not state their size, such as 0.5um"},
     {PARAM_TEXT_OF("height-unit", wt_read_options, height_unit), .value = "UNIT", .unset = "",
-     .help = "unit of the values of height maps whose files do not give it as a length, such as nm",
+     .help = "unit of the values of height maps whose files state no unit of length, such as nm",
      .check = check_length_unit},
     {PARAM_CHOICE_OF("spectrum-convention", wt_read_options, spectrum_convention,
                      "weartrack|contact-engineering"),
-     .help =
-         "what the densities of a power spectrum are: of contact.engineering (SurfaceTopography) "
-         "they are divided by (2 pi)^2 of an area, 2 pi of a profile"},
+     .help = "definition of the density of a power spectrum; densities of contact.engineering "
+             "(SurfaceTopography) are divided by (2 pi)^2 for an area and by 2 pi for a profile"},
     {PARAM_TEXT_OF("format", wt_read_options, format), .value = "ID", .unset = "",
      .help = "read the files as this format (see weartrack formats list)"},
     {PARAM_TEXT_OF("sheet", wt_read_options, sheet), .value = "NAME", .unset = "",
-     .help =
-         "sheet of a spreadsheet file; all: those that hold data, one after the other; default: "
-         "the only one that holds data"},
+     .help = "sheet of a spreadsheet file; all reads every sheet that holds data, one after the "
+             "other; default: the only sheet that holds data"},
     {PARAM_CHOICE_OF("deformation", wt_read_options, deformation, "of-file|tension|shear|bending"),
-     .help = "what the moduli of a DMA file are of where their names do not say it, as \"storage "
-             "modulus\"; bending gives E like tension"},
+     .help = "deformation that the moduli of a DMA file belong to if their names do not state it, "
+             "as in \"storage modulus\"; bending gives E like tension"},
     {PARAM("strain", wt_read_options, strain, WT_Q_STRAIN, ABOVE(0)), .value = "S", .unset = "",
-     .help =
-         "of DMA isotherms and temperature sweeps measured at several strain amplitudes take those "
-         "nearest to this one, "
-         "such as 0.1%"},
+     .help = "select the DMA isotherms and temperature sweeps with the strain amplitude nearest to "
+             "this one, such as 0.1%, if there are several amplitudes"},
     {PARAM_TEXT_OF("sample", wt_read_options, sample), .value = "NAME", .unset = "",
-     .help = "of DMA sweeps of several samples, or what weartrack master made of them, take those "
-             "of this one; all: the sweeps are of one material, whatever they are called"},
+     .help = "select the DMA sweeps of this sample, or its result of weartrack master; all: the "
+             "sweeps are of one material whatever their names are"},
     {PARAM_CHOICE_OF("sample-by", wt_read_options, sample_by, "name|file"),
      .help = "how the samples of DMA sweeps are distinguished: by the name in a column or in "
              "the header, or by the file"},
     {PARAM_CHOICE_OF("conditioning", wt_read_options, conditioning, "mend|keep"),
-     .help = "keep: copies, flagged rows, outliers, pauses, zeros and drifts count as they stand; "
-             "otherwise left out or corrected"},
+     .help = "mend leaves out or corrects copies, flagged rows, outliers, pauses, zeros and "
+             "drifts; keep uses them as they are"},
 };
 
 PARAM_TABLE(wt_read_params, wt_read_options, rows, wt_read_defaults, NO_PARTS)

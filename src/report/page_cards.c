@@ -63,12 +63,8 @@ void page_reason(page_writer *page, const char *verdict)
 {
     const size_t n = length_without_reason(verdict);
     const char *const reason = verdict[n] != '\0' ? verdict + n + 2 : verdict;
-    char first[2] = "";
-    /* a name such as E' begins with a capital letter already */
-    if (reason[0] >= 'a' && reason[0] <= 'z')
-        first[0] = (char)(reason[0] - 'a' + 'A');
-    text_html(&page->out, "<p>%s", first);
-    text_typographic(&page->out, first[0] != '\0' ? reason + 1 : reason);
+    text_add(&page->out, "<p>");
+    text_sentence(&page->out, reason);
     text_add(&page->out, ".</p>\n");
 }
 

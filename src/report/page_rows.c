@@ -12,17 +12,13 @@
 
 enum { CARDS = 4, PARTS = 5 }; /* on the first screen */
 
-/* Returns the name of a row as a heading. A name of a file is not changed. */
-typedef struct row_heading {
-    char text[sizeof((result_row *)0)->name];
-} row_heading;
-static row_heading heading_of(const result_row *row)
+/* Writes the name of a row as a heading. A name of a file is not changed. */
+static void write_heading(page_writer *page, const result_row *row)
 {
-    row_heading heading;
-    (void)snprintf(heading.text, sizeof heading.text, "%s", row->name);
-    if (strpbrk(row->name, "./") == NULL && row->name[0] >= 'a' && row->name[0] <= 'z')
-        heading.text[0] = (char)(row->name[0] - 'a' + 'A');
-    return heading;
+    if (strchr(row->name, '.') == NULL)
+        text_sentence(&page->out, row->name);
+    else
+        text_html(&page->out, "%s", row->name);
 }
 
 /* Returns the row after the parts of a row. */
@@ -39,6 +35,10 @@ static size_t end_of_parts(const result_rows *list, size_t first)
 static void write_value(page_writer *page, const char *value, bool has_interval)
 {
     const size_t n = strcspn(value, " ");
+    if (strpbrk(value, "0123456789") == NULL) { /* such as "not known" */
+        text_html(&page->out, "<p class=\"verdict\"><strong>%s</strong></p>\n", value);
+        return;
+    }
     char number[sizeof((row_number_text *)0)->value];
     (void)snprintf(number, sizeof number, "%.*s", (int)n, value);
     text_add(&page->out, has_interval ? "<p class=\"number\">" : "<p class=\"number plain\">");
@@ -70,7 +70,9 @@ static void write_parts(page_writer *page, const result_rows *list, size_t from,
         const result_row *const row = &list->rows[i];
         const row_number_text number = row_number_format(&row->number);
         const char *const value = row->kind == RESULT_ROW_TEXT ? row->text : number.value;
-        text_html(&page->out, "<li>%s%s", row->name, value[0] != '\0' ? ": " : "");
+        text_add(&page->out, "<li>");
+        write_heading(page, row);
+        text_add(&page->out, value[0] != '\0' ? ": " : "");
         text_typographic(&page->out, value);
         if (row->kind == RESULT_ROW_NUMBER && number.interval[0] != '\0') {
             text_add(&page->out, " (");
@@ -111,7 +113,9 @@ static void write_row_card(page_writer *page, const result_rows *list, size_t fi
 {
     const result_row *const row = &list->rows[first];
     const row_number_text number = row_number_format(&row->number);
-    text_html(&page->out, "<section class=\"finding\">\n<h2>%s</h2>\n", heading_of(row).text);
+    text_add(&page->out, "<section class=\"finding\">\n<h2>");
+    write_heading(page, row);
+    text_add(&page->out, "</h2>\n");
     if (row->kind == RESULT_ROW_TEXT) {
         text_add(&page->out, "<p class=\"verdict\"><strong>");
         text_typographic(&page->out, row->text);
@@ -128,7 +132,7 @@ static void write_row_card(page_writer *page, const result_rows *list, size_t fi
     /* the reason of a verdict is more complete than its note */
     if (row->note[0] != '\0' && !has_reason(row)) {
         text_add(&page->out, "<p>");
-        text_typographic(&page->out, row->note);
+        text_sentence(&page->out, row->note);
         text_add(&page->out, "</p>\n");
     }
     if (end > first + 1)
@@ -160,7 +164,9 @@ static void write_row_table(page_writer *page, const result_rows *list, const bo
         any = true;
         const result_row *const row = &list->rows[i];
         const row_number_text number = row_number_format(&row->number);
-        text_html(&page->out, "<tr><th scope=\"row\">%s</th>", heading_of(row).text);
+        text_add(&page->out, "<tr><th scope=\"row\">");
+        write_heading(page, row);
+        text_add(&page->out, "</th>");
         write_cell(page, "Value", row->kind == RESULT_ROW_TEXT ? row->text : number.value);
         write_cell(page, "95 % interval", row->kind == RESULT_ROW_TEXT ? "" : number.interval);
         write_cell(page, "Note", row->note);

@@ -272,7 +272,7 @@ void page_conditions(page_writer *page)
         result_rows_clear(&list);
         result_rows_compute(page->result, &list);
     }
-    text_typographic(&line, list.heading);
+    text_sentence(&line, list.heading);
     text_add(&line, line.length > 0 ? ". " : "");
     if (page->tables->inputs.n_rows > 0) {
         text_add(&line, "<a href=\"#data\">Data</a>:");

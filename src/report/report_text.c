@@ -358,3 +358,12 @@ void append_verdict_text(text_buffer *to)
     }
     text_add(to, "}");
 }
+
+void text_sentence(text_buffer *text, const char *ascii)
+{
+    char *const sentence = wt_strdup(ascii);
+    if (sentence[0] >= 'a' && sentence[0] <= 'z')
+        sentence[0] = (char)(sentence[0] - 'a' + 'A');
+    text_typographic(text, sentence);
+    free(sentence);
+}

@@ -49,5 +49,7 @@ void text_comment(text_buffer *text, const char *string);
 /* Appends an ASCII text as escaped HTML with the signs of the page: "−2.9 °C" for "-2.9 degC",
  * "µm" for "um", "m³" for "m^3", "8.9×10⁻¹³" for "8.9e-13". Other text is not changed. */
 void text_typographic(text_buffer *text, const char *ascii);
+/* Variant that begins with a capital letter. */
+void text_sentence(text_buffer *text, const char *ascii);
 
 #endif

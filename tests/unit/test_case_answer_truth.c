@@ -515,7 +515,7 @@ static void test_limits(void **state)
     }
     for (size_t row = THICKNESS; row <= FRICTION; row++) {
         assert_string_equal(answer(row, "verdict"), "not computed");
-        assert_non_null(strstr(answer(row, "answer"), "The case does not ask for it: the case has "
+        assert_non_null(strstr(answer(row, "answer"), "The case does not request it: the case has "
                                                       "no layer"));
     }
 }

@@ -205,7 +205,7 @@ static void test_reasons(void **state)
     check_because(ALL "<report><result>layer</result></report></case>", "master_curve",
                   "layer needs its material");
     check_because(ALL "<report><result>layer</result></report></case>", "indentation_bulk",
-                  "nothing that is asked for needs it");
+                  "no requested table needs it");
     check_because(ALL "<report><result>shift_factors</result></report></case>", "master_curve",
                   "runs because shift_factors is asked for; nothing needs master_curve, "
                   "relaxation_spectrum, which it leaves out");

@@ -232,7 +232,7 @@ static void write_melt(char *path, double odd)
     uint64_t seed = 3;
     FILE *out = truth_file(path);
     fputs("## table: sweep\n# angular_frequency[rad/s]\tstorage_modulus[Pa]\tloss_modulus[Pa]\t"
-          "temperature[K]\n",
+          "temperature[K]\tstrain[1]\n",
           out);
     for (double t = 213.15; t < 340; t += 10) {
         const double log_a = wt_shift_law_log_a(&law, t);
@@ -244,7 +244,7 @@ static void write_melt(char *path, double odd)
                 loss += 1e6 * pow(10, -0.3 * l) * z / (1 + z * z);
             }
             loss *= t < odd ? exp(0.8 * sin(t)) : 1;
-            fprintf(out, "%.17g\t%.17g\t%.17g\t%.17g\n", pow(10, x),
+            fprintf(out, "%.17g\t%.17g\t%.17g\t%.17g\t0.001\n", pow(10, x),
                     storage * exp(0.005 * truth_normal(&seed)),
                     loss * exp(0.005 * truth_normal(&seed)), t);
         }

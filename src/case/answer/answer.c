@@ -55,7 +55,7 @@ static reason_text explain_outcome(const flow_plan *plan, flow_stage_id stage, f
         clocale_print(reason.text, sizeof reason.text, "Not measured: %s.",
                       plan->unmeasured_reason);
     else if (outcome == FLOW_EXCLUDED && why_excluded[0] != '\0')
-        clocale_print(reason.text, sizeof reason.text, "The case does not ask for it: %s.",
+        clocale_print(reason.text, sizeof reason.text, "The case does not request it: %s.",
                       why_excluded);
     return reason;
 }
@@ -90,8 +90,7 @@ static void add_finding(table_writer *t, const flow_plan *plan, const finding *f
     else if (f->verdict == FINDING_NOT_COMPUTED &&
              (flow_stages[stage].outputs & FLOW_TABLES & plan->required) == 0)
         clocale_print(reason.text, sizeof reason.text,
-                      "Its table, %s, is not among those that are asked for.",
-                      flow_stages[stage].id);
+                      "This result does not include it. A run of the case computes it.");
     const result_value *const v = &f->value;
     TABLE_ADD(answer, t, finding_question_text(f->question), finding_verdict_text(f->verdict),
               finding_basis_text(f->basis), v->number.value, v->low, v->high, v->range.low,

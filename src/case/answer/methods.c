@@ -133,11 +133,27 @@ static void describe_hedges(text_builder *t, const table_view *table)
 
 /* ---- material -------------------------------------------------------------------------------- */
 
+/* Appends the strain amplitudes of the isotherms, if the files state them. */
+static void append_strain(text_builder *t, const table_view *table)
+{
+    const double low = shift_factors_value(table, SHIFT_FACTORS_KEY_STRAIN_LOW).value,
+                 high = shift_factors_value(table, SHIFT_FACTORS_KEY_STRAIN_HIGH).value;
+    if (isnan(low))
+        return;
+    const number_text least = format_with_unit(1e2 * low, "%"),
+                      largest = format_with_unit(1e2 * high, "%");
+    text_append(t, "The isotherms were measured with a strain amplitude of %s", least.text);
+    if (strcmp(least.text, largest.text) != 0)
+        text_append(t, " to %s", largest.text);
+    text_append(t, ". ");
+}
+
 static void describe_shifting(text_builder *t, const table_view *table)
 {
     const double reference =
         shift_factors_value(table, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
     const char *by = shift_factors_key_text(table, SHIFT_FACTORS_KEY_SHIFTED_BY);
+    append_strain(t, table);
     if (table->n_rows == 1)
         text_append(
             t,
@@ -391,9 +407,23 @@ static void add_method(table_writer *writer, const method *m, const wt_result *r
     }
 }
 
+/* Adds the instruments of the files, by the role of the files. */
+static void add_instruments(table_writer *writer, const wt_result *result)
+{
+    const wt_provenance *const provenance = wt_result_provenance_const(result);
+    for (size_t i = 0; i < wt_provenance_n_inputs(provenance); i++) {
+        const wt_provenance_input *const input = wt_provenance_get_input(provenance, i);
+        char text[512];
+        snprintf(text, sizeof text, "%s: The data come from %s.", input->role, input->instrument);
+        if (input->instrument[0] != '\0' && !has_sentence(writer->table, text))
+            TABLE_ADD(methods, writer, "instrument", text, "", "");
+    }
+}
+
 wt_status wt_methods_table(const wt_result *result, wt_table **table, wt_error *err)
 {
     table_writer writer = table_begin(&methods_schema, err);
+    add_instruments(&writer, result);
     for (size_t i = 0; i < COUNT_OF(methods); i++)
         add_method(&writer, &methods[i], result);
     return table_end(&writer, table);

@@ -224,7 +224,7 @@ static void set_exclusion_reason(flow_plan *plan, size_t i, bool able)
             return;
         }
     }
-    snprintf(because, size, "nothing that is asked for needs it");
+    snprintf(because, size, "no requested table needs it");
 }
 
 void flow_plan_create(const wt_case *c, flow_plan *plan)

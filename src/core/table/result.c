@@ -107,6 +107,7 @@ void wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
     copy.path = wt_strdup(input->path != NULL ? input->path : "");
     copy.role = share_text(input->role, before != NULL ? before->role : NULL);
     copy.format = share_text(input->format, before != NULL ? before->format : NULL);
+    copy.instrument = share_text(input->instrument, before != NULL ? before->instrument : NULL);
     copy.sha256[sizeof copy.sha256 - 1] = '\0';
     p->inputs[p->n++] = copy;
 }

@@ -34,12 +34,12 @@ static const char *verdict_text(int verdict)
 }
 
 /* Numbers of accepted, wide and doubtful curves, and why the others are rejected. */
-static void add_counts(rows_source *s, const table_view *curves, int level)
+static void add_counts(rows_source *s, const table_view *curves, int level, const char *name)
 {
     const verdict_counts counts = count_verdicts(curves);
     char text[64];
     snprintf(text, sizeof text, "%zu of %zu", counts.used, counts.all);
-    result_row *row = rows_add_text(s, level, text, "curves used");
+    result_row *row = rows_add_text(s, level, text, "%s", name);
     rows_note(row, "%zu accepted, %zu wide, %zu doubtful", counts.of[WT_CURVE_ACCEPTED],
               counts.of[WT_CURVE_WIDE], counts.of[WT_CURVE_DOUBTFUL]);
     if (counts.used == counts.all)
@@ -78,7 +78,7 @@ static void add_group(rows_source *s, size_t i)
         return;
     rows_reason(row, "errors that no curve shows",
                 indentation_key_text(&curves, INDENTATION_KEY_NOT_SHOWN));
-    add_counts(s, &curves, 1);
+    add_counts(s, &curves, 1, "curves used");
     const char *const assumed = indentation_key_text(&curves, INDENTATION_KEY_ASSUMED);
     if (assumed != NULL)
         rows_note(rows_add_text(s, 1, "", "errors assumed"), "%s", assumed);
@@ -178,7 +178,8 @@ static void add_sensitivity(rows_source *s, const table_view *v)
     result_row *row = rows_add_number(s, 0, rows_estimate(value), "deflection sensitivity");
     for (size_t i = 0; i < v->n_rows; i++)
         if (sensitivity_enum(v, i, SENSITIVITY_DIRECTION) == (int)direction)
-            rows_note(row, "%.0f curves, %s", sensitivity_get(v, i, SENSITIVITY_N),
+            rows_note(row, "%.0f curve%s, %s", sensitivity_get(v, i, SENSITIVITY_N),
+                      sensitivity_get(v, i, SENSITIVITY_N) == 1 ? "" : "s",
                       direction == SLOPE_OF_BOTH ? "approach and retract"
                                                  : slope_direction_text(direction));
     if (!isnan(factor.value))
@@ -186,9 +187,9 @@ static void add_sensitivity(rows_source *s, const table_view *v)
     if (verdict != NULL)
         rows_add_verdict(s, 0, verdict, "slope");
     if (option != NULL)
-        rows_add_text(s, 0, "", "for weartrack indent: %s", option);
+        rows_add_text(s, 1, "", "for weartrack indent: %s", option);
     if (compare != NULL)
-        rows_add_text(s, 0, "", "for weartrack compare: %s", compare);
+        rows_add_text(s, 1, "", "for weartrack compare: %s", compare);
 }
 
 static void add_thermal(rows_source *s, const table_view *v)
@@ -227,9 +228,9 @@ static void add_thermal(rows_source *s, const table_view *v)
         rows_reason(row, "not to be used", contradiction);
     }
     if (indent != NULL)
-        rows_add_text(s, 0, "", "for weartrack indent: %s", indent);
+        rows_add_text(s, 1, "", "for weartrack indent: %s", indent);
     if (compare != NULL)
-        rows_add_text(s, 0, "", "for weartrack compare: %s", compare);
+        rows_add_text(s, 1, "", "for weartrack compare: %s", compare);
 }
 
 static void add_spot(rows_source *s, const table_view *v)
@@ -248,7 +249,7 @@ static void add_spot(rows_source *s, const table_view *v)
                         "roughness / depth");
     rows_note(row, "limit %s", rows_short(spot_get(v, 0, SPOT_LIMIT), "1").value);
     if (verdict != NULL)
-        rows_add_verdict(s, 0, verdict, "too rough");
+        rows_add_verdict(s, 0, verdict, "verdict");
 }
 
 static void add_track_layer(rows_source *s, const table_view *v)
@@ -289,8 +290,11 @@ void rows_of_curves(rows_source *s)
         if (strncmp(name, indentation_schema.name, length) == 0 &&
             table_bind_result(s->result, &indentation_schema, name + length, &view, NULL) ==
                 WT_OK &&
-            view.table != NULL)
-            add_counts(s, &view, 0);
+            view.table != NULL) {
+            char label[64];
+            snprintf(label, sizeof label, "%s curves used", name + length);
+            add_counts(s, &view, 0, label);
+        }
     }
     if (rows_bind(s, &track_layer_schema, &view))
         add_track_layer(s, &view);

@@ -106,7 +106,7 @@ static void add_shifts(rows_source *s, const table_view *v)
     if (odd > 0 && v->n_rows > 1) {
         char text[64];
         snprintf(text, sizeof text, "%zu of %zu", odd, v->n_rows);
-        rows_add_text(s, 1, text, "isotherms not joined by overlap");
+        rows_add_text(s, 1, text, "isotherms not joined");
     }
     add_influence(s);
     if (!isnan(c1.value)) {

@@ -94,10 +94,10 @@ static void note_repeated_runs(wt_master *m)
     }
 }
 
-/* Warns if the mean strain amplitudes of the isotherms differ too much. */
-static void note_strain(const wt_sweep *sweep, wt_log *log)
+/* Stores the range of the mean strain amplitudes of the isotherms and warns if it is too wide. */
+static void note_strain(const wt_sweep *sweep, wt_master *m, wt_log *log)
 {
-    double low = HUGE_VAL, high = 0.0;
+    double low = (double)NAN, high = (double)NAN;
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
         const wt_isotherm *isotherm = &sweep->isotherms[i];
         double sum = 0.0;
@@ -112,6 +112,8 @@ static void note_strain(const wt_sweep *sweep, wt_log *log)
             high = fmax(high, pow(10.0, sum / (double)n));
         }
     }
+    m->strain_low = low;
+    m->strain_high = high;
     if (high > strain_ratio_limit * low)
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "isotherms were measured at strain amplitudes from %.2g to %.2g: a filled "
@@ -188,7 +190,7 @@ void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master 
     for (size_t i = 0; i < m->n_shifts; i++)
         note_shift(work, i, &m->shifts[i]);
     note_repeated_runs(m);
-    note_strain(sweep, log);
+    note_strain(sweep, m, log);
     for (size_t i = 0; i < m->n_shifts; i++) {
         const shift_curve *const curve = &work->set.curves[i];
         const double celsius = m->shifts[i].temperature - WT_ZERO_CELSIUS;

@@ -200,8 +200,7 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
         *temperature = header;
         if (priority == HEADER_FALLBACK)
             wt_log_add(b->log, WT_WARNING, b->file->name, NULL,
-                       "the temperature of %.2f degC stands in the header text only",
-                       header - WT_ZERO_CELSIUS);
+                       "the temperature stands in the header text only");
     } else if (n > 0) {
         *temperature = mean;
     } else if (b->options->temperature_in_name != NULL) {
