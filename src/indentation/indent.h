@@ -24,6 +24,7 @@ typedef struct indent_summary {
     indent_shift_sum range[WT_FIT_RANGES];             /* changes with the range of the fit */
     double range_variance[WT_FIT_RANGES];              /* sums of the variances by noise */
     size_t n_unknown_loss;              /* curves with a loss of unknown effect on the modulus */
+    double variance;                    /* sum of the relative variances of the moduli */
     double max_depth;                   /* largest indentation [m] */
     double (*misfits)[WT_MISFIT_TERMS]; /* [n_misfits] cosines of curves that have them */
     size_t n_misfits;

@@ -299,6 +299,7 @@ void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
 {
     to->max_depth = fmax(to->max_depth, fit->max_indentation);
     add_shift(&to->bend, fit->curvature_shift / fit->modulus.value);
+    to->variance += pow(fit->modulus.standard_error / fit->modulus.value, 2);
     add_shift(&to->loss, fit->loss_bias);
     add_shift(&to->loss_error, fit->loss_error);
     if (!options->plain_least_squares && options->misfit_p_threshold > 0)
@@ -332,6 +333,10 @@ static double loss_error(const indent_summary *summary)
                                                    : mean_shift(summary, &summary->loss_error);
 }
 
+/* Share of the mean variance of a modulus from which a bend is a warning. A smaller one widens the
+ * interval of a curve by less than 5 %. */
+static const double min_bend_share = 0.1;
+
 /* Reports the shifts that all moduli share and that their scatter does not show: slope changes of
  * most baselines due to the piezo, and loss of unknown spectrum. */
 static void report_common_shifts(const indent_summary *summary, const wt_indent_job *job,
@@ -339,7 +344,7 @@ static void report_common_shifts(const indent_summary *summary, const wt_indent_
 {
     const double bend = mean_shift(summary, &summary->bend);
     indentation_set_value(rows, INDENTATION_KEY_BEND_ERROR, bend, 0, 0);
-    if (fabs(bend) > 0)
+    if (bend * bend * (double)summary->n > min_bend_share * summary->variance)
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "%s: the baseline of %zu of %zu accepted curves is bent; if the piezo "
                    "continues so in contact, these moduli change by %+.2g %% on average, which "

@@ -78,7 +78,7 @@ static void has_the_numbers_of_the_run(void **state)
         assert_int_equal(wt_table_n_rows(rows), 48);
         for (size_t i = 0; i < 48; i += 5) {
             const refit_curve which = {groups[g], text_cell(rows, i, "file"),
-                                       (size_t)number_cell(rows, i, "curve"), (double)NAN};
+                                       (size_t)number_cell(rows, i, "curve"), "", ""};
             double contact;
             for (int again = 0; again < 2; again++)
                 assert_true(modulus(text, &which, &contact) == number_cell(rows, i, "modulus"));
@@ -92,14 +92,17 @@ static void has_the_numbers_of_the_run(void **state)
 static void follows_contact_point_and_case(void **state)
 {
     (void)state;
-    refit_curve which = {"bulk", "bulk-2.jpk-force-map", 3, (double)NAN};
+    refit_curve which = {"bulk", "bulk-2.jpk-force-map", 3, "", ""};
     double contact, moved;
+    char by[64];
     const double fitted = modulus(text, &which, &contact);
-    which.contact_point = contact + 5e-9;
+    (void)snprintf(by, sizeof by, "%.17g m", contact + 5e-9);
+    which.option = "contact-point";
+    which.value = by;
     const double by_hand = modulus(text, &which, &moved);
     assert_true(by_hand > 1.01 * fitted);
-    assert_true(moved == which.contact_point);
-    which.contact_point = (double)NAN;
+    assert_true(moved == contact + 5e-9);
+    which.option = which.value = "";
     /* a stiffer cantilever, which is in the section of the group: the curve is read again */
     char *stiffer = wt_strdup(text);
     char *at = strstr(stiffer, "0.3N/m");

@@ -85,14 +85,8 @@ static bool average_start_samples(const curve_fitting *f, size_t jump, curve_sam
     if (length < 2 || jump / length < CURVE_BASELINE_SAMPLES || s->gap_to > s->gap_from ||
         curve_has_wave(&f->kind.wave))
         return false;
-    *to = (curve_samples){.position = f->workspace->start_position,
-                          .force = f->workspace->start_force,
-                          .spring_constant = s->spring_constant};
+    *to = curve_average_samples(s, jump, length, f->workspace);
     *to_jump = jump / length;
-    for (size_t i = jump % length; i + length <= s->n; i += length) {
-        to->position[to->n] = curve_sum(s->position + i, length) / (double)length;
-        to->force[to->n++] = curve_sum(s->force + i, length) / (double)length;
-    }
     return true;
 }
 
@@ -467,18 +461,20 @@ static bool law_force_difference(const curve_fitting *f, bool constant_pull, dou
     return true;
 }
 
-/* Tests if a law of adhesion could improve a fit that describes the curve enough to replace it.
- * Otherwise the effect of a plausible pull on the modulus adds to the error. The workspace is that
- * of the solution afterwards. `pull_alone` is true if only a constant pull could replace the fit.
- */
-static bool adhesion_may_improve(curve_fitting *f, double most, bool *pull_alone)
+enum { SCORES = 1 + sizeof trial_pulls / sizeof trial_pulls[0] };
+
+/* Score tests with means of the samples: a constant pull, then trial pulls of the JKR law. Returns
+ * their number. */
+static size_t score_laws(curve_fitting *f, double most, curve_score_result step[SCORES])
 {
     const curve_kind plainly = {.tilt = f->kind.tilt};
+    const curve_samples all = f->input.samples;
+    const size_t length = curve_average_length(&all);
     wt_indent_workspace *w = f->workspace;
-    /* The arrays of the scan are free after the scan. */
-    double *const difference[] = {w->start_position, w->start_force, w->tip};
-    enum { SCORES = sizeof difference / sizeof difference[0] };
-    curve_score_result step[SCORES];
+    curve_solution at = f->solution;
+    double *const *const difference = w->wave_column; /* free without a wave */
+    at.cost /= (double)length;
+    f->input.samples = curve_average_samples(&all, all.n, length, w);
     compute_residuals(f, &plainly, f->solution.p, w->weight);
     /* The force is linear in a constant pull, so any small pull will do. */
     (void)law_force_difference(f, true, f->input.step_noise, w->weight, difference[0]);
@@ -486,8 +482,21 @@ static bool adhesion_may_improve(curve_fitting *f, double most, bool *pull_alone
     for (size_t i = 0; i < sizeof trial_pulls / sizeof trial_pulls[0]; i++)
         if (law_force_difference(f, false, trial_pulls[i] * most, w->weight, difference[n]))
             n++;
-    curve_score(f->table, &f->input.samples, &f->kind, &f->solution, difference, n, w, step);
+    curve_score(f->table, &f->input.samples, &f->kind, &at, difference, n, w, step);
+    f->input.samples = all;
+    return n;
+}
+
+/* Tests if a law of adhesion could improve a fit that describes the curve enough to replace it.
+ * Otherwise the effect of a plausible pull on the modulus adds to the error. The workspace is that
+ * of the solution afterwards. `pull_alone` is true if only a constant pull could replace the fit.
+ */
+static bool adhesion_may_improve(curve_fitting *f, double most, bool *pull_alone)
+{
+    curve_score_result step[SCORES];
     bool may_improve = false;
+    const size_t n = score_laws(f, most, step);
+    evaluate_solution(f);
     for (size_t i = n; i-- > 0;)
         if (step[i].share > 0.0 && step[i].gain > score_share * better_chi2) {
             *pull_alone = !may_improve && i == 0;

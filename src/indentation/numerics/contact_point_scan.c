@@ -27,9 +27,8 @@
 static const double least_depth = 1e-5;
 /* Smallest rise of the cost between two minima. It is 1.6 standard deviations for 2,500 samples. */
 static const double min_rise = 1.001;
-/* Tolerances over the distance of the scan points: for weights, which change slowly, and for starts
- * of the least squares. */
-static const double coarse_tolerance = 1e-2, fine_tolerance = 1e-3;
+/* Tolerance of a minimum over the distance of the scan points, for starts of the least squares. */
+static const double tolerance = 1e-3;
 /* Largest 1 + S/k without weights. Weights from 0.7 to 1 hardly move a minimum, and the least
  * squares correct it. */
 static const double min_weight_ratio = 1.2;
@@ -335,8 +334,8 @@ WIDE_REGISTERS static double interpolated_cost(double depth, void *projection_)
     return projected_cost(p, o, first, g + first, gg + first);
 }
 
-/* Brent's minimisation to a relative accuracy of the bracket. */
-static double minimise_brent(projection *p, double lo, double middle, double hi, double accuracy)
+/* Brent's minimisation. */
+static double minimise_brent(projection *p, double lo, double middle, double hi)
 {
     gsl_min_fminimizer *minimizer = p->workspace->minimizer;
     gsl_function function = {interpolated_cost, p};
@@ -346,7 +345,7 @@ static double minimise_brent(projection *p, double lo, double middle, double hi,
         if (gsl_min_fminimizer_iterate(minimizer) != GSL_SUCCESS)
             break;
         double a = gsl_min_fminimizer_x_lower(minimizer), b = gsl_min_fminimizer_x_upper(minimizer);
-        if (b - a < accuracy * (hi - lo))
+        if (b - a < tolerance * (hi - lo))
             break;
     }
     return gsl_min_fminimizer_x_minimum(minimizer);
@@ -430,7 +429,7 @@ static void scan_costs(const projection *p, double shallowest, cost_profile *to)
 }
 
 /* Refines the lowest minima of the scan. */
-static size_t refine_minima(projection *p, const cost_profile *points, double accuracy,
+static size_t refine_minima(projection *p, const cost_profile *points,
                             curve_minimum minima[CURVE_MAX_MINIMA])
 {
     size_t minimum_index[MAX_DEPTHS], n = 0;
@@ -441,7 +440,7 @@ static size_t refine_minima(projection *p, const cost_profile *points, double ac
         double at = points->depth[j];
         if (j > 0 && j + 1 < points->n) {
             p->octave = points->octave[j - 1];
-            at = minimise_brent(p, points->depth[j + 1], at, points->depth[j - 1], accuracy);
+            at = minimise_brent(p, points->depth[j + 1], at, points->depth[j - 1]);
         }
         const curve_minimum minimum = convert_minimum(p, p->deepest - at);
         if (minimum.reduced_modulus > 0.0)
@@ -488,9 +487,26 @@ static double compute_weights(const wt_contact_table *table, const curve_samples
     return largest;
 }
 
-size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, bool tilt,
-                  bool weighted, wt_indent_workspace *w, curve_minimum minima[CURVE_MAX_MINIMA])
+WIDE_REGISTERS curve_samples curve_average_samples(const curve_samples *s, size_t from,
+                                                   size_t length, wt_indent_workspace *w)
 {
+    curve_samples to = {.position = w->start_position,
+                        .force = w->start_force,
+                        .spring_constant = s->spring_constant};
+    if (length <= 1)
+        return *s;
+    for (size_t i = from % length; i + length <= s->n; i += length) {
+        to.position[to.n] = curve_sum(s->position + i, length) / (double)length;
+        to.force[to.n++] = curve_sum(s->force + i, length) / (double)length;
+    }
+    return to;
+}
+
+size_t curve_scan(const wt_contact_table *table, const curve_samples *all, bool tilt, bool weighted,
+                  wt_indent_workspace *w, curve_minimum minima[CURVE_MAX_MINIMA])
+{
+    const size_t length = curve_average_length(all);
+    const curve_samples means = curve_average_samples(all, all->n, length, w), *samples = &means;
     projection p = begin_projection(table, samples, tilt, w);
     const size_t n_skipped = SKIPPED_SAMPLES * ((samples->n + 1023) / 1024);
     double upper_tip = -(double)INFINITY;
@@ -508,17 +524,24 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, b
     distribute_samples(&p);
     tabulate_contact_function(&p);
     scan_costs(&p, shallowest, &points);
-    if (weighted) { /* an approximate solution is sufficient for the weights */
-        if (refine_minima(&p, &points, coarse_tolerance, minima) == 0)
+    if (weighted) { /* weights change slowly, so the lowest point of the scan is sufficient */
+        size_t lowest = 0;
+        for (size_t i = 1; i < points.n; i++)
+            lowest = points.cost[i] < points.cost[lowest] ? i : lowest;
+        const curve_minimum first = convert_minimum(&p, p.deepest - points.depth[lowest]);
+        if (!(first.reduced_modulus > 0.0))
             return 0;
-        const bool has_weights = compute_weights(table, samples, &minima[0], w) > min_weight_ratio;
+        const bool has_weights = compute_weights(table, samples, &first, w) > min_weight_ratio;
         sum_weighted_samples(&p, has_weights);
         if (has_weights) {
             distribute_samples(&p);
             scan_costs(&p, shallowest, &points);
         }
     }
-    return refine_minima(&p, &points, fine_tolerance, minima);
+    const size_t n = refine_minima(&p, &points, minima);
+    for (size_t i = 0; i < n; i++)
+        minima[i].cost *= (double)length;
+    return n;
 }
 
 bool curve_scan_point(const wt_contact_table *table, const curve_samples *samples, bool tilt,

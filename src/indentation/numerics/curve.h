@@ -176,12 +176,23 @@ void curve_reverse(curve_samples *samples);
 
 /* ---- scan of the contact point: contact_point_scan.c ----------------------------------------- */
 
+/* Means over `length` samples in the arrays of starting fits, or the samples themselves for a
+ * length of 1. A mean begins at sample `from`. */
+curve_samples curve_average_samples(const curve_samples *samples, size_t from, size_t length,
+                                    wt_indent_workspace *workspace);
+/* Length of means for a start or a test, which need few samples. */
+enum { CURVE_LEAST_MEANS = 500 };
+static inline size_t curve_average_length(const curve_samples *s)
+{
+    return s->n < 2 * CURVE_LEAST_MEANS ? 1 : s->n / CURVE_LEAST_MEANS;
+}
+
 /* Local minimum of the cost. Modulus, offset and tilt are eliminated. */
 typedef struct curve_minimum {
     double contact_point;
     double reduced_modulus; /* E/(1-nu^2) */
     double offset, tilt;    /* baseline at the contact point, and its slope */
-    double cost;            /* sum of squares [N^2] */
+    double cost; /* sum of squares [N^2]; of a scan without the scatter within means of samples */
 } curve_minimum;
 
 /* Fills `minima`, best first, and returns their number. 0 means that no contact point has a

@@ -289,6 +289,12 @@ static void add_left_out_pull(const curve_fitting *f, wt_indent_fit *fit)
     fit->modulus.standard_error = hypot(fit->modulus.standard_error, error);
 }
 
+/* Cost at the second minimum over that of the fit. The scan gives the difference of both. */
+static double second_cost_ratio(const curve_fitting *f)
+{
+    return 1.0 + (f->minima[1].cost - f->minima[0].cost) / f->solution.cost;
+}
+
 static void report_fit(curve_fitting *f, wt_indent_fit *fit)
 {
     const curve_solution *s = &f->solution;
@@ -347,7 +353,7 @@ static void report_fit(curve_fitting *f, wt_indent_fit *fit)
     report_adhesion(f, fit);
     add_left_out_pull(f, fit);
     if (f->n_minima > 1) {
-        fit->second_minimum_ratio = f->minima[1].cost / f->minima[0].cost;
+        fit->second_minimum_ratio = second_cost_ratio(f);
         fit->second_contact_point = f->minima[1].contact_point + f->input.position_origin;
     }
 }
@@ -361,7 +367,7 @@ static void add_second_contact(curve_fitting *f)
 {
     if (f->n_minima < 2 || f->kind.adhesive)
         return;
-    const double chi2 = f->solution.effective_n * log(f->minima[1].cost / f->minima[0].cost);
+    const double chi2 = f->solution.effective_n * log(second_cost_ratio(f));
     const double share = 1.0 / (1.0 + exp(0.5 * fmax(chi2, 0.0)));
     if (chi2 < interval_chi2)
         f->other_contact = (curve_alternative){
