@@ -69,10 +69,11 @@ typedef struct curve_integral {
 } curve_integral;
 
 /* Integral within interval i, in which the curve is linear in the logarithm of time. */
-static double integrate_interval(const running_in_curve *c, size_t i, double from, double to)
+static double integrate_interval(const running_in_curve *c, size_t i, double from, double to,
+                                 double log_ratio)
 {
     const double rise = (c->value[i + 1] - c->value[i]) / c->log_step;
-    return (c->value[i] - rise) * (to - from) + rise * to * log(to / from);
+    return (c->value[i] - rise) * (to - from) + rise * to * log_ratio;
 }
 
 static curve_integral curve_integral_compute(const running_in_curve *c, arena *memory)
@@ -81,7 +82,8 @@ static curve_integral curve_integral_compute(const running_in_curve *c, arena *m
     for (size_t i = 0; i < c->n; i++) {
         m.time[i] = exp(c->log_first + (double)i * c->log_step);
         m.sum[i] = i == 0 ? c->value[0] * m.time[0]
-                          : m.sum[i - 1] + integrate_interval(c, i - 1, m.time[i - 1], m.time[i]);
+                          : m.sum[i - 1] +
+                                integrate_interval(c, i - 1, m.time[i - 1], m.time[i], c->log_step);
     }
     return m;
 }
@@ -95,7 +97,8 @@ static double curve_integral_at(const curve_integral *m, double time)
     if (place >= (double)(c->n - 1))
         return m->sum[c->n - 1];
     const size_t i = (size_t)place;
-    return m->sum[i] + integrate_interval(c, i, m->time[i], time);
+    return m->sum[i] +
+           integrate_interval(c, i, m->time[i], time, (place - (double)i) * c->log_step);
 }
 
 /* Mean of the curve over its height in each interval of the series. column: [n]. */
