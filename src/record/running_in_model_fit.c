@@ -111,6 +111,52 @@ static void fit_draws(run_fit *run, double margin)
     running_in_series_clear(&s);
 }
 
+static bool is_outside(const run_fit *run, run_quantity number, double low, double high)
+{
+    const double at = run_fit_value(run, 0, number),
+                 half = NORMAL_95 * hypot(sqrt(run_fit_record_variance(run, number)),
+                                          run_fit_prediction_deviation(run, number));
+    return at - half > high || at + half < low;
+}
+
+/* True if time or change are outside of the margin. */
+static bool contradicts(const run_fit *run, double margin)
+{
+    const double most = log1p(margin), none = (double)INFINITY;
+    const double end = run->fit.seen ? run_fit_bound(run, RUN_TIME_RATIO) : (double)NAN;
+    const bool time = run_fit_is_closed(run) ? is_outside(run, RUN_TIME_RATIO, -most, most)
+                      : isnan(run->fit.high) ? end > most
+                                             : end < -most;
+    return time || is_outside(run, RUN_ABOVE_LOWER, 0, none) ||
+           is_outside(run, RUN_BELOW_UPPER, 0, none);
+}
+
+/* ln of a ratio of likelihoods for two numbers, 95 %. */
+static const double as_well = 3;
+
+/* The errors of a prediction can change its shape, so that another time fits the record with the
+ * nominal one. Whether more draws than by chance fit it as well, at a time and a change within the
+ * margin. */
+static bool fits_within_margin(const run_fit *run, double margin)
+{
+    const growth *const g = run->growth;
+    size_t n = 0;
+    running_in_series s = recorded_read_series(run->rec, run->until);
+    s.shift = run->fit.shift;
+    const running_in_curve nominal = growth_curve(g, 0);
+    const double best =
+        running_in_likelihoods_find(&s, &nominal, run->fit.law,
+                                    run->fit.seen ? run->fit.log_factor : 0, 1 + margin)
+            .any;
+    for (size_t k = 1; k <= g->n_draws; k++) {
+        const running_in_curve c = growth_curve(g, k);
+        n += running_in_likelihoods_find(&s, &c, run->fit.law, 0, 1 + margin).within >
+             best - as_well;
+    }
+    running_in_series_clear(&s);
+    return (double)n > RUN_LEAST_DOUBT * (double)g->n_draws;
+}
+
 void run_fit_compute(run_fit *run, double margin)
 {
     wt_error why = WT_ERROR_INIT;
@@ -129,6 +175,11 @@ void run_fit_compute(run_fit *run, double margin)
         snprintf(run->note, sizeof run->note,
                  "a change like that by the layer is complete within the first cycles");
     fit_draws(run, margin);
+    run->ambiguous = contradicts(run, margin) && fits_within_margin(run, margin);
+    if (run->ambiguous)
+        snprintf(
+            run->note, sizeof run->note,
+            "a prediction within its errors fits the record as well as another time or change");
 }
 
 void run_fit_clear(run_fit *run)
@@ -139,7 +190,8 @@ void run_fit_clear(run_fit *run)
 
 bool run_fit_is_closed(const run_fit *run)
 {
-    return run->value != NULL && run->fit.seen && !isnan(run->fit.low) && !isnan(run->fit.high);
+    return run->value != NULL && !run->ambiguous && run->fit.seen && !isnan(run->fit.low) &&
+           !isnan(run->fit.high);
 }
 
 double run_fit_value(const run_fit *run, size_t k, run_quantity number)
@@ -212,9 +264,11 @@ bool run_fit_determines(const run_fit *run, run_quantity number)
         return false;
     const bool of_change =
         number == RUN_ABOVE_LOWER || number == RUN_BELOW_UPPER || number == RUN_RATIO;
-    return (of_change ? run->value != NULL : run_fit_is_closed(run)) &&
+    return (of_change ? run->value != NULL && !run->ambiguous : run_fit_is_closed(run)) &&
            isfinite(run_fit_value(run, 0, number)) &&
-           isfinite(run_fit_record_variance(run, number));
+           isfinite(run_fit_record_variance(run, number)) &&
+           /* of draws whose course hardly changes within the record, it is not finite */
+           (run->growth->n_draws == 0 || isfinite(run_fit_prediction_deviation(run, number)));
 }
 
 typedef struct run_arrays {

@@ -251,8 +251,9 @@ static void add_run_row(const run_fit *run, const wt_sliding *sliding, table_wri
         row.change =
             (wt_estimate){-largest_change(run->growth, 0, none),
                           growth_standard_deviation(run->growth, largest_change, none), none, NULL};
-        row.change_ratio = run_ratio_interval(run);
-        if (run->fit.seen) {
+        if (!run->ambiguous)
+            row.change_ratio = run_ratio_interval(run);
+        if (run->fit.seen && !run->ambiguous) {
             row.settled = run_factor_interval(run, RUN_MEASURED);
             row.time_ratio = run_factor_interval(run, RUN_TIME_RATIO);
         }

@@ -74,10 +74,13 @@ typedef struct run_fit {
     const recorded_run *rec;
     const growth *growth; /* NULL if not predicted */
     running_in_curve_fit fit;
-    double until;  /* end of the fitted part [s] */
-    double *value; /* [(1 + n_draws) * RUN_QUANTITIES]; NULL if not compared */
+    double until;   /* end of the fitted part [s] */
+    double *value;  /* [(1 + n_draws) * RUN_QUANTITIES]; NULL if not compared */
+    bool ambiguous; /* a course within the errors of the prediction fits the record as well */
     char note[256];
 } run_fit;
+/* Share of the draws that is no chance. */
+#define RUN_LEAST_DOUBT 0.025
 
 /* Fits one run. Its note has the reason if there is no fit. The caller clears the run. */
 void run_fit_compute(run_fit *run, double margin);

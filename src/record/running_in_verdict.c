@@ -8,14 +8,11 @@
 
 #include <math.h>
 
-/* With a larger share of draws without a layer, the existence of the layer is inconclusive. */
-static const double least_doubt = 0.025;
-
 /* ---- tests ----------------------------------------------------------------------------------- */
 
 static bool contradicts_at_bound(const run_fit *run, double margin)
 {
-    if (run->value == NULL || !run->fit.seen || run_fit_is_closed(run))
+    if (run->value == NULL || run->ambiguous || !run->fit.seen || run_fit_is_closed(run))
         return false;
     const double end = run_fit_bound(run, RUN_TIME_RATIO);
     return isnan(run->fit.high) ? end > log1p(margin) : end < -log1p(margin);
@@ -83,6 +80,10 @@ static void describe_inconclusive_run(const run_fit *run, char *text, size_t siz
         clocale_print(
             text, size,
             "no change of friction like that by the layer exceeds the scatter of the cycles");
+    else if (run->ambiguous)
+        clocale_print(text, size,
+                      "the record fits another time or change, and as well the time and the change "
+                      "of a prediction within its errors");
     else if (isnan(fit->low) && isnan(fit->high))
         clocale_print(text, size,
                       "friction changes, and the record gives neither a lower nor an upper "
@@ -198,10 +199,12 @@ static void write_run_advice(const run_set *all, run_quantity number, char *text
     const run_fit *const open = number == RUN_TIME_RATIO ? first_inconclusive_run(all) : NULL,
                          *const run = first_determined_run(all, number);
     const run_level *const level = &all->level[number];
+    static const char smaller[] =
+        "smaller errors of the prediction: material, roughness and layer together";
     size_t line = 0;
     if (open != NULL || run == NULL) {
-        snprintf(text, size, "%s",
-                 remedy_for_time(open != NULL ? &open->fit : &first_compared_run(all)->fit));
+        const run_fit *const of = open != NULL ? open : first_compared_run(all);
+        snprintf(text, size, "%s", of->ambiguous ? smaller : remedy_for_time(&of->fit));
         return;
     }
     const double share = largest_line(run, all->seed, number, &line),
@@ -213,9 +216,7 @@ static void write_run_advice(const run_set *all, run_quantity number, char *text
         return;
     }
     if (share < 0.5 || run->growth->n_lines == 0) {
-        snprintf(text, size,
-                 "smaller errors of the prediction: material, roughness and layer "
-                 "together");
+        snprintf(text, size, "%s", smaller);
         return;
     }
     const char *remedy, *words = draw_source_name(run->growth->line[line], &remedy);
@@ -228,7 +229,7 @@ static bool may_have_no_layer(const run_set *all)
 {
     for (size_t i = 0; i < all->n; i++) {
         const growth *const g = all->runs[i].growth;
-        if (all->runs[i].value != NULL && (double)g->n_bare > least_doubt * (double)g->n_draws)
+        if (all->runs[i].value != NULL && (double)g->n_bare > RUN_LEAST_DOUBT * (double)g->n_draws)
             return true;
     }
     return false;

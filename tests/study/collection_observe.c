@@ -223,6 +223,15 @@ static stream *take_table(const char *result, const char *name, const char *path
     return trial_run(t, arguments) ? stream_read(path) : NULL;
 }
 
+/* "Does not" and "contradicts" are wrong: the layer of the record is that of the theory. */
+static void take_certain(trial *t, quantity q, bool wrong, bool is_certain)
+{
+    const double stated = is_certain ? 0 : (double)NAN;
+    trial_add(t, q, wrong ? 1 : 0, (estimate){0, stated, stated});
+    if (wrong)
+        t->draw->verdict = NO;
+}
+
 /* The record is made by the theory, so that it never fails to explain. */
 static bool read_validation(const study_truth *truth, const char *result, const char *path,
                             trial *t)
@@ -231,11 +240,7 @@ static bool read_validation(const study_truth *truth, const char *result, const 
     const verdict said =
         found != NULL ? place_friction_verdict(found, PLACE_VALIDATION) : NO_VERDICT;
     if (said != NO_VERDICT) {
-        const bool wrong = said == NO;
-        const double stated = said == INCONCLUSIVE ? (double)NAN : 0;
-        trial_add(t, Q_SAID_RECORD, wrong ? 1 : 0, (estimate){0, stated, stated});
-        if (wrong)
-            t->draw->verdict = NO;
+        take_certain(t, Q_SAID_RECORD, said == NO, said != INCONCLUSIVE);
         trial_add(t, Q_FRICTION_RATIO, 1, place_key(found, &place_friction_ratio));
         trial_add(t, Q_NEEDED_SHEAR, truth->shear_stress, place_key(found, &place_needed_shear));
     }
@@ -243,13 +248,43 @@ static bool read_validation(const study_truth *truth, const char *result, const 
     return said != NO_VERDICT;
 }
 
-static bool read_record(const study_truth *truth, int c, int k, const char *result,
-                        const char *path, trial *t)
+/* Without a layer (`soft` is not set) there is no change and no time of it. */
+static bool read_running_in(const study_truth *truth, bool soft, int c, int k, const char *result,
+                            const char *path, trial *t)
+{
+    stream *found = take_table(result, PLACE_VALIDATION_RUNNING_IN, path, t);
+    const verdict said =
+        found != NULL ? place_friction_verdict(found, PLACE_VALIDATION_RUNNING_IN) : NO_VERDICT;
+    const char *wear =
+        found != NULL ? stream_key(found, PLACE_VALIDATION_RUNNING_IN, PLACE_WEAR_AGREES) : NULL;
+    if (said != NO_VERDICT)
+        take_certain(t, Q_SAID_RUNNING_IN, said == NO, said != INCONCLUSIVE);
+    if (said != NO_VERDICT && wear != NULL && soft) {
+        const bool wrong = strncmp(wear, PLACE_CONTRADICTS, strlen(PLACE_CONTRADICTS)) == 0;
+        take_certain(t, Q_SAID_WEAR, wrong,
+                     strncmp(wear, PLACE_INCONCLUSIVE, strlen(PLACE_INCONCLUSIVE)) != 0);
+    }
+    if (said != NO_VERDICT && soft) {
+        trial_add(t, Q_CHANGE_RATIO, 1, place_key(found, &place_change_ratio));
+        trial_add(t, Q_TIME_RATIO, 1, place_key(found, &place_time_ratio));
+        trial_add(t, Q_NEEDED_WEAR, truth->wear_rate[k], place_key(found, &place_needed_wear));
+        trial_add(t, Q_NEEDED_ENERGY, truth->critical_energy[c],
+                  place_key(found, &place_needed_energy));
+        trial_add(t, Q_SETTLED, truth->growth[c][k].settled,
+                  place_row(found, &place_settled_measured, 0));
+    }
+    stream_free(found);
+    return said != NO_VERDICT;
+}
+
+static bool read_record(const collection_scene *s, const study_truth *truth, int c, int k,
+                        const char *result, const char *path, trial *t)
 {
     stream *found = take_table(result, place_steady.table, path, t);
     const bool whole = found != NULL && stream_rows(found, place_steady.table) == STUDY_VELOCITIES;
     for (int v = 0; whole && v < STUDY_VELOCITIES; v++)
-        trial_add(t, Q_STEADY, truth->with_layer[c][k][v], place_row(found, &place_steady, v));
+        trial_add(t, Q_STEADY, truth->with_layer[c][k][study_step(s, v)],
+                  place_row(found, &place_steady, v));
     stream_free(found);
     found = whole ? take_table(result, place_wear_rate.table, path, t) : NULL;
     const bool worn = found != NULL && stream_rows(found, place_wear_rate.table) > 0;
@@ -273,15 +308,19 @@ static bool is_surface(const char *result, const char *path, trial *t)
     return is;
 }
 
-static bool read_case(const study_truth *truth, int c, int k, const char *result, trial *t)
+static bool read_case(const collection_scene *s, const study_truth *truth, int c, int k,
+                      const char *result, trial *t)
 {
     const char *path = trial_file(t, "table.tsv");
     if (!is_surface(result, path, t))
         trial_broke(t, "a surface of other wavenumbers");
-    else if (!read_record(truth, c, k, result, path, t))
+    else if (!read_record(s, truth, c, k, result, path, t))
         trial_broke(t, "another number of steps, or no wear");
     else if (!read_validation(truth, result, path, t))
         trial_broke(t, "no verdict on the record");
+    else if (s->running_in &&
+             !read_running_in(truth, s->cases[c][k].ratio < 1, c, k, result, path, t))
+        trial_broke(t, "no verdict on the running-in");
     return t->draw->outcome == OUTCOME_GOOD;
 }
 
@@ -292,13 +331,16 @@ static bool run_case(const collection_scene *s, const study_prepared *p, const s
     char name[24];
     snprintf(name, sizeof name, "%s-%s.xml", study_compound[c], study_severity[k]);
     const char *path = trial_file(t, name);
-    const char *const arguments[] = {"run",         path,        "-o", result,
-                                     "--no-report", "--threads", "1",  NULL};
+    /* of a running-in as many replicates as errors take, for a run of it to be short */
+    const char *const arguments[] = {
+        "run",         path,        "-o", result,
+        "--no-report", "--threads", "1",  s->running_in ? "--replicates" : NULL,
+        "60",          NULL};
     if (study_write_case(s, p, truth, files, c, k, random, t, path) != 0) {
         trial_broke(t, "the files of a case cannot be written");
         return false;
     }
-    return trial_run(t, arguments) && read_case(truth, c, k, result, t);
+    return trial_run(t, arguments) && read_case(s, truth, c, k, result, t);
 }
 
 static void observe(int scene, const void *prepared, random_source *random, trial *t)

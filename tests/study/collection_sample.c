@@ -202,9 +202,27 @@ int study_write_common(const study_prepared *p, random_source *random, const stu
 
 /* ---- contact --------------------------------------------------------------------------------- */
 
+enum { REFERENCE = 2 }; /* the velocity that forms the layer */
+
+static bool is_by_transport(int compound)
+{
+    return compound == 1;
+}
+
+static void draw_growth(const contact *layered, const rubber_state *state, int compound,
+                        growth_truth *to)
+{
+    contact of = *layered;
+    of.velocities = 1;
+    of.velocity[0] = study_velocity[REFERENCE];
+    of.layer_ratio = of.layer_thickness = 0;
+    if (!growth_solve(&of, state, layered->layer_ratio, is_by_transport(compound), to))
+        abort();
+}
+
 study_truth study_draw(const collection_scene *s, const study_prepared *p, random_source *random)
 {
-    enum { INTERVALS = 60, REFERENCE = 2 };
+    enum { INTERVALS = 60 };
     study_truth t = {.shear_stress = random_about(shear_stress, of_shear, random),
                      .lever = random_about(lever, of_lever, random)};
     double pressed[SEVERITIES];
@@ -234,6 +252,8 @@ study_truth study_draw(const collection_scene *s, const study_prepared *p, rando
             of.layer_thickness = t.contact[c][k].thickness;
             const contact_truth layered = contact_solve(&of, &state, INTERVALS);
             memcpy(t.with_layer[c][k], layered.friction, sizeof t.with_layer[c][k]);
+            if (s->running_in && s->cases[c][k].ratio < 1)
+                draw_growth(&of, &state, c, &t.growth[c][k]);
         }
     }
     return t;
@@ -241,23 +261,70 @@ study_truth study_draw(const collection_scene *s, const study_prepared *p, rando
 
 /* ---- record and case ------------------------------------------------------------------------- */
 
-enum { LAPS = 60, SAMPLES = 4 }; /* at each velocity */
-static const double track_radius = 0.0125, load = 5, lap_noise = 0.02;
+enum { LAPS = 60, SAMPLES = 4 }; /* at each velocity; a running-in is longer and has a row a lap */
+static const double track_radius = 0.0125, load = 5, settled_times = 4;
 
-static int write_record(const double *friction, random_source *random, const char *path)
+int study_step(const collection_scene *s, int step)
 {
-    double time = 0, of_lap = 1;
+    static const int layer_first[STUDY_VELOCITIES] = {REFERENCE, 0, 1, 3};
+    return s->running_in ? layer_first[step] : step;
+}
+
+static double lap_time(int velocity)
+{
+    return 2 * pi * track_radius / study_velocity[velocity];
+}
+
+static bool has_running_in(const growth_truth *growth, int step)
+{
+    return step == 0 && growth->settled > 0;
+}
+
+/* Of a step. */
+static int lap_count(const growth_truth *growth, int step)
+{
+    const double laps = settled_times * growth->settled / lap_time(REFERENCE);
+    return has_running_in(growth, step) && laps > LAPS ? (int)ceil(laps) : LAPS;
+}
+
+static int all_laps(const growth_truth *growth)
+{
+    int laps = 0;
+    for (int step = 0; step < STUDY_VELOCITIES; step++)
+        laps += lap_count(growth, step);
+    return laps;
+}
+
+/* Mean from `time` on. */
+static double mean_in_running_in(const growth_truth *growth, double time, double length)
+{
+    enum { WITHIN = 16 };
+    double sum = 0;
+    for (int i = 0; i < WITHIN; i++)
+        sum += growth_friction(growth, time + length * (i + 0.5) / WITHIN);
+    return sum / WITHIN;
+}
+
+static int write_record(const collection_scene *s, const double *friction,
+                        const growth_truth *growth, random_source *random, const char *path)
+{
+    double time = 0;
+    int lap = 0;
     FILE *out = fopen(path, "w");
     if (out == NULL)
         return -1;
     fprintf(out, "time (s),laps,velocity (mm/s),mu\n");
-    for (int i = 0; i < STUDY_VELOCITIES * LAPS * SAMPLES; i++) {
-        const int step = i / (LAPS * SAMPLES);
-        if (i % SAMPLES == 0)
-            of_lap = 1 + lap_noise * random_normal(random);
-        fprintf(out, "%.9g,%.9g,%.9g,%.9g\n", time, i / (double)SAMPLES, 1e3 * study_velocity[step],
-                friction[step] * of_lap);
-        time += 2 * pi * track_radius / study_velocity[step] / SAMPLES;
+    for (int step = 0; step < STUDY_VELOCITIES; step++) {
+        const int v = study_step(s, step), samples = has_running_in(growth, step) ? 1 : SAMPLES;
+        for (int i = 0; i < lap_count(growth, step); i++, lap++) {
+            const double of_lap = 1 + s->lap_noise * random_normal(random),
+                         here = has_running_in(growth, step)
+                                    ? mean_in_running_in(growth, time, lap_time(v))
+                                    : friction[v];
+            for (int k = 0; k < samples; k++, time += lap_time(v) / samples)
+                fprintf(out, "%.9g,%.9g,%.9g,%.9g\n", time, lap + (double)k / samples,
+                        1e3 * study_velocity[v], here * of_lap);
+        }
     }
     const int bad = ferror(out);
     return fclose(out) != 0 || bad ? -1 : 0;
@@ -289,10 +356,11 @@ static int write_zone(const study_case *s, const study_compound_truth *compound,
     return bad;
 }
 
-static void write_sections(const study_truth *truth, const study_files *files, int c, int k,
-                           random_source *random, const char *record, FILE *out)
+static void write_sections(const collection_scene *s, const study_truth *truth,
+                           const study_files *files, int c, int k, random_source *random,
+                           const char *record, FILE *out)
 {
-    const double laps = STUDY_VELOCITIES * LAPS - 1.0 / SAMPLES,
+    const double laps = all_laps(&truth->growth[c][k]) - 1.0 / SAMPLES,
                  area = random_about(truth->wear_rate[k] * load * laps, of_track_area, random);
     fprintf(out,
             "<dma><poisson-ratio>%g</poisson-ratio><reference-temperature>%gdegC"
@@ -308,8 +376,11 @@ static void write_sections(const study_truth *truth, const study_files *files, i
             100 * of_shear);
     fprintf(out,
             "<layer><specific-wear-rate>%gm^2/N +- %g%%</specific-wear-rate><critical-energy>"
-            "%gJ/m^3 +- %g%%</critical-energy></layer>\n",
+            "%gJ/m^3 +- %g%%</critical-energy>",
             wear_rate[k], 100 * of_wear, critical_energy[c], 100 * of_energy);
+    if (s->running_in)
+        fprintf(out, "<incubation>%s</incubation>", is_by_transport(c) ? "yes" : "no");
+    fprintf(out, "</layer>\n");
     fprintf(out,
             "<record><load>%gN</load><track-radius>%gm</track-radius><track-area>%.9gm^2 +- %g%%"
             "</track-area><files>%s</files></record>\n"
@@ -327,7 +398,8 @@ int study_write_case(const collection_scene *s, const study_prepared *p, const s
     snprintf(name, sizeof name, "%s.csv", of);
     const char *record = trial_file(t, name);
     FILE *out = fopen(path, "w");
-    if (out == NULL || write_record(truth->with_layer[c][k], random, record) != 0)
+    if (out == NULL ||
+        write_record(s, truth->with_layer[c][k], &truth->growth[c][k], random, record) != 0)
         return -1;
     fprintf(
         out,
@@ -338,7 +410,7 @@ int study_write_case(const collection_scene *s, const study_prepared *p, const s
     int bad = write_zone(here, &p->compound[c], of, "bulk", truth->lever, random, t, out) != 0 ||
               write_zone(here, &p->compound[c], of, "track", truth->lever, random, t, out) != 0;
     fprintf(out, "</indentation>\n");
-    write_sections(truth, files, c, k, random, record, out);
+    write_sections(s, truth, files, c, k, random, record, out);
     bad = ferror(out) != 0 || bad;
     return fclose(out) != 0 || bad ? -1 : 0;
 }

@@ -6,6 +6,7 @@
 #include "collection_scene.h"
 #include "contact.h"
 #include "dma_scene.h"
+#include "growth.h"
 #include "material.h"
 #include "trial.h"
 
@@ -34,8 +35,11 @@ typedef struct study_truth {
     double shear_stress, lever, wear_rate[SEVERITIES], critical_energy[COMPOUNDS];
     contact_truth contact[COMPOUNDS][SEVERITIES]; /* without the layer */
     double with_layer[COMPOUNDS][SEVERITIES][STUDY_VELOCITIES];
+    growth_truth growth[COMPOUNDS][SEVERITIES]; /* of a layer, where there is a running-in */
 } study_truth;
 
+/* The velocity of a step of a record, as a place in `study_velocity`. */
+int study_step(const collection_scene *s, int step);
 study_truth study_draw(const collection_scene *s, const study_prepared *p, random_source *random);
 
 /* How the isotherms of a rubber are measured. */

@@ -17,6 +17,8 @@ enum { COMPOUNDS = 2, SEVERITIES = 2, STUDY_SPOTS_MAX = 6 };
  * surface and a record of friction and wear. */
 typedef struct collection_scene {
     facts facts;
+    double lap_noise; /* relative scatter of the friction of a lap */
+    bool running_in;  /* the record begins on fresh rubber, at the velocity that forms the layer */
     study_case cases[COMPOUNDS][SEVERITIES]; /* mild, severe */
 } collection_scene;
 

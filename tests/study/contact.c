@@ -3,12 +3,14 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* What the integrals over the wavenumber need at one of them. */
 typedef struct wave {
     double weight; /* of Simpson's rule in ln q, and q itself */
     double q, variance_density, loss_angle;
-    double power; /* j(q) */
+    double bare_density, bare_loss; /* the same without a layer */
+    double power;                   /* j(q) */
 } wave;
 
 static double density(const contact *c, double q)
@@ -55,14 +57,11 @@ static int add_piece(const contact *c, const rubber_state *state, double velocit
         const double cq = q * q * q * density(c, fmin(q, to));
         double j1, j2;
         angular(c, state, q * velocity, &j1, &j2);
-        const double softer = seen(c, q);
-        j1 *= softer;
-        j2 *= softer * softer;
         const double simpson = k == 0 || k == 2 * steps ? 1 : k % 2 == 1 ? 4 : 2;
         waves[k] = (wave){.weight = q * simpson * half / 3,
                           .q = q,
-                          .variance_density = q * cq * j2 / (8 * c->pressure * c->pressure),
-                          .loss_angle = cq * j1};
+                          .bare_density = q * cq * j2 / (8 * c->pressure * c->pressure),
+                          .bare_loss = cq * j1};
     }
     return 2 * steps + 1;
 }
@@ -110,14 +109,28 @@ static double thickness(const contact *c, double velocity, const wave *waves, in
 }
 
 /* Both pieces; 4 steps + 2 waves. Returns how many. */
-static int solve(const contact *c, const rubber_state *state, double v, int steps, wave *waves,
-                 double *area)
+static int fill(const contact *c, const rubber_state *state, double v, int steps, wave *waves)
 {
     const int n = add_piece(c, state, v, c->q0, c->qr, steps, waves);
-    const int m = add_piece(c, state, v, c->qr, c->q1, steps, waves + n);
+    return n + add_piece(c, state, v, c->qr, c->q1, steps, waves + n);
+}
+
+/* With the layer, if there is one. */
+static void load(const contact *c, double v, int steps, wave *waves, double *area)
+{
+    const int n = 2 * steps + 1;
+    for (int k = 0; k < 2 * n; k++) {
+        const double softer = seen(c, waves[k].q);
+        waves[k].variance_density = waves[k].bare_density * softer * softer;
+        waves[k].loss_angle = waves[k].bare_loss * softer;
+    }
     const double variance = run_piece(0, v, log(c->qr / c->q0) / (2 * steps), n, waves, area);
-    run_piece(variance, v, log(c->q1 / c->qr) / (2 * steps), m, waves + n, area);
-    return n + m;
+    run_piece(variance, v, log(c->q1 / c->qr) / (2 * steps), n, waves + n, area);
+}
+
+static double shear(const contact *c, double area)
+{
+    return (c->layer_ratio > 0 ? c->layer_ratio : 1) * c->shear_stress * area / c->pressure;
 }
 
 contact_truth contact_solve(const contact *c, const rubber_state *state, int steps)
@@ -128,10 +141,10 @@ contact_truth contact_solve(const contact *c, const rubber_state *state, int ste
         abort();
     for (int i = 0; i < c->velocities; i++) {
         const double v = c->velocity[i];
-        const int n = solve(c, state, v, steps, waves, &truth.area[i]);
+        const int n = fill(c, state, v, steps, waves);
+        load(c, v, steps, waves, &truth.area[i]);
         truth.hysteresis[i] = power_below(waves, n, 0) / (c->pressure * v);
-        truth.friction[i] = truth.hysteresis[i] + (c->layer_ratio > 0 ? c->layer_ratio : 1) *
-                                                      c->shear_stress * truth.area[i] / c->pressure;
+        truth.friction[i] = truth.hysteresis[i] + shear(c, truth.area[i]);
         if (i == c->layer_compute_energy)
             truth.thickness = thickness(c, v, waves, n);
     }
@@ -140,7 +153,7 @@ contact_truth contact_solve(const contact *c, const rubber_state *state, int ste
 }
 
 struct contact_power {
-    int n;
+    int n, steps;
     wave waves[];
 };
 
@@ -150,13 +163,29 @@ contact_power *contact_power_make(const contact *c, const rubber_state *state, i
     contact_power *power = malloc(sizeof *power + (4 * (size_t)steps + 2) * sizeof power->waves[0]);
     if (power == NULL)
         abort();
-    power->n = solve(c, state, c->velocity[0], steps, power->waves, &area);
+    power->steps = steps;
+    power->n = fill(c, state, c->velocity[0], steps, power->waves);
+    load(c, c->velocity[0], steps, power->waves, &area);
     return power;
 }
 
 double contact_power_below(const contact_power *power, double depth)
 {
     return power_below(power->waves, power->n, depth);
+}
+
+double contact_power_friction(const contact_power *power, const contact *c)
+{
+    double area;
+    const size_t size = (size_t)power->n * sizeof power->waves[0];
+    wave *waves = malloc(size);
+    if (waves == NULL)
+        abort();
+    memcpy(waves, power->waves, size);
+    load(c, c->velocity[0], power->steps, waves, &area);
+    const double hysteresis = power_below(waves, power->n, 0) / (c->pressure * c->velocity[0]);
+    free(waves);
+    return hysteresis + shear(c, area);
 }
 
 void contact_power_free(contact_power *power)

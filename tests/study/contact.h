@@ -32,6 +32,8 @@ contact_truth contact_solve(const contact *c, const rubber_state *state, int ste
 typedef struct contact_power contact_power;
 contact_power *contact_power_make(const contact *c, const rubber_state *state, int steps);
 double contact_power_below(const contact_power *power, double depth);
+/* Friction of the same with the layer of `c`. */
+double contact_power_friction(const contact_power *power, const contact *c);
 void contact_power_free(contact_power *power);
 
 #endif

@@ -60,6 +60,8 @@ typedef enum quantity {
     Q_SAID_PAIR,
     Q_SAID_RECORD,
     Q_SAID_SHARED,
+    Q_SAID_RUNNING_IN,
+    Q_SAID_WEAR,    /* the time of a running-in agrees with the wear, or contradicts it */
     Q_SETTLED,      /* time after which friction stands */
     Q_TIME_RATIO,   /* measured over predicted */
     Q_CHANGE_RATIO, /* of friction in the running-in, likewise */

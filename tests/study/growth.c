@@ -57,15 +57,12 @@ static void find_times(const growing *g, bool transport, growth_truth *t)
 }
 
 /* Of a layer with its own shear stress. */
-static double friction_with(const contact *bare, const rubber_state *state, double thickness,
-                            double ratio)
+static double friction_with(const growing *g, double thickness, double ratio)
 {
-    contact c = *bare;
+    contact c = *g->c;
     c.layer_thickness = thickness;
     c.layer_ratio = thickness > 0 ? ratio : 0;
-    c.velocities = 1;
-    c.layer_compute_energy = -1;
-    return contact_solve(&c, state, INTERVALS).friction[0];
+    return contact_power_friction(g->power, &c);
 }
 
 static double interpolate(const double *x, const double *y, int n, double at)
@@ -76,19 +73,18 @@ static double interpolate(const double *x, const double *y, int n, double at)
     return y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1]);
 }
 
-static void find_friction(const growing *g, const rubber_state *state, double ratio,
-                          growth_truth *t)
+static void find_friction(const growing *g, double ratio, growth_truth *t)
 {
     double log_depth[SOLVED], friction[SOLVED];
     const double first = log(place(g, 0)), last = log(g->balance);
     for (int i = 0; i < SOLVED; i++) {
         log_depth[i] = first + (last - first) * i / (SOLVED - 1);
-        friction[i] = friction_with(g->c, state, exp(log_depth[i]), ratio);
+        friction[i] = friction_with(g, exp(log_depth[i]), ratio);
     }
     for (int i = 0; i < GROWTH_POINTS; i++)
         t->friction[i] =
             interpolate(log_depth, friction, SOLVED, log(place(g, (i + 1.0) / GROWTH_POINTS)));
-    t->start = friction_with(g->c, state, 0, 1);
+    t->start = friction_with(g, 0, 1);
     t->end = friction[SOLVED - 1];
 }
 
@@ -100,6 +96,10 @@ static void find_settled(growth_truth *t)
     int k = GROWTH_POINTS - 1;
     while (k > 0 && fabs(t->friction[k] - t->end) < 0.05 * most)
         k--;
+    if (k == 0) { /* a layer that is there at once */
+        t->settled = t->time[0];
+        return;
+    }
     const double here = fabs(t->friction[k] - t->end), next = fabs(t->friction[k + 1] - t->end);
     t->settled = t->time[k] + (t->time[k + 1] - t->time[k]) * (here - 0.05 * most) / (here - next);
 }
@@ -119,7 +119,7 @@ bool growth_solve(const contact *c, const rubber_state *state, double ratio, boo
     contact_power *power = contact_power_make(c, state, INTERVALS);
     g.power = power;
     find_times(&g, transport, truth);
-    find_friction(&g, state, ratio, truth);
+    find_friction(&g, ratio, truth);
     find_settled(truth);
     contact_power_free(power);
     return true;

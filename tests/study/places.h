@@ -74,6 +74,8 @@ extern const place place_needed_wear, place_needed_energy;
 #define PLACE_NONE "none"
 #define PLACE_VALIDATION "validation"
 #define PLACE_VALIDATION_RUNNING_IN "validation_running_in"
+#define PLACE_WEAR_AGREES "wear_agrees" /* begins with agrees, contradicts or inconclusive */
+#define PLACE_CONTRADICTS "contradicts"
 #define PLACE_VALIDATION_VERDICT "verdict"  /* begins with explains, does not or inconclusive */
 #define PLACE_STEADY_CYCLES "steady_cycles" /* in `place_steady.table` */
 #define PLACE_WAVENUMBER "wavenumber"       /* [rad/m], beside the density */

@@ -16,7 +16,7 @@ typedef struct observation {
 /* What came of the command: well, an error that it explained, or something it should never do. */
 typedef enum outcome { OUTCOME_GOOD, OUTCOME_REFUSED, OUTCOME_BROKEN, OUTCOME_COUNT } outcome;
 
-#define OBSERVATIONS_MAX 160
+#define OBSERVATIONS_MAX 200
 typedef struct draw {
     int n;
     observation observations[OBSERVATIONS_MAX];

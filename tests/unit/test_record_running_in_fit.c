@@ -104,6 +104,24 @@ static void test_another_course(void **state)
     running_in_series_clear(&made);
 }
 
+/* A course at a third of the time fits only outside of a margin of 2, one at 0.7 of it within. */
+static void test_within_margin(void **state)
+{
+    (void)state;
+    static const double factors[2] = {3, 0.7};
+    const running_in_curve c = exponential(0.2);
+    for (int i = 0; i < 2; i++) {
+        const scene s = {factors[i], 1.2, 0.05, 0.01, 0};
+        uint64_t seed = 8;
+        running_in_series made = series_of(&s, &c, &seed);
+        const running_in_likelihoods l =
+            running_in_likelihoods_find(&made, &c, (scatter_law){0.5, 0}, log(factors[i]), 2);
+        assert_true(isfinite(l.any));
+        assert_true(i == 0 ? l.within < l.any - 20 : l.within > l.any - 1);
+        running_in_series_clear(&made);
+    }
+}
+
 /* All of it within the first cycle, whose mean is not to be missed for that. */
 static void test_first_cycle(void **state)
 {
@@ -272,8 +290,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_course),         cmocka_unit_test(test_exact),
         cmocka_unit_test(test_another_course), cmocka_unit_test(test_first_cycle),
-        cmocka_unit_test(test_ends),           cmocka_unit_test(test_coverage),
-        cmocka_unit_test(test_rows),           cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_within_margin),  cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_coverage),       cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests_name("fit course", tests, NULL, NULL);
 }

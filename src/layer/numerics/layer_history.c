@@ -40,7 +40,8 @@ typedef struct integration {
     double direction; /* +1 for growth, -1 for wear */
     double thickness, time;
     double time_error;
-    double sensitivity; /* int Qf / (Qf - Qw)^2: minus d time / d ln Qf */
+    double sensitivity;      /* int Qf / (Qf - Qw)^2: minus d time / d ln Qf */
+    double part[HIGH_NODES]; /* of the time of the latest subinterval, at each node */
 } integration;
 
 static double net_rate(const layer_rates *rates, double thickness)
@@ -48,9 +49,9 @@ static double net_rate(const layer_rates *rates, double thickness)
     return layer_formation_rate(rates, thickness) - rates->wear;
 }
 
-/* Time from `from` over `length` in the direction of the integration. */
+/* Time from `from` over `length` in the direction of the integration. part: [nodes], or NULL. */
 static double subinterval_time(const integration *m, const gauss_rule *rule, double from,
-                               double length, double *sensitivity)
+                               double length, double *part, double *sensitivity)
 {
     double sum = 0;
     *sensitivity = 0;
@@ -60,6 +61,8 @@ static double subinterval_time(const integration *m, const gauss_rule *rule, dou
         const double rate = formation - m->rates->wear;
         const double weight = 0.5 * length * rule->weight[i] / fabs(rate);
         sum += weight;
+        if (part != NULL)
+            part[i] = weight;
         *sensitivity += weight * (formation / fabs(rate));
     }
     return sum;
@@ -95,7 +98,7 @@ static double rounding_error(const layer_rates *rates, double thickness)
 
 /* Integrates one subinterval and shortens it until its two rules agree within the noise of Qf - Qw.
  * Returns the time. */
-static double integrate_subinterval(const integration *m, double *length, double *error,
+static double integrate_subinterval(integration *m, double *length, double *error,
                                     double *sensitivity)
 {
     double time = 0, ignored;
@@ -104,8 +107,8 @@ static double integrate_subinterval(const integration *m, double *length, double
         const double formation = layer_formation_rate(m->rates, end);
         const double noise =
             rounding_error(m->rates, end) * formation / fabs(formation - m->rates->wear);
-        time = subinterval_time(m, m->high, m->thickness, *length, sensitivity);
-        *error = fabs(time - subinterval_time(m, m->low, m->thickness, *length, &ignored));
+        time = subinterval_time(m, m->high, m->thickness, *length, m->part, sensitivity);
+        *error = fabs(time - subinterval_time(m, m->low, m->thickness, *length, NULL, &ignored));
         /* times below the smallest normal number have no digits left, and neither has a formation
          * that underflows */
         if (!(*error > (subinterval_goal + 4 * noise) * time + DBL_MIN))
@@ -124,7 +127,7 @@ static double locate_thickness(const integration *m, double length, double durat
     for (int i = 0; i < 60; i++) {
         double ignored;
         const double excess =
-            m->time + subinterval_time(m, m->high, m->thickness, distance, &ignored) - time;
+            m->time + subinterval_time(m, m->high, m->thickness, distance, NULL, &ignored) - time;
         if (excess > 0)
             high = distance;
         else
@@ -140,6 +143,45 @@ static double locate_thickness(const integration *m, double length, double durat
             break;
     }
     return m->thickness + m->direction * distance;
+}
+
+/* The same by the polynomial through the nodes, for draws: to 1e-8 of the subinterval, whose rule
+ * is exact to twice the degree. The time to x is the sum over k of a_k (P_(k+1) - P_(k-1)), with
+ * P_(-1) = -1. */
+static double interpolate_thickness(const integration *m, double length, double time)
+{
+    double a[HIGH_NODES] = {0}, low = -1, high = 1, x = 0;
+    for (size_t i = 0; i < HIGH_NODES; i++) {
+        double before = 0, p = 1;
+        for (size_t k = 0; k < HIGH_NODES; k++) {
+            a[k] += 0.5 * m->part[i] * p;
+            const double next =
+                ((double)(2 * k + 1) * m->high->node[i] * p - (double)k * before) / (double)(k + 1);
+            before = p;
+            p = next;
+        }
+    }
+    for (int i = 0; i < 60; i++) {
+        double before = -1, p = 1, duration = 0, slope = 0;
+        for (size_t k = 0; k < HIGH_NODES; k++) {
+            const double next =
+                ((double)(2 * k + 1) * x * p - (k > 0 ? (double)k * before : 0)) / (double)(k + 1);
+            duration += a[k] * (next - before);
+            slope += a[k] * (double)(2 * k + 1) * p;
+            before = p;
+            p = next;
+        }
+        const double excess = m->time + duration - time;
+        *(excess > 0 ? &high : &low) = x;
+        double next = x - excess / slope;
+        if (!(next >= low && next <= high))
+            next = 0.5 * (low + high);
+        const double change = fabs(next - x);
+        x = next;
+        if (change <= 1e-10)
+            break;
+    }
+    return m->thickness + m->direction * 0.5 * length * (1 + x);
 }
 
 static wt_estimate thickness_estimate(const integration *m, double thickness, double time,
@@ -221,10 +263,17 @@ static wt_status integrate_thickness(const layer_rates *rates, double start,
         const double duration = integrate_subinterval(&m, &length, &error, &sensitivity);
         const double sum_error = m.time_error + error;
         const double sum_sensitivity = m.sensitivity + sensitivity;
-        for (; i < n && at[i].time <= m.time + duration; i++)
-            at[i].point->thickness =
-                thickness_estimate(&m, locate_thickness(&m, length, duration, at[i].time),
-                                   at[i].time, sum_error, sum_sensitivity);
+        for (; i < n && at[i].time <= m.time + duration; i++) {
+            if (rates->skip_numerical_errors)
+                at[i].point->thickness =
+                    (wt_estimate){.value = interpolate_thickness(&m, length, at[i].time),
+                                  .numerical_error = (double)NAN,
+                                  .unit = "m"};
+            else
+                at[i].point->thickness =
+                    thickness_estimate(&m, locate_thickness(&m, length, duration, at[i].time),
+                                       at[i].time, sum_error, sum_sensitivity);
+        }
         m.thickness += m.direction * length;
         m.time += duration;
         m.time_error = sum_error;

@@ -291,6 +291,9 @@ static wt_status edge_error(damage *d, double edge, double most, double error, d
     return status;
 }
 
+/* A draw has many times, between which the edge moves little, and needs fewer digits. */
+static const double drawn_step = 0.02, drawn_tolerance = 1e-9;
+
 /* Thickness for a profile that falls with depth: a single edge that only moves deeper. */
 static wt_status monotonic_thickness(damage *d, double error, double earlier,
                                      wt_estimate *thickness, wt_error *err)
@@ -304,7 +307,9 @@ static wt_status monotonic_thickness(damage *d, double error, double earlier,
         d->level = -error;
     if (none && damage_excess(0, d) < 0)
         return WT_OK;
-    double edge = earlier, step = earlier > 0 ? 0.1 * earlier : 1 / d->rates->q_max;
+    const bool drawn = d->rates->skip_numerical_errors;
+    double edge = earlier,
+           step = earlier > 0 ? (drawn ? drawn_step : 0.1) * earlier : 1 / d->rates->q_max;
     depth_interval s = {earlier, earlier};
     do {
         s.low = s.high;
@@ -312,7 +317,8 @@ static wt_status monotonic_thickness(damage *d, double error, double earlier,
         step *= 2;
     } while (damage_excess(s.high, d) >= 0);
     if (damage_excess(s.low, d) > 0) { /* otherwise the edge is there up to rounding */
-        const wt_status status = root_find(damage_excess, d, s.low, s.high, 0, &edge, err);
+        const wt_status status = root_find(damage_excess, d, s.low, s.high,
+                                           drawn ? drawn_tolerance * s.high : 0, &edge, err);
         if (status != WT_OK)
             return status;
     }

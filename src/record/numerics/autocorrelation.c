@@ -55,20 +55,27 @@ void scatter_add(scatter_sums *s, double y)
 void scatter_add_column(scatter_sums *s, double column, double y)
 {
     const double value[3] = {1, column, y};
-    const double spread = s->variance + (1 - s->law.share), gain = s->variance / spread;
     double off[3];
+    if (s->n == 0 || s->variance < s->set_at || s->variance > s->set_at) {
+        const double spread = s->variance + (1 - s->law.share);
+        s->set_at = s->variance;
+        s->gain = s->variance / spread;
+        s->weight = 1 / spread;
+        s->log_spread = log(spread);
+    }
     for (int i = 0; i < 3; i++) {
         off[i] = value[i] - s->state[i];
-        s->state[i] = s->law.memory * (s->state[i] + gain * off[i]);
+        s->state[i] = s->law.memory * (s->state[i] + s->gain * off[i]);
     }
-    s->product[0] += off[0] * off[0] / spread;
-    s->product[1] += off[0] * off[1] / spread;
-    s->product[2] += off[1] * off[1] / spread;
-    s->product[3] += off[0] * off[2] / spread;
-    s->product[4] += off[1] * off[2] / spread;
-    s->product[5] += off[2] * off[2] / spread;
-    s->log_det += log(spread);
-    s->variance = s->law.memory * s->law.memory * s->variance * (1 - gain) +
+    const double first = s->weight * off[0], second = s->weight * off[1];
+    s->product[0] += first * off[0];
+    s->product[1] += first * off[1];
+    s->product[2] += second * off[1];
+    s->product[3] += first * off[2];
+    s->product[4] += second * off[2];
+    s->product[5] += s->weight * off[2] * off[2];
+    s->log_det += s->log_spread;
+    s->variance = s->law.memory * s->law.memory * s->variance * (1 - s->gain) +
                   s->law.share * (1 - s->law.memory * s->law.memory);
     s->n++;
 }

@@ -45,6 +45,8 @@ typedef struct scatter_sums {
     double log_det;    /* ln of the determinant of V */
     double product[6]; /* 1 V 1, 1 V t, t V t, 1 V y, t V y, y V y, with the inverse of V */
     size_t n;
+    double set_at; /* variance of the three behind, which soon stays the same */
+    double gain, weight, log_spread;
 } scatter_sums;
 scatter_sums scatter_begin(scatter_law law);
 void scatter_add(scatter_sums *s, double y);

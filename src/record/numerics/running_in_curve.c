@@ -10,55 +10,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* ---- curve ----------------------------------------------------------------------------------- */
-
-double running_in_curve_at(const running_in_curve *c, double log_time)
-{
-    const double place = (log_time - c->log_first) / c->log_step;
-    if (!(place > 0))
-        return c->value[0];
-    if (place >= (double)(c->n - 1))
-        return 0;
-    const size_t i = (size_t)place;
-    const double part = place - (double)i;
-    return c->value[i] + part * (c->value[i + 1] - c->value[i]);
-}
-
-double running_in_curve_height(const running_in_curve *c)
-{
-    double most = 0;
-    for (size_t i = 0; i < c->n; i++)
-        most = fmax(most, fabs(c->value[i]));
-    return most;
-}
-
-double running_in_curve_settling_time(const running_in_curve *c, double share)
-{
-    const double limit = share * running_in_curve_height(c);
-    for (size_t i = c->n; limit > 0 && i-- > 0;)
-        if (fabs(c->value[i]) > limit) {
-            if (i + 1 == c->n)
-                return (double)NAN;
-            const double here = fabs(c->value[i]), next = fabs(c->value[i + 1]),
-                         part = (here - limit) / (here - next);
-            return exp(c->log_first + ((double)i + part) * c->log_step);
-        }
-    return (double)NAN;
-}
-
-running_in_series running_in_series_alloc(size_t n)
-{
-    return (running_in_series){
-        .n = n, .end = wt_alloc(n, sizeof(double)), .friction = wt_alloc(n, sizeof(double))};
-}
-
-void running_in_series_clear(running_in_series *s)
-{
-    free(s->end);
-    free(s->friction);
-    *s = (running_in_series){.n = 0};
-}
-
 /* ---- one time factor ------------------------------------------------------------------------- */
 
 /* Integral of a curve from the start. Means computed from it are exact in the first cycles, too, in
@@ -69,10 +20,11 @@ typedef struct curve_integral {
 } curve_integral;
 
 /* Integral within interval i, in which the curve is linear in the logarithm of time. */
-static double integrate_interval(const running_in_curve *c, size_t i, double from, double to)
+static double integrate_interval(const running_in_curve *c, size_t i, double from, double to,
+                                 double log_ratio)
 {
     const double rise = (c->value[i + 1] - c->value[i]) / c->log_step;
-    return (c->value[i] - rise) * (to - from) + rise * to * log(to / from);
+    return (c->value[i] - rise) * (to - from) + rise * to * log_ratio;
 }
 
 static curve_integral curve_integral_compute(const running_in_curve *c, arena *memory)
@@ -81,7 +33,8 @@ static curve_integral curve_integral_compute(const running_in_curve *c, arena *m
     for (size_t i = 0; i < c->n; i++) {
         m.time[i] = exp(c->log_first + (double)i * c->log_step);
         m.sum[i] = i == 0 ? c->value[0] * m.time[0]
-                          : m.sum[i - 1] + integrate_interval(c, i - 1, m.time[i - 1], m.time[i]);
+                          : m.sum[i - 1] +
+                                integrate_interval(c, i - 1, m.time[i - 1], m.time[i], c->log_step);
     }
     return m;
 }
@@ -95,7 +48,8 @@ static double curve_integral_at(const curve_integral *m, double time)
     if (place >= (double)(c->n - 1))
         return m->sum[c->n - 1];
     const size_t i = (size_t)place;
-    return m->sum[i] + integrate_interval(c, i, m->time[i], time);
+    return m->sum[i] +
+           integrate_interval(c, i, m->time[i], time, (place - (double)i) * c->log_step);
 }
 
 /* Mean of the curve over its height in each interval of the series. column: [n]. */
@@ -130,6 +84,7 @@ typedef struct factor_search {
     double height, *column;
     scatter_law law;
     double log_factor; /* held in a search of the shift */
+    double margin;     /* of factor and ratio about 1, a factor */
 } factor_search;
 
 static double profile_likelihood(double log_factor, void *user)
@@ -163,6 +118,50 @@ running_in_optimum running_in_optimum_find(const running_in_series *s, const run
     }
     arena_free(&memory);
     return place;
+}
+
+/* ln of a likelihood, without what curves of one law share. */
+static double squares_likelihood(double squares, size_t n)
+{
+    return squares > 0 ? -0.5 * (double)n * log(squares) : -(double)INFINITY;
+}
+
+/* With a ratio within the margin. */
+static double margin_likelihood(double log_factor, void *user)
+{
+    const factor_search *const p = user;
+    fill_column(p->s, &p->sums, p->height, log_factor, p->column);
+    const scatter_sums sums = curve_scatter_sums(p->s, p->column, p->law);
+    const scatter_fit f = scatter_solve(&sums, true);
+    const double most = p->margin * p->height, least = p->height / p->margin,
+                 off = fmax(fmin(f.coefficient, most), least) - f.coefficient;
+    return squares_likelihood(f.squares + off * off / f.variance, p->s->n);
+}
+
+running_in_likelihoods running_in_likelihoods_find(const running_in_series *s,
+                                                   const running_in_curve *c, scatter_law law,
+                                                   double log_factor, double margin)
+{
+    arena memory = {0};
+    running_in_series own = *s;
+    factor_search p = {.s = &own,
+                       .sums = curve_integral_compute(c, &memory),
+                       .height = running_in_curve_height(c),
+                       .column = arena_numbers(&memory, s->n),
+                       .law = law,
+                       .margin = margin};
+    running_in_likelihoods l = {-(double)INFINITY, -(double)INFINITY};
+    if (p.height > 0 && isfinite(p.height)) {
+        l.any = squares_likelihood(exp(-profile_likelihood(log_factor, &p)), s->n);
+        for (int held = 0; held < 2; held++) { /* with the shift of the series, and without */
+            own.shift = held != 0 ? s->shift : 0;
+            const double at =
+                root_maximum(margin_likelihood, &p, -log(margin), log(margin), SECTIONS);
+            l.within = fmax(l.within, margin_likelihood(at, &p));
+        }
+    }
+    arena_free(&memory);
+    return l;
 }
 
 /* ---- all time factors ------------------------------------------------------------------------ */
@@ -235,7 +234,7 @@ static double shift_limit(const member *t, double log_factor)
 static void find_shift(member *t, double log_factor)
 {
     const double most = shift_limit(t, log_factor), step = 2 * most / (SHIFTS - 1);
-    factor_search p = {&t->s, t->sums, t->height, t->column, t->best_law, log_factor};
+    factor_search p = {&t->s, t->sums, t->height, t->column, t->best_law, log_factor, 0};
     double best = -(double)INFINITY, centre = 0;
     for (int i = 0; step > 0 && i < SHIFTS; i++) {
         const double at = (i - SHIFTS / 2) * step, l = shift_likelihood(at, &p);

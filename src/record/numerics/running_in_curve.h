@@ -73,5 +73,13 @@ typedef struct running_in_optimum {
 } running_in_optimum;
 running_in_optimum running_in_optimum_find(const running_in_series *s, const running_in_curve *c,
                                            scatter_law law, double around, double within);
+/* ln of the likelihoods of another curve with one law, without a constant of the series: at a
+ * factor with any ratio, and the largest with factor and ratio from 1/margin to margin. */
+typedef struct running_in_likelihoods {
+    double any, within;
+} running_in_likelihoods;
+running_in_likelihoods running_in_likelihoods_find(const running_in_series *s,
+                                                   const running_in_curve *c, scatter_law law,
+                                                   double log_factor, double margin);
 
 #endif
