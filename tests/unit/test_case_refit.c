@@ -170,9 +170,9 @@ static void keeps_rubber_and_surface(void **state)
 static void says_what_is_missing(void **state)
 {
     (void)state;
-    static const refit_curve wrong[] = {{"bulk", "bulk-2.jpk-force-map", 99, (double)NAN},
-                                        {"bulk", "../case/bulk-2.jpk-force-map", 0, (double)NAN},
-                                        {"bulk", "/etc/hostname", 0, (double)NAN}};
+    static const refit_curve wrong[] = {{"bulk", "bulk-2.jpk-force-map", 99, "", ""},
+                                        {"bulk", "../case/bulk-2.jpk-force-map", 0, "", ""},
+                                        {"bulk", "/etc/hostname", 0, "", ""}};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         wt_indent_tables tables = {0};
         wt_error err = WT_ERROR_INIT;
