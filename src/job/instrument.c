@@ -17,7 +17,10 @@ char *flow_instrument(const wt_job *work, wt_input *input, const wt_format_info 
     const char *instrument = "";
     wt_table *metadata = NULL;
     table_view t = {0};
-    if (wt_input_describe(work->formats, input, &options, NULL, &metadata, NULL) == WT_OK &&
+    /* A description of heights decodes all of them, and such files state no instrument. */
+    const bool may_state = (format->kinds & ~(WT_KIND_IMAGE | WT_KIND_SPECTRUM)) != 0;
+    if (may_state &&
+        wt_input_describe(work->formats, input, &options, NULL, &metadata, NULL) == WT_OK &&
         table_bind(metadata, &facts_schema, "", &t, NULL) == WT_OK)
         for (size_t i = 0; i < t.n_rows && instrument[0] == '\0'; i++)
             if (facts_get(&t, i, FACTS_KIND) == FACT_INSTRUMENT)

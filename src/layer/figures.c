@@ -31,6 +31,7 @@ static double visible_incubation(const figure_drawing *d)
 /* Draws a vertical line at a time, with a label at this fraction of the height. */
 static void mark_time(figure_drawing *d, double time, const char *label, double graph_position)
 {
+    time = number_to_digits(time, DATA_DIGITS); /* as the times of the curve */
     if (!(time >= d->x.low && time <= d->x.high))
         return;
     text_format(&d->script,

@@ -23,7 +23,9 @@ static void write_remedy_row(page_writer *page, const finding *f)
     const result_value *const value = &f->value;
     text_html(&page->out, "<tr><th scope=\"row\">%s</th><td data-label=\"Held back by\">",
               finding_subject_text(f->question));
-    if (value->remedy == NULL) {
+    if (f->verdict == FINDING_NOT_COMPUTED) {
+        text_add(&page->out, "missing data");
+    } else if (value->remedy == NULL) {
         text_html(&page->out, "%s", value->range.widest);
         add_range(&page->out, value);
     } else
@@ -37,7 +39,8 @@ static bool has_remedy(const finding *f)
 {
     const bool inconclusive =
         f->verdict == FINDING_INCONCLUSIVE || f->verdict == FINDING_NOT_ENOUGH_DATA;
-    return (inconclusive && f->value.remedy != NULL) ||
+    return (f->verdict == FINDING_NOT_COMPUTED && f->remedy[0] != '\0') ||
+           (inconclusive && f->value.remedy != NULL) ||
            (f->value.range.widest != NULL && f->value.range.remedy != NULL);
 }
 

@@ -257,11 +257,14 @@ static size_t count_digits(const char *s)
 static size_t append_superscript(text_buffer *text, const char *s)
 {
     static const char *const digit[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    const size_t sign = *s == '-', n = count_digits(s + sign);
+    const size_t sign = *s == '-' || *s == '+', n = count_digits(s + sign);
     if (n == 0)
         return 0;
-    text_add(text, sign ? "⁻" : "");
-    for (size_t i = 0; i < n; i++)
+    text_add(text, *s == '-' ? "⁻" : "");
+    size_t i = 0;
+    while (s[sign + i] == '0' && i + 1 < n) /* "e-05" is 10⁻⁵ */
+        i++;
+    for (; i < n; i++)
         text_add(text, digit[s[sign + i] - '0']);
     return sign + n;
 }
@@ -277,8 +280,8 @@ static size_t append_number(text_buffer *text, const char *s)
         n += 1 + count_digits(s + n + 1);
     text_add(text, sign ? "−" : "");
     text_bytes(text, s + sign, n - sign);
-    const size_t power =
-        s[n] == 'e' ? (s[n + 1] == '-') + count_digits(s + n + 1 + (s[n + 1] == '-')) : 0;
+    const size_t with_sign = s[n] == 'e' && (s[n + 1] == '-' || s[n + 1] == '+');
+    const size_t power = s[n] == 'e' ? with_sign + count_digits(s + n + 1 + with_sign) : 0;
     if (power == 0 || !is_digit(s[n + power]) || is_letter(s[n + 1 + power]))
         return n;
     text_add(text, "×10");

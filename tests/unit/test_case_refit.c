@@ -97,7 +97,7 @@ static void follows_contact_point_and_case(void **state)
     char by[64];
     const double fitted = modulus(text, &which, &contact);
     (void)snprintf(by, sizeof by, "%.17g m", contact + 5e-9);
-    which.option = "contact-point";
+    which.option = "fixed-contact-point";
     which.value = by;
     const double by_hand = modulus(text, &which, &moved);
     assert_true(by_hand > 1.01 * fitted);

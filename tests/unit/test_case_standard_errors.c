@@ -223,6 +223,8 @@ static const expectation measured[] = {
     {&indentation_schema, "retract_modulus", "nk"},  /* asked for in the second */
     {&shift_factors_schema, "wlf_c1", "kk"},
     {&shift_factors_schema, "wlf_c2", "kk"},
+    {&shift_factors_schema, "strain_low", ".."}, /* no file states one */
+    {&shift_factors_schema, "strain_high", ".."},
     {&shift_factors_schema, "activation_energy", ".."}, /* WLF has none, and no joint */
     {&shift_factors_schema, "joint", ".."},
     {&shift_factors_schema, "valid_from", ".."}, /* it holds everywhere */

@@ -6,6 +6,7 @@
 #include "indentation/numerics/curve_fitting.h"
 #include "indentation/numerics/curve_model.h"
 
+#include "core/base/array.h"
 #include "core/math/students_t.h"
 #include "indentation/law/adhesion.h"
 #include "indentation/law/tip.h"
@@ -461,7 +462,7 @@ static bool law_force_difference(const curve_fitting *f, bool constant_pull, dou
     return true;
 }
 
-enum { SCORES = 1 + sizeof trial_pulls / sizeof trial_pulls[0] };
+enum { SCORES = 1 + COUNT_OF(trial_pulls) };
 
 /* Score tests with means of the samples: a constant pull, then trial pulls of the JKR law. Returns
  * their number. */
