@@ -360,6 +360,22 @@ static void test_link(void)
     check(unlink("overrides.tsv") == 0, "link");
 }
 
+/* A result names its case, whatever the name of that is. */
+static void test_result(void)
+{
+    FILE *const file = fopen("study.xml", "w");
+    check(file != NULL && fputs("<case version=\"1\"><dma><poisson-ratio>0.5</poisson-ratio>"
+                                "<files>dma.txt</files></dma></case>\n",
+                                file) >= 0,
+          "study.xml");
+    (void)fclose(file);
+    char *const words[] = {(char *)(size_t)program, "run", "-q", "--no-report", "study.xml", NULL};
+    check(run(words) == 0, "run of study.xml");
+    server = start_server("study.h5");
+    expect(200, "GET", "state", "", "study.xml");
+    check(kill(server, SIGINT) == 0 && end_of(server, 20) == 128 + SIGINT, "Ctrl-C of a result");
+}
+
 /* Latencies, which depend on the machine: shown, and wrong only if they are out of all bounds. */
 static void test_latency(const char *case_text)
 {
@@ -416,6 +432,7 @@ int main(int argc, char **argv)
     test_latency(case_text);
     /* Ctrl-C ends it at once; the end of the last page after a few seconds */
     check(kill(server, SIGINT) == 0 && end_of(server, 20) == 128 + SIGINT, "Ctrl-C");
+    test_result();
     server = start_server(".");
     expect(200, "POST", "page?name=open", "", "{}");
     expect(200, "POST", "page?name=leave", "", "{}");
