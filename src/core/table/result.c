@@ -25,6 +25,8 @@ static void input_free(wt_provenance_input *input, const wt_provenance_input *be
         free((char *)input->role);
     if (before == NULL || input->format != before->format)
         free((char *)input->format);
+    if (before == NULL || input->instrument != before->instrument)
+        free((char *)input->instrument);
 }
 
 static const char *share_text(const char *text, const char *before)

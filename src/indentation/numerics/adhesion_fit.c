@@ -462,7 +462,7 @@ static bool law_force_difference(const curve_fitting *f, bool constant_pull, dou
     return true;
 }
 
-enum { SCORES = 1 + COUNT_OF(trial_pulls) };
+enum { SCORES = 1 + COUNT_OF(trial_pulls) }; /* a constant pull and the trial pulls */
 
 /* Score tests with means of the samples: a constant pull, then trial pulls of the JKR law. Returns
  * their number. */
