@@ -344,7 +344,8 @@ static void report_common_shifts(const indent_summary *summary, const wt_indent_
 {
     const double bend = mean_shift(summary, &summary->bend);
     indentation_set_value(rows, INDENTATION_KEY_BEND_ERROR, bend, 0, 0);
-    if (bend * bend * (double)summary->n > min_bend_share * summary->variance)
+    /* also if a variance is unknown */
+    if (fabs(bend) > 0 && !(bend * bend * (double)summary->n <= min_bend_share * summary->variance))
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "%s: the baseline of %zu of %zu accepted curves is bent; if the piezo "
                    "continues so in contact, these moduli change by %+.2g %% on average, which "

@@ -177,9 +177,9 @@ void run_fit_compute(run_fit *run, double margin)
     fit_draws(run, margin);
     run->ambiguous = contradicts(run, margin) && fits_within_margin(run, margin);
     if (run->ambiguous)
-        snprintf(
-            run->note, sizeof run->note,
-            "a prediction within its errors fits the record as well as another time or change");
+        snprintf(run->note, sizeof run->note,
+                 "a prediction within its errors fits the record as well as another time or change "
+                 "does");
 }
 
 void run_fit_clear(run_fit *run)

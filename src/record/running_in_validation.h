@@ -79,7 +79,7 @@ typedef struct run_fit {
     bool ambiguous; /* a course within the errors of the prediction fits the record as well */
     char note[256];
 } run_fit;
-/* Share of the draws that is no chance. */
+/* Share of the draws up to which an outcome of draws may be chance. */
 #define RUN_LEAST_DOUBT 0.025
 
 /* Fits one run. Its note has the reason if there is no fit. The caller clears the run. */

@@ -82,8 +82,8 @@ static void describe_inconclusive_run(const run_fit *run, char *text, size_t siz
             "no change of friction like that by the layer exceeds the scatter of the cycles");
     else if (run->ambiguous)
         clocale_print(text, size,
-                      "the record fits another time or change, and as well the time and the change "
-                      "of a prediction within its errors");
+                      "a prediction within its errors fits the record as well as another time or "
+                      "change does");
     else if (isnan(fit->low) && isnan(fit->high))
         clocale_print(text, size,
                       "friction changes, and the record gives neither a lower nor an upper "

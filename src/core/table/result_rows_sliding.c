@@ -258,9 +258,9 @@ static void add_validation_step(rows_source *s, const table_view *v, size_t i)
 static void set_verdict_word(result_row *row, int outcome)
 {
     if (outcome == OUTCOME_DOES_NOT)
-        snprintf(row->text, sizeof row->text, "no");
+        snprintf(row->text, sizeof row->text, "%s", stated_verdict_text(VERDICT_NO));
     else if (outcome == OUTCOME_EXPLAINS)
-        snprintf(row->text, sizeof row->text, "yes");
+        snprintf(row->text, sizeof row->text, "%s", stated_verdict_text(VERDICT_YES));
 }
 
 static void add_validation(rows_source *s, const table_view *v)

@@ -452,13 +452,13 @@ wt_status master_estimate_noise(master_work *work, wt_error *err)
  * not reduce their weight. */
 wt_status master_test_superposition(master_work *work, wt_error *err)
 {
-    if (work->s->n_curves < 2 || work->set.quantity != WT_SHIFT_MODULI)
-        return WT_OK;
     spectrum *s = work->s;
+    spectrum_keep(s); /* the widths start from it */
+    if (s->n_curves < 2 || work->set.quantity != WT_SHIFT_MODULI)
+        return WT_OK;
     /* also tested without a request if the misfit may affect the shifts */
     work->tested = !work->options.series_only || work->part ||
                    fmax(work->missed[STORAGE], work->missed[LOSS]) > shift_relevant_misfit;
-    spectrum_keep(s);
     wt_status status = master_set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
     s->rho = work->within.rho;
     spectrum_set_point_noise(s, work->within.shape);

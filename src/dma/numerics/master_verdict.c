@@ -320,6 +320,18 @@ static void describe_gross_misfit(const master_work *work, wt_master *m)
                   where, 100.0 * missed[STORAGE], 100.0 * missed[LOSS]);
 }
 
+/* Stores the numbers of the test of superposition; NaN without one. */
+static void store_lack_of_fit(const lack_of_fit *lack, bool tested, wt_master *m)
+{
+    const double none = (double)NAN;
+    m->lack_of_fit_p = tested ? lack->p : none;
+    m->misfit_low = tested ? lack->misfit_low : none;
+    m->misfit_high = tested ? lack->misfit_high : none;
+    m->kramers_kronig_p = tested ? lack->kk : none;
+    m->loss_factor = tested ? lack->factor : none;
+    m->loss_factor_error = tested ? lack->factor_error : none;
+}
+
 void master_assess(const master_work *work, wt_master *m)
 {
     size_t determined = 0;
@@ -331,13 +343,8 @@ void master_assess(const master_work *work, wt_master *m)
     const size_t undetermined = m->n_shifts - determined;
     const lack_of_fit *lack = work->part ? &work->whole : &work->lack;
     const double window = widest_window(work);
-    const bool both = work->set.quantity == WT_SHIFT_MODULI, tested = both && work->tested;
-    m->lack_of_fit_p = tested ? lack->p : (double)NAN;
-    m->misfit_low = tested ? lack->misfit_low : (double)NAN;
-    m->misfit_high = tested ? lack->misfit_high : (double)NAN;
-    m->kramers_kronig_p = tested ? lack->kk : (double)NAN;
-    m->loss_factor = tested ? lack->factor : (double)NAN;
-    m->loss_factor_error = tested ? lack->factor_error : (double)NAN;
+    const bool both = work->set.quantity == WT_SHIFT_MODULI;
+    store_lack_of_fit(lack, both && work->tested, m);
     m->superposition = WT_SUPERPOSITION_INCONCLUSIVE;
     m->valid_from = m->valid_to = (double)NAN;
     if (!both) {

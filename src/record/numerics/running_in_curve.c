@@ -87,6 +87,17 @@ typedef struct factor_search {
     double margin;     /* of factor and ratio about 1, a factor */
 } factor_search;
 
+/* A search in a series that the caller keeps; memory receives its arrays. */
+static factor_search search_new(running_in_series *s, const running_in_curve *c, scatter_law law,
+                                arena *memory)
+{
+    return (factor_search){.s = s,
+                           .sums = curve_integral_compute(c, memory),
+                           .height = running_in_curve_height(c),
+                           .column = arena_numbers(memory, s->n),
+                           .law = law};
+}
+
 static double profile_likelihood(double log_factor, void *user)
 {
     const factor_search *const p = user;
@@ -103,11 +114,7 @@ running_in_optimum running_in_optimum_find(const running_in_series *s, const run
     running_in_optimum place = {none, none};
     arena memory = {0};
     running_in_series own = *s;
-    factor_search p = {.s = &own,
-                       .sums = curve_integral_compute(c, &memory),
-                       .height = running_in_curve_height(c),
-                       .column = arena_numbers(&memory, s->n),
-                       .law = law};
+    factor_search p = search_new(&own, c, law, &memory);
     if (p.height > 0 && isfinite(p.height) && isfinite(around)) {
         place.log_factor = within > 0 ? root_maximum(profile_likelihood, &p, around - within,
                                                      around + within, SECTIONS)
@@ -144,12 +151,8 @@ running_in_likelihoods running_in_likelihoods_find(const running_in_series *s,
 {
     arena memory = {0};
     running_in_series own = *s;
-    factor_search p = {.s = &own,
-                       .sums = curve_integral_compute(c, &memory),
-                       .height = running_in_curve_height(c),
-                       .column = arena_numbers(&memory, s->n),
-                       .law = law,
-                       .margin = margin};
+    factor_search p = search_new(&own, c, law, &memory);
+    p.margin = margin;
     running_in_likelihoods l = {-(double)INFINITY, -(double)INFINITY};
     if (p.height > 0 && isfinite(p.height)) {
         l.any = squares_likelihood(exp(-profile_likelihood(log_factor, &p)), s->n);
