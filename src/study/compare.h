@@ -117,6 +117,11 @@ wt_status compare_find_unstated_errors(const compare_pair *p, const wt_compare_j
 /* Returns d ln |E*| / dT of the DMA [1/K] at the mean frequency of the bulk. 0 if unknown. */
 wt_status compare_temperature_slope(const compare_pair *p, const wt_compare_job *job,
                                     const wt_job *work, double *slope, wt_error *err) WT_NODISCARD;
+/* Returns ln of the modulus of a group over |E*| of the DMA, with the errors that its calibration
+ * does not cause. NaN if unknown. */
+wt_status compare_group_with_dma(const compare_pair *p, int group, const wt_compare_job *job,
+                                 const wt_job *work, wt_estimate *log_ratio,
+                                 wt_error *err) WT_NODISCARD;
 
 /* Range of the ratio over the choices of the fit, which are made alike for both groups, and the
  * choice with the largest effect. NaN and NULL if no choice has an effect beyond the noise. */

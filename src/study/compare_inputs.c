@@ -6,6 +6,7 @@
 #include "study/compare.h"
 
 #include "core/base/clocale.h"
+#include "core/math/students_t.h"
 
 #include <math.h>
 #include <string.h>
@@ -289,6 +290,32 @@ wt_status compare_temperature_slope(const compare_pair *p, const wt_compare_job 
         status = log_modulus(job->rubber, at, work->seed, WT_NO_REPLICATE, &y[i], err);
     *slope = status == WT_OK && isfinite(y[1] - y[0]) ? (y[1] - y[0]) / 2 : 0;
     return status;
+}
+
+wt_status compare_group_with_dma(const compare_pair *p, int g, const wt_compare_job *job,
+                                 const wt_job *work, wt_estimate *log_ratio, wt_error *err)
+{
+    const wt_estimate temperature = compare_temperature(job, g);
+    const material_state at = {temperature.value, mean_frequency(&p->data[g])};
+    wt_estimate dma;
+    wt_group_summary group;
+    double by_temperature = 0;
+    *log_ratio = (wt_estimate){(double)NAN, (double)NAN, 0, "1"};
+    if (!(at.frequency > 0) || !flow_rubber_can_shift(job->rubber, at.temperature, NULL))
+        return WT_OK;
+    wt_status status = compare_material(job->rubber, &at, 1, work, &dma, err);
+    if (status == WT_OK)
+        status = compare_temperature_error(job->rubber, at, temperature.standard_error, work,
+                                           &by_temperature, err);
+    if (status == WT_OK)
+        status = wt_group_summarise(&p->data[g].group, &group, err);
+    if (status != WT_OK)
+        return status;
+    const double curves =
+        hypot(log(group.high / group.low) / (2 * NORMAL_95), p->data[g].loss_error);
+    log_ratio->value = log(group.geometric_mean) - dma.value;
+    log_ratio->standard_error = hypot(curves, hypot(dma.standard_error, by_temperature));
+    return WT_OK;
 }
 
 wt_estimate compare_temperature(const wt_compare_job *job, int group)

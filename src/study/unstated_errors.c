@@ -319,6 +319,33 @@ static wt_status add_temperature_cause(const compare_pair *p, const wt_compare_j
     return WT_OK;
 }
 
+/* Adds a calibration that is wrong in the bulk alone: the moduli of the track are those of the DMA,
+ * and those of the bulk, the rubber of the DMA, are not. An error that both share moves both. */
+static wt_status add_calibration_cause(const compare_pair *p, const wt_compare_job *job,
+                                       const wt_job *work, bool within, unstated_errors *u,
+                                       wt_error *err)
+{
+    wt_estimate away[2];
+    wt_status status = WT_OK;
+    if (within || job->rubber == NULL || isnan(job->temperature.value) ||
+        job->cantilevers == WT_CANTILEVERS_SHARED)
+        return WT_OK;
+    for (int g = 0; status == WT_OK && g < 2; g++)
+        status = compare_group_with_dma(p, g, job, work, &away[g], err);
+    if (status != WT_OK || !(fabs(away[0].value) > two_errors * away[0].standard_error) ||
+        !(fabs(away[1].value) < fabs(away[0].value) / 2))
+        return status;
+    char words[200];
+    clocale_print(words, sizeof words,
+                  "a spring constant, sensitivity or tip that is wrong in the bulk alone, which "
+                  "has %.2g times the modulus of its DMA where the track has %.2g times",
+                  exp(away[0].value), exp(away[1].value));
+    add_cause(u, true, group_effect(u->log_ratio > 0, fabs(u->log_ratio)), words,
+              "the calibration of the cantilever in the bulk once more, or a statement that both "
+              "were indented with one (cantilevers one)");
+    return WT_OK;
+}
+
 wt_status compare_find_unstated_errors(const compare_pair *p, const wt_compare_job *job,
                                        const wt_job *work, const compare_row *row,
                                        unstated_errors *u, wt_error *err)
@@ -336,5 +363,8 @@ wt_status compare_find_unstated_errors(const compare_pair *p, const wt_compare_j
     if (status != WT_OK)
         return status;
     add_pull_cause(p, within, u);
+    status = add_calibration_cause(p, job, work, within, u, err);
+    if (status != WT_OK)
+        return status;
     return add_temperature_cause(p, job, work, row, within, u, err);
 }

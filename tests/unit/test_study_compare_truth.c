@@ -461,6 +461,38 @@ static const char *warmer(double ratio, bool temperature_known, const wt_rubber 
     return wt_table_key(tables.comparison, "differs");
 }
 
+/* The verdict on a track that is 1.25 times as stiff, beside a DMA that is `dma` times the bulk. */
+static const char *beside_dma(double dma, wt_cantilever_sharing cantilevers)
+{
+    static double tau = 1e-3, none = 0;
+    wt_rubber rubber = rubber_of(&tau, &none);
+    rubber.prony.equilibrium_modulus = dma * BULK;
+    wt_rubber_draw draw = {.prony = rubber.prony, .law = rubber.law};
+    draw.prony.equilibrium_modulus *= 1.01;
+    rubber.n_draws = 1;
+    rubber.draws = &draw;
+    wt_compare_job job = at_one_temperature();
+    job.rubber = &rubber;
+    job.cantilevers = cantilevers;
+    return verdict_of(job, 1.25);
+}
+
+/* Where the track has the moduli of the DMA and the bulk has not, the calibration of the bulk may
+ * make the ratio; but not if one cantilever is stated, or if both are off alike. */
+static void test_calibration_of_the_bulk(void **state)
+{
+    (void)state;
+    const char *const yes = "yes: the wear track is stiffer than the bulk";
+    const char *said = beside_dma(1.25, WT_CANTILEVERS_AUTO);
+    assert_non_null(strstr(said, "inconclusive"));
+    assert_non_null(strstr(said, "0.8 times the modulus of its DMA where the track has 1 times"));
+    assert_true(cell(tables.comparison, 0, "ratio_low") < 1);
+    assert_string_equal(beside_dma(1.25, WT_CANTILEVERS_SHARED), yes);
+    assert_string_equal(beside_dma(1, WT_CANTILEVERS_AUTO), yes);
+    assert_string_equal(beside_dma(0.8, WT_CANTILEVERS_AUTO), yes);
+    assert_string_equal(beside_dma(2, WT_CANTILEVERS_AUTO), yes);
+}
+
 /* On a rubber with much loss 10 K look like a layer, unless the material takes them out. */
 static void test_warmer(void **state)
 {
@@ -946,6 +978,7 @@ int main(void)
         cmocka_unit_test(test_groups),
         cmocka_unit_test(test_rates),
         cmocka_unit_test(test_dma),
+        cmocka_unit_test(test_calibration_of_the_bulk),
         cmocka_unit_test(test_warmer),
         cmocka_unit_test(test_not_known),
         cmocka_unit_test(test_out_of_reach),

@@ -21,6 +21,8 @@ static const double kink_step =
     1e-3; /* in standard errors; a larger remaining step ends at a kink */
 static const double better_chi2 =
     9.0; /* smallest 2 ln(likelihood ratio) against no adhesion, equivalent to 3 standard errors */
+static const double hopeless_chi2 =
+    20.0; /* 2 ln(likelihood ratio) of means of the samples against the law that is found */
 /* Smallest Tabor parameter of the JKR law. The logarithmic mean of DMT (0.1) and JKR (5) is 0.7
  * (Johnson and Greenwood, J. Colloid Interface Sci. 192 (1997) 326). */
 static const double min_tabor = 1.0;
@@ -136,15 +138,13 @@ static double refine_jump(curve_fitting *f, curve_solution *s, bool follows)
     const double final_cost = s->cost;
     f->kind.jump = jump_of_best;
     *s = best;
-    if (follows && !f->kind.is_approximate)
-        shift_jump(f, s);
     return final_cost;
 }
 
 /* Starts a fit from a jump. The contact point is fixed first and free afterwards, because a fit
  * from the wrong side of the jump does not converge. Returns false if the start fails: the averaged
  * samples have a larger cost than without adhesion, by more than one sample on the wrong side of
- * the jump causes. */
+ * the jump causes, or than a law that can win. */
 static bool start_adhesion_fit(curve_fitting *f, curve_solution *s, double pull, size_t jump,
                                bool follows)
 {
@@ -158,13 +158,16 @@ static bool start_adhesion_fit(curve_fitting *f, curve_solution *s, double pull,
     f->kind.jump = jump;
     if (average_start_samples(f, jump, &thinned, &f->kind.jump)) {
         f->input.samples = thinned;
-        most = cost_without_adhesion(f, elastic.p) + pull * pull;
+        most = fmin(cost_without_adhesion(f, elastic.p) + pull * pull,
+                    f->largest_cost * (double)thinned.n / (double)all.n);
     }
     f->kind.contact_fixed = f->kind.is_approximate = true;
     refine_adhesion_fit(f, s);
     f->kind.contact_fixed = fixed;
+    f->kind.cost_limit = most;
     if (!fixed)
         final_cost = refine_jump(f, s, follows);
+    f->kind.cost_limit = 0.0;
     f->input.samples = all;
     f->kind.is_approximate = false;
     return !(final_cost > most);
@@ -181,15 +184,15 @@ static curve_solution refine_adhesion_start(curve_fitting *f, curve_solution s, 
         return s;
     }
     f->kind.jump = jump;
-    if (follows && !fixed) {
-        const size_t touched = find_position(&all, s.p[CURVE_C]);
+    if (!fixed) {
+        const size_t touched = follows ? find_position(&all, s.p[CURVE_C]) : 0;
         if (touched >= CURVE_BASELINE_SAMPLES && all.n - touched >= CURVE_BASELINE_SAMPLES)
             f->kind.jump = touched;
-    }
-    if (!fixed) {
-        f->kind.no_errors = true;
+        f->kind.is_approximate = true;
         (void)refine_jump(f, &s, follows);
-        f->kind.no_errors = false;
+        if (follows)
+            shift_jump(f, &s);
+        f->kind.is_approximate = false;
     }
     if (fixed || s.converged)
         refine_adhesion_fit(f, &s);
@@ -308,11 +311,6 @@ static double log_evidence(const curve_solution *than, const curve_solution *oth
     return than->effective_n * log(than->cost / other->cost) / fmax(1.0, than->lack.statistic);
 }
 
-static double likelihood_gain(const curve_fitting *f, const curve_solution *other)
-{
-    return log_evidence(&f->solution, other);
-}
-
 /* True if the tip pulls off, within the errors of the fit, at the position of first contact or
  * later. Rubber keeps contact at least up to that position during the retract. */
 static bool pull_off_is_late(const curve_fitting *f, const curve_solution *out)
@@ -390,6 +388,7 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool p
     /* Loss resembles a constant pull, and neither law describes it, so costs do not decide. Forces
      * on rubber have a short range. */
     const bool lossy = jump == 0 && f->loss > CURVE_MIN_LOSS;
+    f->largest_cost = (double)INFINITY;
     for (int i = 0; i < LAWS; i++) {
         f->solution = before.solution;
         f->kind = before.kind;
@@ -397,8 +396,12 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool p
             i == CONSTANT_PULL ? fit_constant_pull(f, pull, jump) : fit_jkr(f, pull, jump);
         law[i] = (adhesive_law_fit){f->solution, f->kind, found, pull_is_plausible(f), 0.0};
         if (i == CONSTANT_PULL && pull_alone &&
-            !(law[i].found && -likelihood_gain(f, &before.solution) > better_chi2))
+            !(law[i].found && -log_evidence(&f->solution, &before.solution) > better_chi2))
             break;
+        if (i == CONSTANT_PULL && found && law[i].is_plausible && !lossy)
+            f->largest_cost =
+                f->solution.cost * exp(hopeless_chi2 * fmax(1.0, f->solution.lack.statistic) /
+                                       f->solution.effective_n);
         /* The cost has kinks where samples pull off. A second start uses the fitted constant pull.
          */
         if (i == JKR)
@@ -518,20 +521,20 @@ bool curve_fit_adhesion(curve_fitting *f)
     const curve_kind plainly = f->kind;
     const bool is_adhesion_tried = !f->options->plain_least_squares && !f->without_adhesion &&
                                    !(contact_table_tip(f->table)->sample_thickness > 0.0);
-    curve_snap found = f->snap;
+    curve_snap snap = f->snap;
     if (f->snap_in_pull > 0.0) {
         if (is_adhesion_tried) { /* starts at the deepest sample; before it the cantilever jumps or
                          is attracted */
-            curve_exclude_samples(f, found.start, found.deepest + 1);
-            if (fit_adhesion_laws(f, found.pull, found.start, false)) {
+            curve_exclude_samples(f, snap.start, snap.deepest + 1);
+            if (fit_adhesion_laws(f, snap.pull, snap.start, false)) {
                 evaluate_solution(f);
                 return true;
             }
-            found.end -= found.deepest + 1 - found.start;
-            found.deepest = found.start;
+            snap.end -= snap.deepest + 1 - snap.start;
+            snap.deepest = snap.start;
         }
         f->kind = plainly;
-        curve_exclude_samples(f, found.start, found.end);
+        curve_exclude_samples(f, snap.start, snap.end);
         curve_subtract_wave(f, &plainly.wave);
         return curve_scan_and_refine(f);
     }
@@ -543,11 +546,8 @@ bool curve_fit_adhesion(curve_fitting *f)
     bool pull_alone = false;
     if (quick && !adhesion_may_improve(f, most, &pull_alone))
         return true;
-    if (!fit_adhesion_laws(f, most, 0, pull_alone)) {
-        evaluate_solution(f);
-        return true;
-    }
-    const double gain = -likelihood_gain(f, &elastic);
+    const bool found = fit_adhesion_laws(f, most, 0, pull_alone);
+    const double gain = found ? -log_evidence(&f->solution, &elastic) : (double)INFINITY;
     if (gain > better_chi2) {
         evaluate_solution(f);
         return true;

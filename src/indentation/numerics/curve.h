@@ -256,7 +256,6 @@ typedef struct curve_kind {
                             the work */
     bool memory;         /* the rubber has the spectrum of the options; not with adhesion */
     bool is_approximate; /* stop at a thousandth of a standard error and compute no errors */
-    bool no_errors;      /* compute no errors */
     double cost_limit;   /* a fit that cannot reach this cost may stop; 0: no limit */
     size_t jump;         /* adhesive contact: first sample in contact; 0: at the contact point */
     curve_wave wave;     /* start values of the wave */

@@ -46,6 +46,7 @@ typedef struct curve_fitting {
     curve_minimum minima[CURVE_MAX_MINIMA];
     size_t n_minima;
     curve_snap snap;
+    double largest_cost; /* of a law of adhesion that can win */
     double snap_in_pull; /* pull before contact [N]; 0 if none is significant */
     double pull_off;   /* pull of the retract [N]; 0 if none is significant, NaN without a suitable
                           retract */

@@ -479,7 +479,7 @@ static void refine_single_kind(const wt_contact_table *table, const curve_sample
     if (m.wave)
         s.converged = project_wave(&m, s.p, &ignored) && s.converged;
     s.first_contact = first_contact(&m, s.p);
-    if (!m.is_approximate && !kind->no_errors) {
+    if (!m.is_approximate) {
         curve_model_complete(&m, s.p);
         compute_statistics(&m, &s);
     }
