@@ -1,9 +1,7 @@
-/* Runs a fuzz target without a fuzzer: each seed as it is, then with a fixed set of changes made by
- * a generator of fixed start. Arguments are files and folders of seeds; none is one empty seed. A
- * fault ends the program; WT_FUZZ_LAST names a file that then holds the input.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Runs a fuzz target without a fuzzer: each seed unchanged, then with a fixed set of
+ * pseudo-random changes. Arguments are files and folders of seeds; no argument is one empty
+ * seed. An error ends the program; the file WT_FUZZ_LAST then holds the input.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <dirent.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -19,9 +17,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 #define CHANGES 400
 
 typedef struct run {
-    const char *last; /* where the last input is kept, NULL = nowhere */
+    const char *last; /* file for the last input, or NULL */
     double start;
-    uint64_t state; /* of the generator */
+    uint64_t state; /* state of the generator */
     size_t n;
 } run;
 
@@ -46,7 +44,7 @@ static size_t below(run *r, size_t n)
     return n == 0 ? 0 : (size_t)(draw(r) % n);
 }
 
-/* In memory of exactly the size, so that a sanitizer sees one byte too many. */
+/* The buffer has the exact size, so that a sanitizer detects a read of one byte too many. */
 static void try_bytes(run *r, const uint8_t *bytes, size_t n)
 {
     uint8_t *exact = malloc(n > 0 ? n : 1);

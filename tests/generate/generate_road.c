@@ -12,8 +12,8 @@ static const double wide_step = 22e-6, near_step = 0.55e-6;
 static int write_map(const char *folder, const char *name, double step, size_t points,
                      uint64_t seed)
 {
-    const made_surface road = {SURFACE,        SURFACE * step, seed, MODES, TRUTH_ROAD_C0,
-                               TRUTH_ROLL_OFF, TRUTH_HURST,    0,    true,  0};
+    const synthetic_surface road = {SURFACE,        SURFACE * step, seed, MODES, TRUTH_ROAD_C0,
+                                    TRUTH_ROLL_OFF, TRUTH_HURST,    0,    true,  0};
     /* away from the edges, beyond which a made surface begins again */
     if (write_field(folder, name, &road, points, points, 60, 80) == 0)
         return 0;

@@ -6,10 +6,10 @@
 #include <stdio.h>
 
 /* Of a ground steel or fine asphalt: 1 um rms, waves down to two points. */
-static const made_surface wide = {256, 200e-6, 21, 126, 6e-26, 6e5, 0.8, 0, true, 0};
+static const synthetic_surface wide = {256, 200e-6, 21, 126, 6e-26, 6e5, 0.8, 0, true, 0};
 /* Of the bundled case: a road of 40 um rms. */
-static const made_surface road = {256, 6.4e-3, 23, 126, 2e-17, 4e3, 0.8, 0, true, 0};
-static const made_surface narrow = {256, 20e-6, 22, 126, 6e-26, 6e5, 0.8, 0, true, 0};
+static const synthetic_surface road = {256, 6.4e-3, 23, 126, 2e-17, 4e3, 0.8, 0, true, 0};
+static const synthetic_surface narrow = {256, 20e-6, 22, 126, 6e-26, 6e5, 0.8, 0, true, 0};
 
 int main(int argc, char **argv)
 {

@@ -1,8 +1,8 @@
 /* No parameter is ignored: each one, moved off its default, changes what a subcommand or a case
  * gives. What cannot be moved by rule has its value here; what changes no result has its reason.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "call_text.h"
-#include "near.h"
 #include "params/sections.h"
 
 #include <stdlib.h>
@@ -160,7 +160,7 @@ static const struct {
     {NULL, "no-report", "the base has it"},
     {NULL, "verbose", "reasons behind the short table: tests/cli/tribometers.txt"},
     {"case", "scan-lines", "for height maps with line faults: unit_job_conditioning, cli_psd"},
-    {"run", "keep", "the result that is there, of the same command: cli_keep"},
+    {"run", "keep", "the result that is there, of the same command: cli_run_keep"},
     {NULL, "style", "of the pictures: test_report"},
     {NULL, "figures", "of the pictures: unit_report_paper, tests/cli/bad_input.txt"},
     {NULL, "figure", "of the pictures: tests/cli/options.txt"},

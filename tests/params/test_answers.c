@@ -2,9 +2,9 @@
  * unit or empty, is taken or refused alike as an option, in a case and in a call from C. The values
  * follow from the records, so a new parameter needs no line here.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "call_text.h"
 #include "core/base/quantity.h"
-#include "near.h"
 #include "params/sections.h"
 
 #include <limits.h>

@@ -1,8 +1,8 @@
 /* Every record of a parameter is sound: names, words, limits and default agree, and one name means
  * one thing wherever it stands. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "dma/rubber.h"
 #include "friction/counter_surface.h"
-#include "near.h"
 #include "params/sections.h"
 
 #include <stdalign.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "collection_sample.h"
 #include "dma_sample.h"
-#include "made_surface.h"
+#include "synthetic_surface.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -156,18 +156,18 @@ enum { SURFACE = 256, MODES = 126, POINTS = 112, ASIDE = 20 };
 /* A part of a made surface, away from its edges, as Gwyddion Simple Field. */
 static int write_map(double step, random_source *random, const char *path)
 {
-    const made_surface surface = {.n = SURFACE,
-                                  .length = SURFACE * step,
-                                  .seed = (uint64_t)(random_uniform(random) * 0x1p52),
-                                  .modes = MODES,
-                                  .c0 = c0,
-                                  .roll_off = roll_off,
-                                  .hurst = hurst,
-                                  .exponential = true};
+    const synthetic_surface surface = {.n = SURFACE,
+                                       .length = SURFACE * step,
+                                       .seed = (uint64_t)(random_uniform(random) * 0x1p52),
+                                       .modes = MODES,
+                                       .c0 = c0,
+                                       .roll_off = roll_off,
+                                       .hurst = hurst,
+                                       .exponential = true};
     FILE *out = fopen(path, "wb");
     if (out == NULL)
         return -1;
-    double *z = make_surface(&surface);
+    double *z = surface_create(&surface);
     const int head = fprintf(out,
                              "Gwyddion Simple Field 1.0\nXRes = %d\nYRes = %d\nXReal = %.9g\n"
                              "YReal = %.9g\nXYUnits = m\nZUnits = m\n",

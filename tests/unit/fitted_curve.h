@@ -5,7 +5,7 @@
 #ifndef WT_TESTS_FITTED_CURVE_H
 #define WT_TESTS_FITTED_CURVE_H
 
-#include "near.h"
+#include "assert_near.h"
 #include "synthetic_curve.h"
 
 #include "weartrack/indentation.h"

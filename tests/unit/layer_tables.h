@@ -1,10 +1,10 @@
-/* The table of a layer in the contact of sliding.h, and numbers of its keys.
+/* The table of a layer in the contact of sliding_fixture.h, and numbers of its keys.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_LAYER_TABLES_H
 #define WT_TESTS_LAYER_TABLES_H
 
-#include "cells.h"
-#include "sliding.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
 #include "weartrack/layer.h"
 
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #ifndef WT_TESTS_REFERENCE_CONTACT_H
 #define WT_TESTS_REFERENCE_CONTACT_H
 
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/indentation.h"
 

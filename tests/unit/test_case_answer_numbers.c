@@ -1,6 +1,6 @@
 /* Numbers in the sentences of an answer: unit, digits, errors, signs.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "case/answer/format_number.h"
 #include "core/base/number.h"

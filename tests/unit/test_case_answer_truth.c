@@ -1,7 +1,7 @@
 /* The findings of a run on groups whose moduli are known: softer, stiffer, no difference shown, one
  * spot; and the thickness and friction that follow.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "weartrack/case.h"
 

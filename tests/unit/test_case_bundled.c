@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 
 #include "case/case.h"
-#include "cells.h"
+#include "table_cells.h"
 #include "weartrack/case.h"
 
 #include <string.h>

@@ -1,8 +1,8 @@
 /* What the stages cost: one row for each, with items and nodes that are those of the work, the same
  * for any number of threads; and without being asked nothing is timed or counted.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "sliding.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
 
 #include "case/plan/plan.h"
 #include "core/base/array.h"

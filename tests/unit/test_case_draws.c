@@ -1,8 +1,8 @@
 /* The replicates behind the standard errors: what is drawn for one purpose has nothing to do with
  * what is drawn for another, and the seed decides all of it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "sliding.h"
-#include "truth.h"
+#include "sliding_fixture.h"
+#include "truth_fixture.h"
 
 #include "weartrack/layer.h"
 

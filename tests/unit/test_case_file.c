@@ -1,6 +1,6 @@
 /* Reading case files: what they say, and what is said when they are wrong.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "status_name.h"
 
 #include "case/case.h"

@@ -1,7 +1,7 @@
 /* Each function of the fit room that asks GSL for what may fail is the first that a process calls:
  * the handler of GSL, which ends the process, must be off by then.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "synthetic_curve.h"
 #include "weartrack/indentation.h"

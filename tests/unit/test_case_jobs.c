@@ -2,7 +2,7 @@
  * layer. SPDX-License-Identifier: GPL-3.0-or-later */
 
 #include "all_formats.h"
-#include "cells.h"
+#include "table_cells.h"
 
 #include "core/base/array.h"
 #include "job/random_draws.h"

@@ -3,8 +3,8 @@
  * stages run, and how often the inner work is done. The linker lays the counters around the
  * functions (see CMakeLists.txt), so the library has none.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
 #include "core/system/temporary.h"
+#include "table_cells.h"
 
 #include "case/plan/plan.h"
 #include "core/math/root.h"

@@ -2,7 +2,7 @@
  * two JPK maps in the place of bulk and wear track, an isotherm set of a soft polymer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 
-#include "cells.h"
+#include "table_cells.h"
 
 #include "core/base/array.h"
 #include "weartrack/case.h"

@@ -1,6 +1,6 @@
 /* One curve of a case that is fitted alone has the numbers of the whole run, also again, with the
  * text of the case changed, and after another curve. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+#include "table_cells.h"
 
 #include "case/case.h"
 #include "case/run/refit.h"

@@ -1,7 +1,7 @@
 /* Running cases: friction of a given material, and what a run says of what it could not do.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 
-#include "cells.h"
+#include "table_cells.h"
 #include "weartrack/case.h"
 
 #include <stdlib.h>

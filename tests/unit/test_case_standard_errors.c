@@ -4,7 +4,7 @@
 #include "report_fixture.h"
 
 #include "indentation/indent.h"
-#include "truth.h"
+#include "truth_fixture.h"
 
 /* With the errors of all inputs; without any; a material without draws, with the error of the
  * pressure; without draws, errors and measured frequencies. */

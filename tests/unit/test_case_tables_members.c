@@ -1,6 +1,6 @@
 /* What the columns and keys of the tables show: the members of the structures that are their rows.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+#include "table_cells.h"
 
 #include "core/store/store.h"
 #include "core/table/registry.h"

@@ -1,8 +1,8 @@
 /* Every column and key that is declared is put by some run, job or conversion, and none is put that
  * is not declared. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
-#include "sliding.h"
-#include "truth.h"
+#include "sliding_fixture.h"
+#include "truth_fixture.h"
 
 #include "case/case.h"
 #include "core/base/array.h"

@@ -1,6 +1,6 @@
 /* Lines for people: broken between words, as late as the width allows, wherever they begin.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "cmd/text_wrap.c" /* of the command, which is no library */
 

@@ -1,7 +1,7 @@
 /* This test as a program that a made file has taken over: started as gnuplot and as Gwyddion it
  * tries what must not be, and only its own folder may change. Libraries in a process (HDF5) are
  * tested in test_core_sandbox.c. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report_place.h"
+#include "report_folder.h"
 
 #include "core/system/subprocess.h"
 #include "read/bytes/input.h"
@@ -220,7 +220,7 @@ static char *path_before;
 static int make_place(void **state)
 {
     char own[4096], path[8192];
-    if (make_workplace(state) != 0 || mkdir("folder", 0700) != 0 || mkdir("bin", 0700) != 0 ||
+    if (create_work_folder(state) != 0 || mkdir("folder", 0700) != 0 || mkdir("bin", 0700) != 0 ||
         mkdir("tmp", 0700) != 0 || setenv(PLACE, *state, 1) != 0)
         return -1;
     const ssize_t n = readlink("/proc/self/exe", own, sizeof own - 1);
@@ -240,7 +240,7 @@ static int remove_place(void **state)
     assert_int_equal(setenv("PATH", path_before, 1), 0);
     assert_int_equal(unsetenv("TMPDIR") + unsetenv(FILL) + unsetenv(PLACE), 0);
     free(path_before);
-    return remove_workplace(state);
+    return remove_work_folder(state);
 }
 
 static int listen_somewhere(void)
@@ -301,7 +301,7 @@ static void test_everything_is_refused(void **state)
         run_as[i](&err);
         if (strstr(err.message, refused) == NULL)
             fail_msg("%s", err.message); // 41 + the number of the deed that was done
-        assert_true(programs_end());
+        assert_true(all_programs_end());
         assert_int_equal(stat("secret", &info), 0);
         assert_true(info.st_size == 4 && info.st_nlink == 1);
         assert_false(exists("new"));
@@ -319,7 +319,7 @@ static void test_folder_has_a_limit(void **state)
     assert_int_equal(setenv(FILL, "1", 1), 0);
     run_as_gwyddion(&err);
     assert_non_null(strstr(err.message, "wrote more than 2 MiB"));
-    assert_true(programs_end());
+    assert_true(all_programs_end());
     assert_int_equal(count_files("tmp"), 0);
     static const char *const arguments[] = {NULL};
     const program_call call = {.program = "gnuplot",

@@ -1,5 +1,5 @@
 /* Force curves, sweeps, Prony series, tables. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/data/force_curve.h"
 #include "weartrack/core.h"

@@ -1,5 +1,5 @@
 /* Estimates and lists as text. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "case/answer/format_number.h"
 #include "core/table/registry.h"

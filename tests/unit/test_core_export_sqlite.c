@@ -1,5 +1,5 @@
 /* A table as an SQLite database, read back by SQLite. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/core.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Patterns, output files, digests, provenance. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "core/math/splitmix64.h"
 #include "core/system/temporary.h"
-#include "near.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -1,7 +1,7 @@
 /* Findings and the digits of their numbers.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/table/finding.h"
 

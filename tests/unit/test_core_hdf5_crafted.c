@@ -1,6 +1,6 @@
 /* Result files that were made to do harm: each is refused with words, or gives what it would
  * without the harm. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/store/hdf5_sandbox.h"
 #include "weartrack/core.h"

@@ -1,7 +1,7 @@
 /* The door to HDF5: whatever happens behind it is an error in front of it, and the program around
  * it notices nothing else. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
-#include "watched.h"
+#include "address_sanitizer.h"
+#include "assert_near.h"
 
 #include "core/store/hdf5_sandbox.h"
 
@@ -316,8 +316,9 @@ static void with_threads(void **state)
 {
     (void)state;
     enum { READERS = 3 };
-    if (WATCHED) /* its allocator may be locked by another thread at the fork, and hangs the child
-                  */
+    if (WITH_ADDRESS_SANITIZER) /* its allocator may be locked by another thread at the fork, and
+                                 * hangs the child
+                                 */
         skip();
     pthread_t worker, readers[READERS];
     int failures[READERS] = {0};

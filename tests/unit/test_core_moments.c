@@ -1,6 +1,6 @@
 /* Mean and variance as all intervals of means take them. SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/math/students_t.h"
 

@@ -1,9 +1,9 @@
 /* Halves, golden sections, small equations and the moduli of a series: known answers.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "core/math/cholesky.h"
 #include "core/math/root.h"
 #include "dma/law/prony_law.h"
-#include "near.h"
 
 #include <float.h>
 #include <math.h>

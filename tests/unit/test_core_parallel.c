@@ -1,5 +1,5 @@
 /* Work on several threads. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/core.h"
 
 #include <stdatomic.h>

@@ -1,7 +1,7 @@
 /* How the rows of a result print their numbers.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/table/registry.h"
 #include "core/table/result_row.h"

@@ -1,6 +1,6 @@
 /* The abstract of a result file: what headlines are made of, without HDF5, and never older than
  * the file. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/store/store.h"
 

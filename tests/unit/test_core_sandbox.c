@@ -1,6 +1,6 @@
 /* The process behind a door can read and answer: every other call that a made file could have it do
  * is stopped before it is done, and named. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/base/memory.h"
 #include "core/system/sandbox.h"

@@ -1,6 +1,6 @@
 /* The HDF5 store: round trip, same bytes, damaged files. SPDX-License-Identifier:
  * GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/core.h"
 
 #include <hdf5.h>

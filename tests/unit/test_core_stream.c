@@ -1,5 +1,5 @@
 /* The text stream: round trip, and what is refused. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "status_name.h"
 #include "weartrack/core.h"
 

@@ -1,7 +1,7 @@
 /* The declarations of the tables hold together; the writer puts what they say and nothing else, and
  * keeps its first failure; a table is read by them or refused by name.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/table/registry.h"
 #include "core/table/table.h"

@@ -1,8 +1,8 @@
 /* Units, quantities on the command line, SI prefixes. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "core/base/memory.h"
 #include "core/base/number.h"
 #include "core/base/quantity.h"
-#include "near.h"
 #include "weartrack/core.h"
 
 #include <locale.h>

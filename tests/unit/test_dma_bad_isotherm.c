@@ -1,7 +1,7 @@
 /* One bad isotherm among sound ones: it is left out and named, the others have the true shifts, and
  * the reference temperature moves the shifts only.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/dma.h"
 
 #include "dma_data.h"

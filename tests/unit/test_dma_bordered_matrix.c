@@ -1,6 +1,6 @@
 /* Equations of blocks and a border against the same ones as a whole.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/math/arena_gsl.h"
 #include "core/math/cholesky.h"

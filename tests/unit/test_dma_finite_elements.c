@@ -1,7 +1,7 @@
 /* The material for finite elements: each file is read here by the rules of its program's manual and
  * loaded at once in tension by an integration of its own; the relaxation must be that of the table
  * it was made from, at the reference and, by the shift of that program, at other temperatures. */
-#include "cells.h"
+#include "table_cells.h"
 
 #include "weartrack/dma.h"
 

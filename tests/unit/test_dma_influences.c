@@ -1,6 +1,6 @@
 /* Influence of each isotherm: a clean sweep has none that matters, a stiffer isotherm is named.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/dma.h"
 
 #include "core/table/registry.h"

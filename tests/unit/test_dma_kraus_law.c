@@ -1,8 +1,8 @@
 /* Strain sweeps: intervals of the law of Kraus that hold the truth, nothing that is not reached,
  * the numbers of the reference table.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
+#include "assert_near.h"
+#include "draw_count.h"
 #include "weartrack/dma.h"
 
 #include "dma_data.h"
@@ -12,7 +12,7 @@
 
 #define SCANS WT_SHARED_DIR "/data/dma-scans/"
 
-enum { DRAWS = COUNTED(200), MOST = 64 };
+enum { DRAWS = DRAW_COUNT(200), MOST = 64 };
 
 /* The truth, written down apart from the library: decades of strain about the half of the fall. */
 typedef struct filled {
@@ -93,7 +93,7 @@ static void test_intervals_hold_the_truth(void **state)
         print_message("%s: %zu of %d hold the truth, %zu closed\n", names[k], held[k], DRAWS,
                       closed[k]);
     print_message("fitted %zu, with a note %zu\n", fitted, noted);
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     for (size_t k = 0; k < 6; k++) {
         assert_in_range(held[k], DRAWS * 92 / 100, DRAWS * 98 / 100);

@@ -1,9 +1,9 @@
 /* One spectrum behind all isotherms: intervals that hold the truth, far starts, outliers, which
  * law, verdicts, draws. The material is not that of the fit: a sum of two Cole-Cole processes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
+#include "assert_near.h"
 #include "dma/numerics/shift_law.h"
-#include "near.h"
+#include "draw_count.h"
 #include "weartrack/dma.h"
 
 #include "dma_data.h"
@@ -133,7 +133,7 @@ static void intervals_hold_the_truth(void **state)
     (void)state;
     tally shift = {0}, law = {0}, constants = {0}, curve = {0}, equilibrium = {0};
     double width = 0, widths = 0;
-    for (uint64_t seed = 1; seed <= COUNTED(24); seed++) {
+    for (uint64_t seed = 1; seed <= DRAW_COUNT(24); seed++) {
         const scene s = {usual(), 243.15, 333.15, 10, 0.01, 0.2, 100 * seed, 0, 0};
         wt_master m = fit_scene(&s);
         count(&constants, m.c1, 8.2);
@@ -158,7 +158,7 @@ static void intervals_hold_the_truth(void **state)
         }
         wt_master_clear(&m);
     }
-    for (uint64_t seed = 1; seed <= COUNTED(12); seed++) { /* with the temperatures known */
+    for (uint64_t seed = 1; seed <= DRAW_COUNT(12); seed++) { /* with the temperatures known */
         const scene s = {usual(), 243.15, 333.15, 10, 0.01, 0, seed, 0, 0};
         wt_master m = fit_scene(&s);
         for (size_t i = 0; i < m.n_shifts; i++)
@@ -168,7 +168,7 @@ static void intervals_hold_the_truth(void **state)
         assert_true(m.temperature_spread < 0.1);
         wt_master_clear(&m);
     }
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     check(&shift, "shifts");
     check(&law, "law");
@@ -187,7 +187,7 @@ static void the_reference_is_clamped_too(void **state)
     tally curve[2] = {{0}}, equilibrium[2] = {{0}};
     vertical = WT_VERTICAL_FREE;
     for (int clamped = 0; clamped < 2; clamped++)
-        for (uint64_t seed = 1; seed <= COUNTED(12); seed++) {
+        for (uint64_t seed = 1; seed <= DRAW_COUNT(12); seed++) {
             scene s = {usual(), 243.15, 333.15, 10, 0.01, 0, 50 * seed, 0, 0};
             s.clamping = clamped ? 0.02 : 0;
             wt_master m = fit_scene(&s);
@@ -202,7 +202,7 @@ static void the_reference_is_clamped_too(void **state)
             wt_master_clear(&m);
         }
     vertical = WT_VERTICAL_TIED;
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     for (int clamped = 0; clamped < 2; clamped++) {
         check(&curve[clamped], "E', E'' with free shifts");
@@ -433,7 +433,7 @@ static void the_spectrum_and_its_band(void **state)
     for (int sharp = 0; sharp < 2; sharp++) {
         size_t n = 0, inside = 0;
         double squares = 0;
-        for (uint64_t seed = 100; seed < 100 + COUNTED(30); seed++) {
+        for (uint64_t seed = 100; seed < 100 + DRAW_COUNT(30); seed++) {
             scene s = {usual(), 233.15, 353.15, 10, sharp ? 0.05 : 0.01, 0, seed, 0, 0};
             if (sharp)
                 s.material.processes[0].alpha = 0.8;
@@ -456,7 +456,7 @@ static void the_spectrum_and_its_band(void **state)
             }
             wt_master_clear(&m);
         }
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         const double wide = sqrt(squares / (double)n); /* 1: not a bit too wide */
         assert_true(inside >= n * 95 / 100);

@@ -1,5 +1,5 @@
 /* Materials: moduli, closed angular integrals, limits, what is refused. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "dma/law/material.h"
 #include "friction/numerics/angular.h"

@@ -1,7 +1,7 @@
 /* The shift fit on measured sweeps (shared reference data, where present): polyisoprene with a
  * published law, a soft polymer with compliance-limited points, a filled damping rubber, and two
  * thermoplastics for which superposition fails. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/dma.h"
 
 #include "dma_data.h"

@@ -1,8 +1,8 @@
 /* Peaks of curves against temperature and values between their points: intervals that hold the
  * truth, no peak where there is none, the plain parabola of the reference table.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
+#include "assert_near.h"
+#include "draw_count.h"
 #include "weartrack/dma.h"
 
 #include "dma/numerics/gaussian_process.h"
@@ -40,7 +40,7 @@ static double true_peak(const rubber *r, bool factor)
     return at;
 }
 
-enum { DRAWS = COUNTED(200), MOST = 400 };
+enum { DRAWS = DRAW_COUNT(200), MOST = 400 };
 static const rubber rubbers[] = {{2e9, 3e6, 0.6, 0.8, 12, 50, -40},
                                  {1.5e9, 8e6, 0.5, 0.9, 14, 55, -20},
                                  {2e9, 5e6, 0.75, 0.6, 14, 45, 0},
@@ -84,7 +84,7 @@ static void peaks_hold_the_truth(void **unused)
             assert_true(peak.misfit < 0.05 && peak.n >= 9);
         }
         print_message("peak of %s: %zu of %zu\n", factor ? "tan delta" : "E''", held, found);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_true(found > DRAWS * 95 / 100);
         assert_true((double)held > 0.92 * (double)found && (double)held <= 0.98 * (double)found);
@@ -139,7 +139,7 @@ static void onsets_hold_the_truth(void **unused)
         width += onset.at.high - onset.at.low;
     }
     print_message("onset: %zu of %zu, %.2f K wide\n", held, found, width / (double)found);
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_true(found > DRAWS * 95 / 100);
     assert_true((double)held >= 0.92 * (double)found && (double)held <= 0.98 * (double)found);
@@ -185,7 +185,7 @@ static void values_hold_the_truth(void **unused)
         held += got.low <= truth && truth <= got.high;
     }
     print_message("values: %zu of %d\n", held, DRAWS);
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_true(held >= 184 && held <= 196);
 }
@@ -373,7 +373,7 @@ static void lower_peaks_are_told(void **unused)
     }
     print_message("lower peaks: %zu of %zu found, %zu of them held, %zu wrong\n", found,
                   (size_t)DRAWS, held, wrong);
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_true((double)found > 0.97 * DRAWS);
     assert_true((double)held > 0.91 * (double)found);

@@ -1,6 +1,6 @@
 /* Few terms in place of a spectrum: what is asked for is kept, by moduli worked out here. The
  * spectrum is that of two Cole-Cole processes in closed form. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/dma.h"
 

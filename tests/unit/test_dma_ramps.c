@@ -1,7 +1,7 @@
 /* Temperature sweeps in the one spectrum: the master curve of sweeps at few frequencies is that of
  * isotherms of the same material. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "dma/master.h"
-#include "near.h"
 
 #include "dma_data.h"
 

@@ -1,6 +1,6 @@
 /* Sweeps of several samples: which there are, those of one, and files that may be two.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "dma/sweep_input.h"
 

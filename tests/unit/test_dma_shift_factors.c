@@ -1,8 +1,8 @@
 /* Shift factors: known truth, every vertical option, and the traps of real sweeps (no overlap, no
  * slope, collinear shifts, bad points, disorder, repeated temperatures, a reference between
  * isotherms). SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
+#include "assert_near.h"
+#include "draw_count.h"
 #include "weartrack/dma.h"
 
 #include "dma/numerics/isotherm.h"
@@ -80,7 +80,7 @@ static void standard_errors_match_the_scatter(void **state)
     (void)state;
     double square_a = 0.0, square_b = 0.0;
     size_t n = 0;
-    for (uint64_t seed = 1; seed <= COUNTED(40); seed++) {
+    for (uint64_t seed = 1; seed <= DRAW_COUNT(40); seed++) {
         wt_sweep sweep = {0};
         dma_usual(&sweep, true, 0.01, 1000 * seed);
         const wt_master_options at = at_reference(293.15, WT_VERTICAL_FREE);
@@ -100,7 +100,7 @@ static void standard_errors_match_the_scatter(void **state)
         wt_master_clear(&master);
         wt_sweep_clear(&sweep);
     }
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_int_equal(n, 400);
     assert_near(sqrt(square_a / (double)n), 1.0, 0.3);

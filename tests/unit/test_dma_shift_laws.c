@@ -1,6 +1,6 @@
 /* Shift laws against the table tests/numeric/wlf.txt, and their invariants.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/dma.h"
 
 #include <stdio.h>

@@ -1,8 +1,8 @@
 /* What is left out of sweeps, shifts that a law or a table gives, and what one quantity alone
  * tells. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "dma/master.h"
 #include "dma/sweep_input.h"
-#include "near.h"
 
 #include "dma_data.h"
 

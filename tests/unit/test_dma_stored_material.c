@@ -1,7 +1,7 @@
 /* A material that was stored: its draws are those of the isotherms, bit for bit, and what cannot be
  * such draws is refused. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
-#include "truth.h"
+#include "truth_fixture.h"
 
 static double velocity[2] = {1e-3, 0.1};
 

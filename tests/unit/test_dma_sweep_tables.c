@@ -2,7 +2,7 @@
  * written from.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "weartrack/case.h"
 

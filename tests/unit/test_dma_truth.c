@@ -1,7 +1,7 @@
 /* The DMA job on sweeps of a known rubber, and the rubber at another temperature: every column of
  * the tables against the series and the law the sweeps were made from.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "dma_data.h"
 #include "weartrack/dma.h"

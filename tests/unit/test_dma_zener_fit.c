@@ -1,6 +1,6 @@
 /* A fractional Zener law through points: found again where it holds, and told from a series where
  * it does not. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "dma_data.h"
 #include "weartrack/dma.h"

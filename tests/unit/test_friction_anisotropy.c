@@ -1,6 +1,6 @@
 /* Friction on roughness that is not the same in all directions: numeric cases, and the laws that it
  * must obey. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "friction/numerics/angular.h"
 #include "numeric/friction_scene.h"

@@ -1,9 +1,9 @@
 /* Friction by decades of the wavenumber and to the side: against the friction job, and sums.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "sliding.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
 
-#include "near.h"
+#include "assert_near.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* What friction costs: nodes by tolerance, and evaluations of a closed form by its terms. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/friction.h"
 

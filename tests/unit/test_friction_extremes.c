@@ -3,7 +3,7 @@
  *
  * With an argument that many other scenes are drawn: test_friction_extremes CASES [SEED [FIRST]],
  * and those before FIRST are left out. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "numeric/drawn_numbers.h"
 #include "numeric/friction_truth.h"

@@ -1,6 +1,6 @@
 /* Flash temperature, contact area in partial contact, shear stress: against numeric cases, and what
  * must hold of them. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "friction/numerics/persson_contact.h"
 #include "numeric/friction_scene.h"

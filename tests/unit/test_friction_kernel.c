@@ -1,5 +1,5 @@
 /* Friction against numeric cases, its stated errors, and the laws it must obey. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "friction/numerics/persson_contact.h"
 #include "numeric/friction_scene.h"

@@ -1,7 +1,7 @@
 /* A layer with moduli of its own: the phase of a ratio of moduli against the relations of Kramers
  * and Kronig, the angular integrals against plain sums, and the limits in which friction is known.
  */
-#include "near.h"
+#include "assert_near.h"
 
 #include "friction/numerics/layered_moduli.h"
 #include "weartrack/friction.h"

@@ -1,8 +1,8 @@
 /* Friction and layer: every number of their tables by a plain double sum of Persson's integrals, by
  * a contact scaled by hand, or from the other numbers.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "sliding.h"
-#include "truth.h"
+#include "sliding_fixture.h"
+#include "truth_fixture.h"
 #include "weartrack/layer.h"
 
 enum { VELOCITIES = 5 };

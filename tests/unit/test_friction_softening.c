@@ -1,8 +1,8 @@
 /* Softening with strain in the jobs: the mean of strain sweeps, what is drawn, what the table
  * softening says, and a case that asks for it. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
 #include "dma_data.h"
-#include "sliding.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
 
 #include "core/table/registry.h"
 #include "weartrack/case.h"

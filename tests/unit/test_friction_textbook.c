@@ -1,5 +1,5 @@
 /* The kernel against the plain textbook method, which shares nothing with it but the laws. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "numeric/friction_scene.h"
 #include "study/textbook_methods.c"

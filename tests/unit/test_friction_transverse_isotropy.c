@@ -1,7 +1,7 @@
 /* Directions of a material: the trends that the source draws (figures 3.3 and 3.4), on the bundled
  * case. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "sliding.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
 
 #include "weartrack/case.h"
 

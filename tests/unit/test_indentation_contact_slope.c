@@ -1,7 +1,7 @@
 /* Slope in contact: the truth of hard surfaces, intervals that hold it, soft surfaces that show.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
+#include "assert_near.h"
+#include "draw_count.h"
 #include "weartrack/indentation.h"
 
 #include "dma_data.h"
@@ -10,7 +10,7 @@
 #include <locale.h>
 #include <math.h>
 
-enum { MOST = 4000, DRAWS = COUNTED(600) };
+enum { MOST = 4000, DRAWS = DRAW_COUNT(600) };
 
 /* Written down apart from the library: a lever of sensitivity s on a surface into which a sphere
  * sinks by `give` times deflection^(2/3). */
@@ -122,7 +122,7 @@ static void test_within(void **state)
         }
         print_message("memory %g, %zu samples, %g m free: slope %.3f, change %.3f\n",
                       cases[k].memory, cases[k].n, cases[k].free, slope / DRAWS, change / DRAWS);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_in_range((long)(1000 * change / DRAWS), 920, 980);
         assert_in_range((long)(1000 * slope / DRAWS), 920, 980);
@@ -162,7 +162,7 @@ static void test_between(void **state)
         }
         print_message("%zu files of %zu curves: %.3f\n", cases[k].files, cases[k].curves,
                       held / DRAWS);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_in_range((long)(1000 * held / DRAWS), 920, 980);
     }

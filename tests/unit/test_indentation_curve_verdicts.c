@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "counted.h"
+#include "draw_count.h"
 #include "fitted_curve.h"
 
 #include "indentation/law/adhesion.h"
@@ -405,7 +405,7 @@ static void softly_saturated_detector(void **state)
     /* A force that is nearly a line, of a lever much softer than the contact, is none: one in 1000
      * at most. Of 4 in 600 the chance is 0.003. */
     int flat = 0;
-    enum { DRAWS = COUNTED(200) };
+    enum { DRAWS = DRAW_COUNT(200) };
     for (int k = 0; k < 3; k++) {
         t = curve_standard();
         t.n = 1000;

@@ -2,7 +2,7 @@
  * what is left out.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
-#include "cells.h"
+#include "table_cells.h"
 
 #include "dma_data.h"
 #include "indentation/numerics/relaxation.h"

@@ -1,6 +1,6 @@
 /* Means of dwells over files, whose intervals are by files where there are three.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+#include "table_cells.h"
 
 #include "core/table/registry.h"
 #include "indentation/dwell.h"

@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "counted.h"
+#include "draw_count.h"
 #include "fitted_curve.h"
 
 #include "indentation/numerics/curve.h"
@@ -151,7 +151,7 @@ static void intervals_cover(void **state)
         {0, 20e-9, 0, 1, 0.0}, {40e-9, 10e-9, 0, 1, 0.0}, {0, 0, 5e-9, 0.8, 0.0},
         {0, 20e-9, 0, 1, 0.8}, {35e-9, 0, 0, 1, 0.0},
     };
-    enum { CURVES = COUNTED(240) };
+    enum { CURVES = DRAW_COUNT(240) };
     int likely = 0, judged = 0;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         curve_truth t = curve_standard();
@@ -187,7 +187,7 @@ static void intervals_cover(void **state)
                       "mean error %.2f %%\n",
                       i, 100.0 * modulus / n, 100.0 * contact / n, refused, 100 * sum / n,
                       100 * errors / n);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_in_range(refused, 0, 0.04 * CURVES);
         /* with what the law may miss, too, in the depths that are left out above all */
@@ -197,7 +197,7 @@ static void intervals_cover(void **state)
     }
     /* a chance is above a half as often as below, of what is compared alone too */
     print_message("%d of %d chances above a half\n", likely, judged);
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_in_range(likely, 0.44 * judged, 0.58 * judged);
 }

@@ -1,8 +1,8 @@
 /* Curves to look at: the fit that is shown is the law that was fitted, with adhesion too; a named
  * curve is found, and the worst are the worst.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
 #include "synthetic_curve.h"
+#include "table_cells.h"
 
 #include "indentation/law/adhesion.h"
 #include "weartrack/indentation.h"

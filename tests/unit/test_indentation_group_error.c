@@ -1,7 +1,7 @@
 /* The interval of a group holds the errors that all its curves share, stated or assumed: groups
  * with another radius than stated, and curves of a rubber with one relaxation time.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "indentation/indent.h"
 #include "indentation/numerics/curve.h"

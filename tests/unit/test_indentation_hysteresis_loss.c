@@ -1,6 +1,6 @@
 /* What is said of curves together that lose work on the way out: what their moduli may be off by
  * alike. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+#include "table_cells.h"
 
 #include "indentation/indent.h"
 

@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "counted.h"
+#include "draw_count.h"
 #include "fitted_curve.h"
 
 #include <string.h>
@@ -102,7 +102,7 @@ static void intervals_cover(void **state)
         double amplitude, period, correlation;
         int found; /* least share of them [%] */
     } cases[] = {{0.5, 250e-9, 0, 75}, {3, 400e-9, 0, 97}, {3, 400e-9, 0.9, 90}};
-    enum { CURVES = COUNTED(200) };
+    enum { CURVES = DRAW_COUNT(200) };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         curve_truth t = soft();
         t.n = 1500;
@@ -122,7 +122,7 @@ static void intervals_cover(void **state)
         }
         print_message("%g noises, correlation %g: %d accepted, %d found, E %d, contact %d\n",
                       cases[i].amplitude, cases[i].correlation, accepted, found, covered, contact);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_in_range(accepted, 0.96 * CURVES, CURVES);
         assert_in_range(100 * found, cases[i].found * accepted, 100 * accepted);
@@ -136,7 +136,7 @@ static void no_false_alarms(void **state)
 {
     (void)state;
     static const double correlation[] = {0, 0.8, 0.95};
-    enum { CURVES = COUNTED(800) };
+    enum { CURVES = DRAW_COUNT(800) };
     for (size_t k = 0; k < sizeof correlation / sizeof correlation[0]; k++) {
         int found = 0, bent = 0;
         curve_truth t = soft();

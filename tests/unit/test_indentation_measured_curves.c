@@ -4,7 +4,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/indentation.h"
 

@@ -9,7 +9,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
+#include "assert_near.h"
 
 #include "indentation/numerics/curve.h"
 #include "weartrack/indentation.h"

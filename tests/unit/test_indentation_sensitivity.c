@@ -2,7 +2,7 @@
  * both ways with friction, several files, a soft surface.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
-#include "cells.h"
+#include "table_cells.h"
 
 #include "dma_data.h"
 #include "weartrack/indentation.h"

@@ -1,6 +1,6 @@
 /* A spot of a height image: surfaces written out here, whose roughness is known.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "indentation/numerics/height_image.h"
 #include "weartrack/indentation.h"

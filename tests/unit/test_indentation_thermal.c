@@ -2,7 +2,7 @@
  * an independent writer, a genuine one; corrections, errors, what is missing.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/indentation.h"
 #include "writers/nid_writer.h"

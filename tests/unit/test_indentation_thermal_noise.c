@@ -1,8 +1,8 @@
 /* Thermal noise: the truth comes back, and the intervals hold it, for sharp and broad peaks, few
  * and many averages, with and without a window; what is no oscillator shows.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
+#include "assert_near.h"
+#include "draw_count.h"
 #include "weartrack/indentation.h"
 
 #include "dma_data.h"
@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST = 4000, DRAWS = COUNTED(400) };
+enum { MOST = 4000, DRAWS = DRAW_COUNT(400) };
 static const double pi = 3.14159265358979323846;
 
 typedef struct scene {
@@ -118,7 +118,7 @@ static void test_coverage(void **state)
         print_message("Q %g, %zu averages%s: mean square %.3f, Q %.3f, f0 %.3f, alarms %.3f\n",
                       s->q, s->averages, s->window ? ", window" : "", square / (double)DRAWS,
                       quality / (double)DRAWS, resonance / (double)DRAWS, alarms / (double)DRAWS);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_in_range(square, 0.92 * DRAWS, 0.98 * DRAWS);
         assert_in_range(quality, 0.92 * DRAWS, 0.98 * DRAWS);

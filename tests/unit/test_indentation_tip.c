@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/base/quantity.h"
 #include "indentation/indent.h"

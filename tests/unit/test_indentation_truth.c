@@ -1,6 +1,6 @@
 /* The indentation job on curves of known truth: every column of its tables means what it says.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "weartrack/study.h"
 

@@ -1,7 +1,7 @@
 /* Conditioning: copies of files, outliers and zeros of records, plausible values, scan lines. Each
  * fault is planted into data of known truth, and the data without it are left as they are. */
+#include "assert_near.h"
 #include "core/table/registry.h"
-#include "near.h"
 
 #include "job/conditioning.h"
 #include "surface/numerics/surface_analysis.h"
@@ -325,7 +325,7 @@ static void test_plausible_moduli(void **state)
 enum { SIDE = 64 };
 
 /* Waves in all directions, with less height the shorter they are. */
-static void make_surface(double z[SIDE * SIDE])
+static void surface_create(double z[SIDE * SIDE])
 {
     memset(z, 0, SIDE * SIDE * sizeof *z);
     for (size_t k = 0; k < 200; k++) {
@@ -342,7 +342,7 @@ static void test_scan_lines(void **state)
 {
     (void)state;
     double sound[SIDE * SIDE], z[SIDE * SIDE], squares = 0;
-    make_surface(sound);
+    surface_create(sound);
     for (size_t i = 0; i < SIDE * SIDE; i++)
         squares += sound[i] * sound[i] / (SIDE * SIDE);
     const double rms = sqrt(squares);

@@ -1,5 +1,5 @@
 /* Energy density with depth, its source in friction, and the stiffness of a layered half-space. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/math/simd.h"
 #include "friction/numerics/persson_contact.h"

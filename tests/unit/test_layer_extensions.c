@@ -1,5 +1,5 @@
 /* The modified layer beyond the balance at constant load, against numeric cases and laws. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "layer/numerics/layer_kernel.h"
 #include "numeric/cases.h"

@@ -1,6 +1,6 @@
 /* Critical energy and wear rate from a thickness: inverse of the forward model, and values that
  * were worked out otherwise to eleven digits. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/layer.h"
 

@@ -1,7 +1,7 @@
 /* Critical energy and wear rate from data with their covariance, and a ball on a viscoelastic
  * rubber, against values that were worked out otherwise. SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
+#include "assert_near.h"
 
 #include "numeric/friction_scene.h"
 #include "weartrack/record.h"

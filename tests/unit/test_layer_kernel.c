@@ -1,5 +1,5 @@
 /* The modified layer against numeric cases, and the laws that formation and wear must obey. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "friction/numerics/persson_contact.h"
 #include "layer/numerics/energy_density_kernel.h"

@@ -1,7 +1,7 @@
 /* Every number that the shared reference data, where present, expect of the modified layer is one
  * that a numeric case of the same name expects, too, or stands in a short list with its reason.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/layer.h"
 

@@ -1,7 +1,7 @@
 /* What stands around the modified layer, against numeric cases: a
  * blunted pyramid, the frequency of a ramp, two groups, a ball on a disc. SPDX-License-Identifier:
  * GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/math/students_t.h"
 #include "numeric/cases.h"

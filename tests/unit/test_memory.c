@@ -1,7 +1,7 @@
 /* When memory runs out: the handler is called at every small allocation that fails, and a size that
  * only a file states is refused. The linker puts the functions here before those of the C library
  * (see CMakeLists.txt). SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "core/base/memory.h"
 

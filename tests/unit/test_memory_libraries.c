@@ -3,8 +3,8 @@
  * It must be said, or the result be the same. UDUNITS and libxml2 may crash or exit, which no
  * library can prevent (the command can, see src/cmd/malloc_abort.c), but nothing may be taken for
  * something else. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
-#include "watched.h"
+#include "address_sanitizer.h"
+#include "assert_near.h"
 #include "weartrack/read.h"
 
 #include <errno.h>
@@ -23,7 +23,7 @@ void *__libc_realloc(void *old, size_t size);
 
 static size_t count, failing; /* 0 = none */
 
-#if !WATCHED
+#if !WITH_ADDRESS_SANITIZER
 static bool fails(void)
 {
     if (++count != failing)
@@ -180,7 +180,7 @@ static void test_sweep(void **state)
 
 int main(void)
 {
-    if (WATCHED) /* which has the allocations of the process */
+    if (WITH_ADDRESS_SANITIZER) /* which has the allocations of the process */
         return 77;
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_units), cmocka_unit_test(test_sweep)};
     return cmocka_run_group_tests_name("memory of others", tests, NULL, NULL);

@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "made_file.h"
+#include "reader_fixture.h"
 #include "writers/ardf_writer.h"
 
 enum { N = 9, COLUMNS = 3, LINES = 2, CURVES = COLUMNS * LINES };
@@ -45,7 +45,7 @@ static void all_curves(void **state)
         assert_int_equal(ardf_write(&f), 0);
         assert_int_equal(open_force(&r, path, NULL), WT_OK);
         assert_int_equal(wt_force_count(r.source), CURVES);
-        assert_true(logged(&r, "the first of 2 volumes") == f.both);
+        assert_true(has_logged(&r, "the first of 2 volumes") == f.both);
         for (size_t k = 0; k < CURVES; k++) {
             next_curve(&r);
             const size_t row = k / COLUMNS;
@@ -82,14 +82,14 @@ static void stopped(void **state)
         f.written = written;
         assert_int_equal(ardf_write(&f), 0);
         if (written == 0) {
-            refused(WT_E_EMPTY, "stopped before its first curve");
+            assert_refused(WT_E_EMPTY, "stopped before its first curve");
             continue;
         }
         assert_int_equal(open_force(&r, path, NULL), WT_OK);
         for (unsigned k = 0; k < written; k++)
             next_curve(&r);
         assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_END);
-        assert_true(logged(&r, "the map was stopped"));
+        assert_true(has_logged(&r, "the map was stopped"));
         close_all(&r);
     }
 }
@@ -100,11 +100,11 @@ static void misunderstood(void **state)
     ardf_writer_file f = usual();
     f.segments = "Ext;Ret;";
     assert_int_equal(ardf_write(&f), 0);
-    refused(WT_E_CORRUPT, "a first sample for each segment");
+    assert_refused(WT_E_CORRUPT, "a first sample for each segment");
     f = usual();
     f.begins[0] = 1;
     assert_int_equal(ardf_write(&f), 0);
-    refused(WT_E_CORRUPT, "a first sample for each segment");
+    assert_refused(WT_E_CORRUPT, "a first sample for each segment");
 }
 
 /* A changed byte that is used is found by its check sum; with the sums mended no length or position

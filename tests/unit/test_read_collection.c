@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "made_file.h"
+#include "reader_fixture.h"
 
 #include <zip.h>
 
@@ -111,7 +111,7 @@ static void none(void **state)
     const packed_file words[] = {{"a.txt", "words\n", 0}, {"b.txt", "more words\n", 0}};
     const packed_file one[] = {{"a.txt", CURVE("1"), 0}};
     write_archive(words, 2);
-    refused(WT_E_UNSUPPORTED, "a ZIP archive without force curves");
+    assert_refused(WT_E_UNSUPPORTED, "a ZIP archive without force curves");
     /* An archive within an archive is not opened, whatever it holds. */
     write_archive(one, 1);
     const size_t n = read_bytes(inner, sizeof inner);
@@ -121,10 +121,10 @@ static void none(void **state)
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
     is_curve(&r, 0, 1e-9);
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_END);
-    assert_true(logged(&r, "an archive within an archive"));
+    assert_true(has_logged(&r, "an archive within an archive"));
     close_all(&r);
     write_archive(both + 1, 1);
-    refused(WT_E_UNSUPPORTED, "a ZIP archive without force curves");
+    assert_refused(WT_E_UNSUPPORTED, "a ZIP archive without force curves");
     /* It holds no sweep. */
     wt_sweep sweep = {.n_isotherms = 0};
     write_archive(one, 1);

@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "made_file.h"
+#include "reader_fixture.h"
 #include "writers/curve_hdf5_writer.h"
 
 enum { CURVES = 2, ROWS = 6 };
@@ -74,20 +74,20 @@ static void odd_afmformats(void **state)
     for (size_t i = 0; i < 2; i++) {
         const afmformats_writer_file f = usual(bad[i]);
         assert_int_equal(afmformats_write(&f), 0);
-        refused(WT_E_CORRUPT, "the numbers of the segments are not understood");
+        assert_refused(WT_E_CORRUPT, "the numbers of the segments are not understood");
     }
     afmformats_writer_file f = usual(good);
     f.force_unit = "nN";
     assert_int_equal(afmformats_write(&f), 0);
-    refused(WT_E_CORRUPT, "another length or unit");
+    assert_refused(WT_E_CORRUPT, "another length or unit");
     f = usual(good);
     f.number_step = 20000; /* the second is not lost without a word */
     assert_int_equal(afmformats_write(&f), 0);
-    refused(WT_E_UNSUPPORTED, "too many curves are missing before curve 20000");
+    assert_refused(WT_E_UNSUPPORTED, "too many curves are missing before curve 20000");
     f = usual(good);
     f.n_curves = 0;
     assert_int_equal(afmformats_write(&f), 0);
-    refused(WT_E_EMPTY, "no force curve");
+    assert_refused(WT_E_EMPTY, "no force curve");
 }
 
 /* ---- Nanosurf ---------------------------------------------------------------------------------
@@ -142,7 +142,7 @@ static void check_curves(const char *file, double sign)
     if (open_force(&r, file, NULL) != WT_OK)
         fail_msg("%s; %s", r.err.message, r.err.found);
     assert_int_equal(wt_force_count(r.source), CURVES);
-    assert_true(logged(&r, "not verified on a genuine file"));
+    assert_true(has_logged(&r, "not verified on a genuine file"));
     for (size_t curve = 0; curve < CURVES; curve++) {
         next_curve(&r);
         assert_near_abs(r.curve.x, places_x[curve], 1e-14);
@@ -224,20 +224,20 @@ static void odd_nanosurf(void **state)
     nhf_writer_file f = nanosurf(2);
     f.type = "image_line_based";
     assert_int_equal(nhf_write(&f), 0);
-    refused(WT_E_EMPTY, "no force curve");
+    assert_refused(WT_E_EMPTY, "no force curve");
     f = nanosurf(3);
     assert_int_equal(nhf_write(&f), 0);
-    refused(WT_E_UNSUPPORTED, "this version");
+    assert_refused(WT_E_UNSUPPORTED, "this version");
     f = nanosurf(2);
     channels[1][0].unit = "Hertz (Hz)";
     assert_int_equal(nhf_write(&f), 0);
-    refused(WT_E_CORRUPT, "the unit of a channel is not understood");
+    assert_refused(WT_E_CORRUPT, "the unit of a channel is not understood");
     f = nanosurf(2);
     channels[0][0].maximum = channels[0][0].minimum;
     channels[0][0].values =
         (const double[5]){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN};
     assert_int_equal(nhf_write(&f), 0);
-    refused(WT_E_CORRUPT, "the calibration of a channel is not understood");
+    assert_refused(WT_E_CORRUPT, "the calibration of a channel is not understood");
     /* More segments than there is room for are not left out in silence. */
     f = nanosurf(2);
     static nhf_writer_segment many[17];
@@ -246,7 +246,7 @@ static void odd_nanosurf(void **state)
     f.n_segments = 17;
     f.segments = many;
     assert_int_equal(nhf_write(&f), 0);
-    refused(WT_E_CORRUPT, "more segments than any");
+    assert_refused(WT_E_CORRUPT, "more segments than any");
     /* A channel of six samples for curves of five. */
     f = nanosurf(2);
     segments[0].sizes = cut_sizes;

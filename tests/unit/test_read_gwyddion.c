@@ -1,8 +1,8 @@
 /* Height maps by the program Gwyddion: one of ours stands for it that hangs, crashes, floods, or
  * writes nothing, rubbish or what is asked. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report_place.h"
+#include "report_folder.h"
 
-#include "made_file.h"
+#include "reader_fixture.h"
 
 #include "read/bytes/input.h"
 #include "read/gwyddion/gwyddion.h"
@@ -21,7 +21,7 @@ static char *path_before;
 static int make_place(void **state)
 {
     char all[4096];
-    if (make_workplace(state) != 0 || mkdir("bin", 0777) != 0 || mkdir("none", 0777) != 0 ||
+    if (create_work_folder(state) != 0 || mkdir("bin", 0777) != 0 || mkdir("none", 0777) != 0 ||
         mkdir("tmp", 0777) != 0 || mkdir("share", 0777) != 0 || mkdir(OWN_DATA, 0777) != 0)
         return -1;
     path_before = strdup(getenv("PATH"));
@@ -36,7 +36,7 @@ static int remove_place(void **state)
     assert_int_equal(setenv("PATH", path_before, 1), 0);
     assert_int_equal(unsetenv("TMPDIR"), 0);
     free(path_before);
-    return remove_workplace(state);
+    return remove_work_folder(state);
 }
 
 /* The version is asked for by itself. */
@@ -85,7 +85,7 @@ static void test_left_behind(void **state)
     (void)state;
     mark_programs();
     fails_with("sleep 1000 & [ -d /proc/$! ] && exit 6", WT_E_TOOL, "exit status 6");
-    assert_true(programs_end());
+    assert_true(all_programs_end());
 }
 
 /* One that says no more is waited for without work. */

@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "made_file.h"
+#include "reader_fixture.h"
 #include "writers/ibw_writer.h"
 
 #define N 7
@@ -124,7 +124,7 @@ static void test_trigger(void **state)
 static void is_refused(const ibw_writer_file *f, wt_status expected, const char *words)
 {
     assert_int_equal(ibw_write(f), 0);
-    refused(expected, words);
+    assert_refused(expected, words);
 }
 
 static void test_refused(void **state)
@@ -211,7 +211,7 @@ static void test_old(void **state)
         assert_non_null(out);
         assert_int_equal(fwrite(bytes, 1, sizeof bytes, out), sizeof bytes);
         assert_int_equal(fclose(out), 0);
-        refused(WT_E_UNSUPPORTED, "export the curve as text");
+        assert_refused(WT_E_UNSUPPORTED, "export the curve as text");
         assert_int_equal(open_bytes(bytes, sizeof bytes - 1), WT_E_FORMAT);
     }
 }
@@ -251,7 +251,7 @@ static void test_contradictions(void **state)
         assert_int_equal(wt_log_count(r.log), notes[i].words != NULL);
         if (notes[i].words != NULL) {
             const wt_log_entry entry = wt_log_get(r.log, 0);
-            assert_true(logged(&r, notes[i].words));
+            assert_true(has_logged(&r, notes[i].words));
             assert_non_null(strstr(entry.place, "of the note"));
             assert_int_equal(entry.action, WT_CONTRADICTED);
         }

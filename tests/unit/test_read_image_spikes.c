@@ -1,6 +1,6 @@
 /* Heights that stand out alone are warned of, edges, noise and missing points are not.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "made_file.h"
+#include "reader_fixture.h"
 
 #include "read/images.h"
 

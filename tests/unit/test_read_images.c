@@ -1,7 +1,7 @@
 /* Images of heights from every format that has them: files written byte by byte here, and the
  * measured ones.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "made_file.h"
+#include "reader_fixture.h"
 
 #include "read/images.h"
 

@@ -3,9 +3,9 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "made_file.h"
 #include "read/force_assembler.h"
 #include "read/jpk/jpk.h"
+#include "reader_fixture.h"
 
 #include "writers/jpk_writer.h"
 
@@ -174,7 +174,7 @@ static void missing_indices(void **state)
         assert_int_equal(r.curve.grid_x, grid[i][0]);
         assert_int_equal(r.curve.grid_y, grid[i][1]);
     }
-    assert_true(logged(&r, "3 of the 6 curves"));
+    assert_true(has_logged(&r, "3 of the 6 curves"));
     close_all(&r);
 }
 
@@ -288,7 +288,7 @@ static void missing_calibration(void **state)
         char words[160];
         snprintf(words, sizeof words, "no force: the file does not say the spring constant%s; %s",
                  i == 0 ? " and deflection sensitivity" : "", cases[i].advice);
-        assert_true(logged(&r, words));
+        assert_true(has_logged(&r, words));
         close_all(&r);
         /* Given by the user. */
         o.spring_constant = 0.2;
@@ -312,7 +312,7 @@ static void height_without_conversion(void **state)
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
     assert_null(wt_segment_channel(&r.curve.segments[0], WT_Q_HEIGHT));
     assert_non_null(wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE));
-    assert_true(logged(&r, "left out: it has no calibration"));
+    assert_true(has_logged(&r, "left out: it has no calibration"));
     close_all(&r);
 }
 
@@ -328,8 +328,8 @@ static void height_of_unknown_type(void **state)
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
     assert_null(wt_segment_channel(&r.curve.segments[0], WT_Q_HEIGHT));
     assert_non_null(wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE));
-    assert_true(logged(&r, "channel height left out"));
-    assert_true(logged(&r, "oddinteger"));
+    assert_true(has_logged(&r, "channel height left out"));
+    assert_true(has_logged(&r, "oddinteger"));
     close_all(&r);
 }
 
@@ -369,7 +369,7 @@ static void cut_off(void **state)
             status = wt_force_next(r.source, &r.curve, &r.err);
             if (status != WT_OK)
                 break;
-            assert_true(logged(&r, "end of the archive is missing"));
+            assert_true(has_logged(&r, "end of the archive is missing"));
             assert_values(&r.curve.segments[0], WT_Q_FORCE, samples[read].force[0],
                           jpk_writer_force_step(&f));
             read++;

@@ -6,7 +6,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "all_formats.h"
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/read.h"
 

@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "made_file.h"
+#include "reader_fixture.h"
 #include "writers/nanoscope_writer.h"
 
 enum {
@@ -97,8 +97,8 @@ static void reads_back(const nanoscope_writer_file *f, size_t n_curves)
         assert_near(r.curve.segments[0].velocity, 1e-6, 1e-12);
     }
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_END);
-    assert_false(logged(&r, "doubtful"));
-    assert_true(logged(&r, "256 times") == f->scaled);
+    assert_false(has_logged(&r, "doubtful"));
+    assert_true(has_logged(&r, "256 times") == f->scaled);
     close_all(&r);
 }
 
@@ -145,11 +145,11 @@ static void cut(void **state)
     assert_int_equal(nanoscope_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
     assert_int_equal(wt_force_count(r.source), CURVES - 2);
-    assert_true(logged(&r, "7 of 9 curves"));
+    assert_true(has_logged(&r, "7 of 9 curves"));
     close_all(&r);
     f.missing_bytes = 2 * (IN + OUT) * CURVES;
     assert_int_equal(nanoscope_write(&f), 0);
-    refused(WT_E_CORRUPT, "the file is cut off");
+    assert_refused(WT_E_CORRUPT, "the file is cut off");
     assert_int_equal(open_force(&r, path, NULL), WT_E_CORRUPT);
     assert_string_equal(r.err.place, "\\*Ciao force image list"); /* where it says how many */
     close_all(&r);
@@ -165,7 +165,7 @@ static void mark_alone(void **state)
         assert_non_null(out);
         assert_true(fputs(marks[i], out) >= 0);
         assert_int_equal(fclose(out), 0);
-        refused(WT_E_CORRUPT, "");
+        assert_refused(WT_E_CORRUPT, "");
     }
 }
 
@@ -184,7 +184,7 @@ static void stopped_ramp(void **state)
         f.trigger = 0;
         assert_int_equal(nanoscope_write(&f), 0);
         assert_int_equal(open_force(&r, path, NULL), WT_OK);
-        assert_true(logged(&r, "7 and 6 of 8 samples"));
+        assert_true(has_logged(&r, "7 and 6 of 8 samples"));
         next_curve(&r);
         for (size_t s = 0, at = 0; s < 2; s++) {
             const wt_segment *segment = &r.curve.segments[s];
@@ -215,7 +215,7 @@ static void oddities(void **state)
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
     next_curve(&r);
     assert_true(isnan(channel(&r.curve.segments[0], WT_Q_FORCE)[2]));
-    assert_true(logged(&r, "are missing: not measured"));
+    assert_true(has_logged(&r, "are missing: not measured"));
     close_all(&r);
     /* Nor does it hide which way the sensor counts, nor what the deflection rises by. */
     f = usual(0, false);
@@ -225,7 +225,7 @@ static void oddities(void **state)
     next_curve(&r);
     assert_near_abs(channel(&r.curve.segments[0], WT_Q_MEASURED_HEIGHT)[1], -900e-9 * sensor[1],
                     1e-20);
-    assert_false(logged(&r, "the scale of the file is doubtful"));
+    assert_false(has_logged(&r, "the scale of the file is doubtful"));
     close_all(&r);
     /* The mark of 16 bits is a number like any other in 32. */
     f = usual(0, false);
@@ -241,7 +241,7 @@ static void oddities(void **state)
     f.trigger = 0.1;
     assert_int_equal(nanoscope_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
-    assert_true(logged(&r, "the trigger was 0.1 V: the scale of the file is doubtful"));
+    assert_true(has_logged(&r, "the trigger was 0.1 V: the scale of the file is doubtful"));
     close_all(&r);
     /* Not calibrated: what to give is said. */
     f = usual(0, false);
@@ -269,7 +269,7 @@ static void peakforce(void **state)
     reading r;
     assert_int_equal(nanoscope_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
-    assert_true(logged(&r, "not verified on a genuine file"));
+    assert_true(has_logged(&r, "not verified on a genuine file"));
     next_curve(&r);
     for (size_t i = 0; i < N; i++) {
         const wt_segment *segment = &r.curve.segments[i / IN];
@@ -353,9 +353,10 @@ static void contradictions(void **state)
             assert_true(isnan(r.curve.cantilever.spring_constant));
         else
             assert_near(r.curve.cantilever.spring_constant, cases[i].spring_constant, 0);
-        assert_int_equal(logged(&r, "it is not used: correct the line"), cases[i].words != NULL);
+        assert_int_equal(has_logged(&r, "it is not used: correct the line"),
+                         cases[i].words != NULL);
         if (cases[i].words != NULL)
-            assert_true(logged(&r, cases[i].words));
+            assert_true(has_logged(&r, cases[i].words));
         close_all(&r);
     }
 }

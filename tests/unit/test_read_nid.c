@@ -3,8 +3,8 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "made_file.h"
 #include "read/force_assembler.h"
+#include "reader_fixture.h"
 #include "writers/nid_writer.h"
 
 #define LINES 6
@@ -117,7 +117,7 @@ static void units_versions_encodings(void **state)
         reading r;
         assert_int_equal(nid_write(&f), 0);
         assert_int_equal(open_force(&r, path, NULL), WT_OK);
-        assert_true(logged(&r, "not verified on a genuine file"));
+        assert_true(has_logged(&r, "not verified on a genuine file"));
         assert_curves(&r, lengths_differ, factors[i % 3]);
         close_all(&r);
     }
@@ -253,7 +253,7 @@ static void serpentine_map(void **state)
     assert_int_equal(nid_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
-    assert_true(isnan(r.curve.x) && logged(&r, "rotated"));
+    assert_true(isnan(r.curve.x) && has_logged(&r, "rotated"));
     close_all(&r);
 }
 

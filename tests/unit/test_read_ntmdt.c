@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "made_file.h"
+#include "reader_fixture.h"
 
 enum { ROWS = 12, IDLE = 3 };
 
@@ -28,8 +28,8 @@ static void curve(void **state)
     reading r;
     write_rows(ROWS, "");
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
-    assert_true(logged(&r, "does not say the unit of the deflection signal"));
-    assert_true(logged(&r, "3 rows that repeat the first sample"));
+    assert_true(has_logged(&r, "does not say the unit of the deflection signal"));
+    assert_true(has_logged(&r, "3 rows that repeat the first sample"));
     next_curve(&r);
     assert_int_equal(r.curve.n_segments, 2);
     for (size_t s = 0; s < 2; s++) {
@@ -55,15 +55,15 @@ static void others(void **state)
 {
     (void)state;
     write_rows(ROWS, "1,5\t1,0\t1,0\r\n"); /* above 0 */
-    refused(WT_E_FORMAT, "not recognised");
+    assert_refused(WT_E_FORMAT, "not recognised");
     write_rows(ROWS, "-0,1\t1\t1,0\r\n"); /* a number without a comma */
-    refused(WT_E_FORMAT, "not recognised");
+    assert_refused(WT_E_FORMAT, "not recognised");
     write_rows(ROWS, "-0,1\t1,0\r\n"); /* two columns */
-    refused(WT_E_FORMAT, "not recognised");
+    assert_refused(WT_E_FORMAT, "not recognised");
     write_rows(5, "");
-    refused(WT_E_FORMAT, "not recognised");
+    assert_refused(WT_E_FORMAT, "not recognised");
     write_rows(2000, "-0,1\t1,0\r\n"); /* behind what detection saw */
-    refused(WT_E_CORRUPT, "no row of three numbers");
+    assert_refused(WT_E_CORRUPT, "no row of three numbers");
 }
 
 int main(void)

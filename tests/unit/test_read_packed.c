@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "made_file.h"
+#include "reader_fixture.h"
 #include "writers/book_writer.h"
 
 #include <zip.h>

@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "made_file.h"
+#include "reader_fixture.h"
 #include "writers/park_writer.h"
 
 enum { CURVES = 2, HALF = 8, SAMPLES = 2 * HALF, VALID_IN = 5, VALID_OUT = 6 };
@@ -76,7 +76,7 @@ static void untimed(void **state)
     f.n_channels = 3;
     assert_int_equal(park_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
-    assert_true(logged(&r, "no channel Time Stamp"));
+    assert_true(has_logged(&r, "no channel Time Stamp"));
     next_curve(&r);
     assert_int_equal(r.curve.segments[0].n_points, HALF);
     close_all(&r);
@@ -88,7 +88,7 @@ static void pictures(void **state)
     park_writer_file f = usual();
     f.picture = true;
     assert_int_equal(park_write(&f), 0);
-    refused(WT_E_EMPTY, "the picture holds no force curve");
+    assert_refused(WT_E_EMPTY, "the picture holds no force curve");
 }
 
 static void damaged(void **state)

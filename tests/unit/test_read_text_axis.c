@@ -1,5 +1,5 @@
 /* Places that are equal steps, as exports round them. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/base/array.h"
 #include "read/text/text.h"

@@ -1,6 +1,6 @@
 /* Where a table of a text export parts into curves and isotherms, and how long a segment took.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "made_file.h"
+#include "reader_fixture.h"
 
 #include "read/text/text.h"
 

@@ -1,8 +1,8 @@
 /* Lines of a text export to cells: each separator, quotes, lines of more cells than memory was
  * taken for at first; files and results of as many columns.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "made_file.h"
+#include "reader_fixture.h"
+#include "table_cells.h"
 
 #include "read/header_number.h"
 #include "read/text/text.h"

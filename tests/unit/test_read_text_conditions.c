@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "near.h"
+#include "assert_near.h"
 
 #include "all_formats.h"
 

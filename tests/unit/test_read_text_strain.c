@@ -1,6 +1,6 @@
 /* Strain sweeps in a table: where one begins and ends, and what is none.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "made_file.h"
+#include "reader_fixture.h"
 
 /* Rows of frequency [Hz], temperature [degC], strain [%]; the moduli tell the row. */
 typedef struct row {

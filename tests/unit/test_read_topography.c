@@ -1,6 +1,6 @@
 /* Height maps of Gwyddion and X3P, written byte by byte here, and measured ones against the numbers
  * of other programs. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "made_file.h"
+#include "reader_fixture.h"
 
 #include "core/base/array.h"
 #include "core/system/temporary.h"

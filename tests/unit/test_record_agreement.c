@@ -1,6 +1,6 @@
 /* Measured against predicted: the curve, its errors, the scatter, the verdict and the likelihood,
  * against values that are worked out otherwise here. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "record/numerics/agreement.h"
 

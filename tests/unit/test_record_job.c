@@ -1,9 +1,9 @@
 /* The job of friction records on files with a known truth, and what is said of files that lack
  * something. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
-#include "cells.h"
-#include "near.h"
-#include "truth.h"
+#include "assert_near.h"
+#include "table_cells.h"
+#include "truth_fixture.h"
 
 #include "weartrack/record.h"
 

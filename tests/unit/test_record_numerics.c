@@ -1,7 +1,7 @@
 /* Friction records: cycles, running-in, steady mean, stick-slip, wear track, ball.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
+#include "assert_near.h"
+#include "draw_count.h"
 #include "record/numerics/autocorrelation.h"
 #include "record/numerics/pauses.h"
 #include "record/numerics/steady_state.h"
@@ -360,7 +360,7 @@ static void decay_series(double *y, size_t n, double change, double time, int ki
 static void test_decay(void **state)
 {
     (void)state;
-    enum { N_POINTS = 750, DRAWS = COUNTED(10) };
+    enum { N_POINTS = 750, DRAWS = DRAW_COUNT(10) };
     static const struct {
         double change, time;
         int kind;
@@ -379,7 +379,7 @@ static void test_decay(void **state)
         }
         print_message("decay %zu of seed 31: %d found, %d held of %d\n", k, found, held,
                       (int)DRAWS);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_in_range(found, tried[k].decays ? DRAWS - 1 : 0, tried[k].decays ? DRAWS : 1);
         if (tried[k].decays)
@@ -732,7 +732,7 @@ static void test_of_a_made_track(void **state)
 static void test_error_of_a_track(void **state)
 {
     (void)state;
-    enum { N = 400, DRAWS = COUNTED(250) };
+    enum { N = 400, DRAWS = DRAW_COUNT(250) };
     static double x[N], z[N];
     const struct {
         double half_width, memory;
@@ -755,7 +755,7 @@ static void test_error_of_a_track(void **state)
             square += t.area.value * t.area.value / DRAWS;
             stated += t.area.standard_error * t.area.standard_error / DRAWS;
         }
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         const double wider = sqrt(stated / (square - sum * sum));
         assert_true(wider > 0.95 && wider < 1.5);

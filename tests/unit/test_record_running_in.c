@@ -1,7 +1,7 @@
 /* What several running-ins say together, of runs that are made by hand, and what is told of the
  * bundled one as its case and its record are changed.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "core/math/students_t.h"
 #include "record/running_in_validation.h"
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cells.h"
+#include "table_cells.h"
 
 enum { TIMES = 8, DRAWS = 40, MOST = 3, STRIDE = GROWTH_QUANTITIES + TIMES };
 static double grown[(1 + DRAWS) * STRIDE], courses[(1 + DRAWS) * TIMES];

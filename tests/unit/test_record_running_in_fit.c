@@ -1,8 +1,8 @@
 /* A course in a series of cycles: an exponential of another time and height, whose intervals are
  * held against the truth. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
-#include "truth.h"
+#include "assert_near.h"
+#include "draw_count.h"
+#include "truth_fixture.h"
 
 #include "record/numerics/running_in_curve.h"
 
@@ -156,7 +156,7 @@ static void test_ends(void **state)
 static void test_coverage(void **state)
 {
     (void)state;
-    enum { DRAWS = COUNTED(60), LEAST = 50 };
+    enum { DRAWS = DRAW_COUNT(60), LEAST = 50 };
     const scene s = {1.7, 0.8, 0.08, 0.02, 0.01};
     uint64_t seed = 20;
     int factor = 0, ratio = 0;
@@ -166,7 +166,7 @@ static void test_coverage(void **state)
         factor += fit.low < log(s.factor) && log(s.factor) < fit.high;
         ratio += fabs(fit.ratio - s.ratio) < 1.96 * fit.ratio_error;
     }
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_in_range(factor, LEAST, DRAWS);
     assert_in_range(ratio, LEAST, DRAWS);
@@ -234,7 +234,7 @@ static double uniform(uint64_t *seed)
 static void test_rows(void **state)
 {
     (void)state;
-    enum { DRAWS = COUNTED(14), ALL = 2 * ROW_KINDS * DRAWS, LEAST = ALL * 90 / 100 };
+    enum { DRAWS = DRAW_COUNT(14), ALL = 2 * ROW_KINDS * DRAWS, LEAST = ALL * 90 / 100 };
     uint64_t seed = 77;
     int held = 0, seen = 0;
     for (int i = 0; i < ALL; i++) {
@@ -260,7 +260,7 @@ static void test_rows(void **state)
                           exp(fit.high));
     }
     print_message("seed 77: %d of %d held, %d seen\n", held, (int)ALL, seen);
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_in_range(held, LEAST, ALL);
     assert_in_range(seen, ALL * 95 / 100, ALL);

@@ -1,8 +1,8 @@
 /* Measured against predicted friction: records that are made of the prediction itself, so that what
  * must be found is known. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "sliding.h"
-#include "truth.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
+#include "truth_fixture.h"
 
 #include "core/table/registry.h"
 #include "weartrack/record.h"

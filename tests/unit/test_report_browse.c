@@ -1,7 +1,7 @@
 /* The page to go through curves: its samples are those of the table, its words cannot leave their
  * element, and a result without samples has none.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+#include "table_cells.h"
 
 #include "report/report_files.h"
 #include "weartrack/indentation.h"

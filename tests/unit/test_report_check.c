@@ -1,7 +1,7 @@
 /* Whether a report could be written, asked before the work.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/report.h"
 
 #include <dirent.h>

@@ -2,9 +2,9 @@
  * must hold.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "drawn_report.h"
 #include "report/drawing.h"
+#include "shared_report.h"
+#include "table_cells.h"
 
 #include <ctype.h>
 
@@ -780,5 +780,5 @@ int main(void)
         cmocka_unit_test(test_what_is_missing_is_an_error),
         cmocka_unit_test(test_what_may_be_missing),
     };
-    return cmocka_run_group_tests(tests, draw_everything, remove_everything);
+    return cmocka_run_group_tests(tests, create_shared_report, remove_shared_report);
 }

@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
-#include "report_place.h"
+#include "report_folder.h"
 
 #include <errno.h>
 #include <libxml/parser.h>
@@ -178,7 +178,7 @@ static void test_programs_that_hang_flood_and_die(void **state)
             strstr(err.found, programs[i].found) == NULL)
             fail_msg("%s: %s, found %s", programs[i].script, err.message, err.found);
         assert_true(took < 10 && (!programs[i].late || took > 0.4));
-        assert_true(programs_end());
+        assert_true(all_programs_end());
         assert_int_equal(count_files("."), 1);
     }
     wt_result_free(result);
@@ -205,7 +205,7 @@ static void test_cancelled_while_it_draws(void **state)
     const wt_progress progress = {cancel_after, &end};
     assert_int_equal(wt_report_write(result, "out", &options, &progress, &err), WT_E_CANCELLED);
     assert_true(wt_time_wall() - begin < 5);
-    assert_true(programs_end());
+    assert_true(all_programs_end());
     assert_false(exists("out"));
     wt_result_free(result);
 }
@@ -230,22 +230,22 @@ static void test_killed_while_it_draws(void **state)
     assert_int_not_equal(find_program(), 0);
     assert_int_equal(kill(writer, SIGKILL), 0);
     assert_int_equal(waitpid(writer, NULL, 0), writer);
-    assert_true(programs_end());
+    assert_true(all_programs_end());
     wt_result_free(result);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_hostile_texts, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_settings_of_the_user, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_programs_that_hang_flood_and_die, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_cancelled_while_it_draws, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_killed_while_it_draws, make_workplace,
-                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_hostile_texts, create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_settings_of_the_user, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_programs_that_hang_flood_and_die, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_cancelled_while_it_draws, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_killed_while_it_draws, create_work_folder,
+                                        remove_work_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

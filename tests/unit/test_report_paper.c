@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
-#include "report_place.h"
+#include "report_folder.h"
 
 #include <math.h>
 
@@ -246,13 +246,15 @@ static void test_one_of_many_hangs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_widths_and_type, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_a_font_that_is_not_there, make_workplace,
-                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_widths_and_type, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_a_font_that_is_not_there, create_work_folder,
+                                        remove_work_folder),
         cmocka_unit_test_setup_teardown(test_the_font_is_that_of_the_figures_and_the_page,
-                                        make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_refusals, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_one_of_many_hangs, make_workplace, remove_workplace),
+                                        create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_refusals, create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_one_of_many_hangs, create_work_folder,
+                                        remove_work_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

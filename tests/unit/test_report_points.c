@@ -2,9 +2,9 @@
  * them, in their order and blocks, and gnuplot finds them and draws them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "drawn_report.h"
 #include "report/drawing.h"
+#include "shared_report.h"
+#include "table_cells.h"
 
 #include <ctype.h>
 
@@ -733,6 +733,6 @@ int main(void)
         cmocka_unit_test(test_crowds),
         cmocka_unit_test(test_every),
     };
-    return cmocka_run_group_tests_name("points of the figures", tests, draw_everything,
-                                       remove_everything);
+    return cmocka_run_group_tests_name("points of the figures", tests, create_shared_report,
+                                       remove_shared_report);
 }

@@ -1,7 +1,7 @@
 /* Sheets of force curves: which stands where, what is said of it, sheets of A4, refusals.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+#include "table_cells.h"
 
 #include "report/curve_panel.h"
 #include "weartrack/report.h"

@@ -1,7 +1,7 @@
 /* The report room: texts and numbers for reading, lab units, pictures for a page, axes.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "report/display_units.h"
 #include "report/drawing.h"
 #include "report/figure_files.h"

@@ -1,7 +1,7 @@
 /* Error against run time of the numbers of a case. */
-#include "cells.h"
-#include "near.h"
-#include "sliding.h"
+#include "assert_near.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
 #include "weartrack/case.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Constants that cases have in common, of results that are made here: what they share, what counts
  * once, and of what no verdict can be had. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "near.h"
+#include "assert_near.h"
+#include "table_cells.h"
 
 #include "core/table/registry.h"
 #include "weartrack/case.h"

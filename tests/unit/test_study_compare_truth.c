@@ -1,7 +1,7 @@
 /* The comparison of two groups whose moduli, spots and rates are chosen: every column of its tables
  * against formulas written out here.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "core/table/registry.h"
 #include "study/compare.h"

@@ -1,8 +1,8 @@
 /* The error budget of a sliding contact.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "sliding.h"
-#include "truth.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
+#include "truth_fixture.h"
 #include "weartrack/study.h"
 
 static double relative(const wt_table *table, const char *number, const char *source)

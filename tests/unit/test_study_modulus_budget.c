@@ -1,6 +1,6 @@
 /* The budget of a modulus: every number of its table by hand, whatever source is stated.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "indentation/calibration_errors.h"
 #include "indentation/numerics/group_statistics.h"

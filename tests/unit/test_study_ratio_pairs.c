@@ -1,7 +1,7 @@
 /* Pairs of cases whose modulus ratios depend on the rate, of draws that are made here.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "near.h"
+#include "assert_near.h"
+#include "table_cells.h"
 
 #include "core/table/registry.h"
 #include "weartrack/case.h"

@@ -1,7 +1,7 @@
 /* One value behind several, against closed forms and draws.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "layer/numerics/correlated_pair.h"
-#include "near.h"
 #include "study/numerics/shared_value.h"
 
 #include <gsl/gsl_cdf.h>

@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
 
-#include "cells.h"
-#include "near.h"
+#include "assert_near.h"
+#include "table_cells.h"
 
 #include <math.h>
 #include <stdio.h>

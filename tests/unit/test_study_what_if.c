@@ -1,8 +1,8 @@
 /* What if: every row is what a single run with that choice moved gives, to the last bit.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "sliding.h"
-#include "truth.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
+#include "truth_fixture.h"
 
 #include "core/table/result_value.h"
 #include "weartrack/study.h"

@@ -1,13 +1,13 @@
 /* Height maps and profiles in files to one power spectrum: surfaces that are made by a formula,
  * whose spectrum is known. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
-#include "study/made_surface.h"
+#include "study/synthetic_surface.h"
 
 #include "core/base/array.h"
 #include "friction/counter_surface.h"
 #include "job/random_draws.h"
-#include "truth.h"
+#include "truth_fixture.h"
 #include "weartrack/case.h"
 
 #include <string.h>
@@ -15,7 +15,7 @@
 
 #define SURFACE WT_SOURCE_DIR "/fixtures/surface/"
 /* As tests/generate/generate_surface.c has them. */
-static const made_surface behind = {256, 200e-6, 21, 126, 6e-26, 6e5, 0.8, 0, true, 0};
+static const synthetic_surface behind = {256, 200e-6, 21, 126, 6e-26, 6e5, 0.8, 0, true, 0};
 
 static wt_formats *formats;
 
@@ -102,7 +102,7 @@ static void test_whole(void **state)
     const size_t n = wt_table_n_rows(t);
     size_t within = 0;
     for (size_t i = 0; i < n; i++) {
-        const double q = cell(t, i, "wavenumber"), c = made_density(&behind, q);
+        const double q = cell(t, i, "wavenumber"), c = surface_density(&behind, q);
         within += cell(t, i, "density_low") < c && c < cell(t, i, "density_high") ? 1 : 0;
         assert_string_equal(cell_text(t, i, "source"), "measured");
         assert_near(cell(t, i, "self_affine"), c, 0.6);
@@ -141,7 +141,7 @@ static void test_ends(void **state)
     size_t last = wt_table_n_rows(t) - 1;
     assert_string_equal(cell_text(t, last, "source"), "cut");
     assert_near(cell(t, last, "wavenumber"), 3e6, 1e-12);
-    assert_near(cell(t, last, "density"), made_density(&behind, 3e6), 0.9);
+    assert_near(cell(t, last, "density"), surface_density(&behind, 3e6), 0.9);
     const double slope = key(t, "rms_slope");
     clear(&m);
 
@@ -163,7 +163,7 @@ static void test_ends(void **state)
     assert_true(key(t, "extrapolated_share") > 0.3);
     assert_true(said(&m, "beyond the reliable range"));
     /* the law is known the less the further it goes, and the slope with it */
-    const double truth = made_density(&behind, cell(t, last, "wavenumber"));
+    const double truth = surface_density(&behind, cell(t, last, "wavenumber"));
     assert_near_abs(log(cell(t, last, "density") / truth), 0, 3 * cell(t, last, "law_error"));
     assert_near(cell(t, last, "density_standard_error") / cell(t, last, "density"),
                 log(cell(t, last, "density_high") / cell(t, last, "density")) / 1.96, 1e-3);
@@ -227,10 +227,10 @@ static void test_heights(void **state)
 
 /* A made surface with x and y in each other's place, as a Gwyddion simple field. */
 /* With `crossed`, grooves along x and along y are added, as random as two lines of the surface. */
-static void write_turned(const char *path, const made_surface *made, bool crossed)
+static void write_turned(const char *path, const synthetic_surface *made, bool crossed)
 {
     const size_t n = made->n;
-    double *z = make_surface(made);
+    double *z = surface_create(made);
     FILE *out = fopen(path, "wb");
     assert_non_null(out);
     const int used = fprintf(out,
@@ -259,7 +259,7 @@ static void test_directions(void **state)
     assert_true(fd >= 0);
     close(fd);
     const char *const file[] = {path};
-    made_surface made = behind;
+    synthetic_surface made = behind;
     made.stretch = 0.6;
     write_turned(path, &made, false);
     making m = {.job = wt_topography_job_defaults()};

@@ -1,5 +1,5 @@
 /* Power spectra: densities, root-mean-square height and slope, what is refused. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "numeric/friction_scene.h"
 

@@ -1,10 +1,10 @@
 /* Heights to power spectra, against numbers of another program for surfaces that are made by a
  * formula. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
-#include "truth.h"
+#include "assert_near.h"
+#include "draw_count.h"
+#include "truth_fixture.h"
 
-#include "study/made_surface.h"
+#include "study/synthetic_surface.h"
 #include "surface_reference.h"
 
 #include "core/base/array.h"
@@ -18,9 +18,9 @@ static const double length = 256e-6;
 static double *p, *a, *b; /* [SIDE * SIDE] */
 
 /* A part of a larger surface. */
-static double *cut(const made_surface *s, size_t x, size_t y)
+static double *cut(const synthetic_surface *s, size_t x, size_t y)
 {
-    double *whole = make_surface(s), *part = malloc(sizeof(double) * SIDE * SIDE);
+    double *whole = surface_create(s), *part = malloc(sizeof(double) * SIDE * SIDE);
     for (size_t j = 0; j < SIDE; j++)
         memcpy(part + j * SIDE, whole + (y + j) * s->n + x, SIDE * sizeof *part);
     free(whole);
@@ -31,9 +31,11 @@ static int make_all(void **state)
 {
     (void)state;
     const double roll_off = 8.3 * 2 * M_PI / length;
-    p = make_surface(&(made_surface){SIDE, length, 12345, 120, 3e-23, roll_off, 0.8, 0, false, 0});
-    a = cut(&(made_surface){512, 512e-6, 777, 240, 3e-23, roll_off, 0.8, 0, false, 0}, 37, 61);
-    b = cut(&(made_surface){512, 64e-6, 4242, 240, 3e-23, roll_off, 0.8, 0, false, 0}, 100, 20);
+    p = surface_create(
+        &(synthetic_surface){SIDE, length, 12345, 120, 3e-23, roll_off, 0.8, 0, false, 0});
+    a = cut(&(synthetic_surface){512, 512e-6, 777, 240, 3e-23, roll_off, 0.8, 0, false, 0}, 37, 61);
+    b = cut(&(synthetic_surface){512, 64e-6, 4242, 240, 3e-23, roll_off, 0.8, 0, false, 0}, 100,
+            20);
     return 0;
 }
 
@@ -196,7 +198,7 @@ static void test_missing(void **state)
     size_t n = 0;
     for (size_t i = 0; i < SIDE; i++)
         for (size_t j = 0; j < SIDE; j++)
-            if (made_uniform(999, i * SIDE + j) < 0.05) {
+            if (surface_uniform(999, i * SIDE + j) < 0.05) {
                 z[j * SIDE + i] = (double)NAN;
                 n++;
             }
@@ -437,7 +439,8 @@ static void test_scatter(void **state)
     const double roll_off = 8.3 * 2 * M_PI / length;
     size_t within = 0, all = 0;
     for (uint64_t seed = 1; seed <= 6; seed++) {
-        const made_surface truth = {512, 512e-6, 100 * seed, 250, 3e-23, roll_off, 0.8, 0, true, 0};
+        const synthetic_surface truth = {512,      512e-6, 100 * seed, 250,  3e-23,
+                                         roll_off, 0.8,    0,          true, 0};
         double *z = cut(&truth, 37, 61);
         const wt_height_map map = map_of(z);
         const wt_surface_options options = wt_surface_options_defaults();
@@ -448,7 +451,7 @@ static void test_scatter(void **state)
             if (!s.bins[k].reliable)
                 continue;
             const wt_interval c = wt_surface_density(&s, k);
-            const double is = made_density(&truth, s.bins[k].wavenumber);
+            const double is = surface_density(&truth, s.bins[k].wavenumber);
             within += c.low < is && is < c.high ? 1 : 0;
             all++;
         }
@@ -470,8 +473,8 @@ static void test_leak(void **state)
     static const double most[] = {0.2, 0.1};
     double sum[COUNT_OF(windows)][BINS] = {{0}};
     for (uint64_t seed = 1; seed <= SURFACES; seed++) {
-        const made_surface made = {N, 200e-6, seed, 60, 1e-26, 1.2e5, 0.8, 0, false, 0};
-        double *z = make_surface(&made), *part = malloc((size_t)CUT * CUT * sizeof *part);
+        const synthetic_surface made = {N, 200e-6, seed, 60, 1e-26, 1.2e5, 0.8, 0, false, 0};
+        double *z = surface_create(&made), *part = malloc((size_t)CUT * CUT * sizeof *part);
         assert_non_null(part);
         for (size_t j = 0; j < CUT; j++)
             memcpy(part + j * CUT, z + (j + 9) * N + 5, CUT * sizeof *part);
@@ -488,7 +491,7 @@ static void test_leak(void **state)
                 first++;
             for (size_t k = 0; k < BINS; k++)
                 sum[w][k] += s.bins[first + 2 * k].density /
-                             made_density(&made, s.bins[first + 2 * k].wavenumber) / SURFACES;
+                             surface_density(&made, s.bins[first + 2 * k].wavenumber) / SURFACES;
             wt_surface_spectrum_clear(&s);
         }
         free(part);
@@ -502,8 +505,8 @@ static void test_leak(void **state)
 static void test_directions(void **state)
 {
     (void)state;
-    const made_surface truth = {512, 512e-6, 5,    250, 3e-23, 8.3 * 2 * M_PI / length,
-                                0.8, 0.3,    true, 0};
+    const synthetic_surface truth = {512, 512e-6, 5,    250, 3e-23, 8.3 * 2 * M_PI / length,
+                                     0.8, 0.3,    true, 0};
     double *z = cut(&truth, 37, 61);
     const wt_height_map map = map_of(z);
     const wt_surface_options options = wt_surface_options_defaults();
@@ -540,17 +543,18 @@ static double *make_grooved(uint64_t seed, size_t n)
             row[i] = 0;
         for (int mx = my == 0 ? 1 : -MODES; mx <= MODES; mx++) {
             const uint64_t k = (uint64_t)(my * 1000 + mx + 500);
-            const double square = -log1p(-made_uniform(seed, k)) * grooved_density(atan2(my, mx)) *
-                                  pow(mx * mx + my * my, -1.8);
+            const double square = -log1p(-surface_uniform(seed, k)) *
+                                  grooved_density(atan2(my, mx)) * pow(mx * mx + my * my, -1.8);
             const double complex amplitude =
-                sqrt(square) * cexp(made_complex(0, 2 * M_PI * made_uniform(seed + 1, k)));
-            const double complex turn = cexp(made_complex(0, 2 * M_PI * mx / (double)n));
+                sqrt(square) * cexp(surface_complex(0, 2 * M_PI * surface_uniform(seed + 1, k)));
+            const double complex turn = cexp(surface_complex(0, 2 * M_PI * mx / (double)n));
             double complex at = amplitude;
             for (size_t i = 0; i < n; i++, at *= turn)
                 row[i] += at;
         }
         for (size_t j = 0; j < n; j++) {
-            const double complex t = cexp(made_complex(0, 2 * M_PI * my * (double)j / (double)n));
+            const double complex t =
+                cexp(surface_complex(0, 2 * M_PI * my * (double)j / (double)n));
             for (size_t i = 0; i < n; i++)
                 z[j * n + i] += 1e-6 * creal(row[i] * t);
         }
@@ -616,12 +620,13 @@ static void test_places(void **state)
     const double factor[PLACES] = {0.5, 0.8, 1, 1.3, 2.1};
     wt_surface_spectrum s[PLACES] = {{.n = 0}}, joined = {.n = 0};
     const wt_surface_spectrum *all[PLACES];
-    const made_surface one = {256, length, 9, 120, 3e-23, 8.3 * 2 * M_PI / length, 0.8, 0, true, 0};
+    const synthetic_surface one = {256, length, 9,    120, 3e-23, 8.3 * 2 * M_PI / length,
+                                   0.8, 0,      true, 0};
     for (size_t i = 0; i < PLACES; i++) {
-        made_surface here = one;
+        synthetic_surface here = one;
         here.seed += 10 * i;
         here.c0 *= factor[i];
-        double *z = make_surface(&here);
+        double *z = surface_create(&here);
         const wt_height_map map = map_of(z);
         const wt_surface_options options = wt_surface_options_defaults();
         wt_surface_heights h;
@@ -685,11 +690,11 @@ static size_t places_held(size_t n, double scatter, size_t draws)
 static void test_few_places(void **state)
 {
     (void)state;
-    enum { DRAWS = COUNTED(2000), LEAST = DRAWS * 92 / 100, HIGHEST = DRAWS * 99 / 100 };
+    enum { DRAWS = DRAW_COUNT(2000), LEAST = DRAWS * 92 / 100, HIGHEST = DRAWS * 99 / 100 };
     for (size_t n = 2; n <= 3; n++)
         for (double scatter = 0; scatter <= 4; scatter += 2) {
             const size_t held = places_held(n, scatter, DRAWS);
-            if (SHARES_COUNT)
+            if (TEST_RATES)
                 assert_in_range(held, LEAST, HIGHEST);
         }
 }

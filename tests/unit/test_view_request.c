@@ -1,6 +1,6 @@
 /* Requests to the local server: its own page is admitted, and nothing else is. Files outside of the
  * folder of the case are neither read nor written. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+#include "table_cells.h"
 
 #include "view/view.h"
 

@@ -1,9 +1,9 @@
 /* Cells of a table by the name of their column, which must be there.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_TESTS_CELLS_H
-#define WT_TESTS_CELLS_H
+#ifndef WT_TESTS_TABLE_CELLS_H
+#define WT_TESTS_TABLE_CELLS_H
 
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/core.h"
 

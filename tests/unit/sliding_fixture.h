@@ -1,7 +1,7 @@
 /* A sliding contact for tests to change: a series of three terms on a self-affine road.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_TESTS_SLIDING_H
-#define WT_TESTS_SLIDING_H
+#ifndef WT_TESTS_SLIDING_FIXTURE_H
+#define WT_TESTS_SLIDING_FIXTURE_H
 
 #include "weartrack/friction.h"
 

@@ -3,16 +3,16 @@
  *
  *     enum { DRAWS = COUNTED(200) };
  *     ... the draws ...
- *     if (!SHARES_COUNT)
+ *     if (!TEST_RATES)
  *         return;
  *     ... what must hold of the shares ...
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_TESTS_COUNTED_H
-#define WT_TESTS_COUNTED_H
+#ifndef WT_TESTS_DRAW_COUNT_H
+#define WT_TESTS_DRAW_COUNT_H
 
-#include "watched.h"
+#include "address_sanitizer.h"
 
-#define SHARES_COUNT (!WATCHED)
-#define COUNTED(draws) (WATCHED ? ((draws) + 9) / 10 : (draws))
+#define TEST_RATES (!WITH_ADDRESS_SANITIZER)
+#define COUNTED(draws) (WITH_ADDRESS_SANITIZER ? ((draws) + 9) / 10 : (draws))
 
 #endif

@@ -1,7 +1,7 @@
 /* Comparison of floating-point numbers for cmocka, whose own assert_float_equal casts to float.
  * NaN and infinities are explicit; a failure prints 17 digits. */
-#ifndef WT_TESTS_NEAR_H
-#define WT_TESTS_NEAR_H
+#ifndef WT_TESTS_ASSERT_NEAR_H
+#define WT_TESTS_ASSERT_NEAR_H
 
 /* cmocka needs these before it. */
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Programs of others read what weartrack writes. Usage: others.sh WEARTRACK FIXTURES WORK
+# Programs of others read what weartrack writes. Usage: other_programs.sh WEARTRACK FIXTURES WORK
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 fixtures=$2 work=$3

@@ -1,5 +1,6 @@
-/* Any bytes as a file of reader_READER_ID whose check sums are made to agree, else they would stop
- * nearly every change. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzz target of reader_READER_ID, whose checksums are corrected first; otherwise they would
+ * stop nearly every changed input.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read_all.h"
 #include "writers/ardf_writer.h"
 #include "writers/ibw_writer.h"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Files of strangers that are no plain files of numbers: names that a terminal would obey, pipes,
 # folders with very many files, cells without a value, values beyond reason.
-# Usage: strangers.sh WEARTRACK FIXTURES WORK
+# Usage: foreign_files.sh WEARTRACK FIXTURES WORK
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 fixtures=$2 work=$3

@@ -1,10 +1,10 @@
 /* For tests against known truth: cells of tables by name, which must be there, and force curves of
  * a sphere on an elastic solid, from the formula of Hertz alone.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_TESTS_TRUTH_H
-#define WT_TESTS_TRUTH_H
+#ifndef WT_TESTS_TRUTH_FIXTURE_H
+#define WT_TESTS_TRUTH_FIXTURE_H
 
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/core.h"
 

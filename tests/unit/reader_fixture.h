@@ -2,10 +2,10 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#ifndef TESTS_MADE_FILE_H
-#define TESTS_MADE_FILE_H
+#ifndef TESTS_READER_FIXTURE_H
+#define TESTS_READER_FIXTURE_H
 
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/read.h"
 
@@ -80,7 +80,7 @@ static inline void close_all(reading *r)
     wt_force_curve_clear(&r->curve);
 }
 
-static inline bool logged(const reading *r, const char *words)
+static inline bool has_logged(const reading *r, const char *words)
 {
     for (size_t i = 0; i < wt_log_count(r->log); i++)
         if (strstr(wt_log_get(r->log, i).text, words) != NULL)
@@ -103,7 +103,7 @@ static inline const double *channel(const wt_segment *segment, wt_quantity quant
 }
 
 /* The file cannot be read, and these words of message, expectation or finding say why. */
-static inline void refused(wt_status expected, const char *words)
+static inline void assert_refused(wt_status expected, const char *words)
 {
     reading r;
     char all[1000];

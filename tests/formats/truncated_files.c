@@ -1,13 +1,10 @@
-/* Text files that were cut off, at places drawn by a seed: every one is refused, or read with a
- * warning that says so, and no number is read that the whole file does not have, but for the last
- * one of a row that was kept with a warning, and where a curve then begins. A cut behind a line end
- * cannot be known where the format has neither a count nor an end mark; how many there were is
- * printed.
+/* Text files truncated at positions that a seed draws. Each is refused, or read with a warning,
+ * and no number is read that the whole file lacks. Exceptions are the last number of a row that
+ * is kept with a warning, and the start of a curve. A truncation after a line end cannot be
+ * detected if the format has neither a count nor an end mark; the program prints their number.
  *
- *   cut_files SEED CUTS FILE...
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * truncated_files SEED CUTS FILE...
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read_numbers.h"
 
 static int by_value(const void *a, const void *b)
@@ -51,7 +48,7 @@ static void load(const wt_formats *formats, const char *path, file *f)
         qsort(f->whole.values, f->whole.n, sizeof(double), by_value);
 }
 
-/* Numbers that the whole file does not have. */
+/* Returns the number of values that the whole file does not have. */
 static size_t count_strange(const file *f, const numbers *some)
 {
     size_t strange = 0;
@@ -99,7 +96,8 @@ static void try_cut(const wt_formats *formats, const file *f, size_t cut, tally 
         t->at_line++;
     else
         t->failures++;
-    /* Of a row that was kept the last number may have lost decimals, and what follows from it. */
+    /* The last number of a kept row may have lost decimals, which changes the values derived
+     * from it. */
     const bool wrong = strange > 0 && !((kept || counted) && strange <= 2);
     t->failures += wrong;
     if (wrong || (status == WT_OK && !dropped && !kept && !counted && !behind_line(f, cut)))

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Results of an earlier version, whose tables had fewer columns, are read by what reads those of today.
-# Usage: earlier.sh WEARTRACK FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later
+# Usage: earlier_versions.sh WEARTRACK FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 fixtures=$2 work=$3
 rm -rf "$work"; mkdir -p "$work"; cd "$work"
