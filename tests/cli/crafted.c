@@ -1,5 +1,6 @@
-/* Result files made to crash the HDF5 library, given to the command: each call ends by itself with
- * status 0 or 1, with words if it fails and without half a result.
+/* Crafted result files that crash the HDF5 library. Every call of the command exits with status 0
+ * or 1, prints a message on failure and leaves no partial result.
+ *
  * Usage: crafted PROGRAM RESULT.h5 WORK
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "writers/hdf5_damage.h"
@@ -22,7 +23,7 @@ extern char **environ;
 static const char *program;
 static size_t n_good, n_refused, n_crashed, n_wrong;
 
-/* Whether the file holds the word; *empty if nothing. */
+/* Returns true if the file contains the word. Sets *empty if the file is empty. */
 static bool holds(const char *path, const char *word, bool *empty)
 {
     char text[4096];

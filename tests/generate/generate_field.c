@@ -1,4 +1,5 @@
-/* A part of a made surface as Gwyddion Simple Field. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A part of a synthetic surface as Gwyddion Simple Field.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "generate_field.h"
 
 #include <stdio.h>

@@ -133,7 +133,7 @@ static void damaged(void **state)
         for (int value = 0; value < 256; value += 255) {
             memcpy(copy, bytes, n);
             copy[at] = (unsigned char)value;
-            ardf_writer_mend(copy, n);
+            ardf_writer_fix_checksums(copy, n);
             (void)open_bytes(copy, n);
         }
 }

@@ -1,4 +1,5 @@
-/* Igor binary waves for tests. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Igor binary waves for tests.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "writers/ibw_writer.h"
 
 #include <stdint.h>
