@@ -1,4 +1,5 @@
-/* Whole studies through run and collect. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Observes whole studies through run and collect.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "collection_observe.h"
 #include "collection_sample.h"
 
@@ -6,10 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What is neither more nor less than this is no difference; the default of collect. */
+/* Smallest relative difference that counts; the default of collect. */
 static const double margin = 0.2;
 
-/* Where a row of a study belongs. */
+/* Subject of a row of a study. */
 typedef struct study_place {
     int compound, severity;
 } study_place;
@@ -37,7 +38,7 @@ static bool find_case(const stream *found, const char *table, int row, study_pla
     return false;
 }
 
-/* A "yes" is right if the ratio is not 1, a "no" if it is within the margin. */
+/* "Yes" is right if the ratio is not 1, "no" if it is within the margin. */
 static void take_verdict(trial *t, quantity q, double ratio, const stream *found, const char *table,
                          const char *column, int row)
 {
@@ -132,7 +133,7 @@ static int place_of(const char *const *names, int n, const stream *found, const 
     return -1;
 }
 
-/* Of a compound two severities, or of a severity two compounds. */
+/* Two severities of a compound, or two compounds of a severity. */
 static int read_translations(const collection_scene *s, const stream *found, trial *t)
 {
     const int n = stream_rows(found, place_pair.table);
@@ -154,8 +155,8 @@ static int read_translations(const collection_scene *s, const stream *found, tri
     return n == 2 * COMPOUNDS ? 0 : -1;
 }
 
-/* Where the values behind a constant are one, "differs" is wrong. Two severities wear so
- * differently that "one" would be. */
+/* If the true values are equal, "differs" is wrong. The two severities have so different wear rates
+ * that "one" would be wrong for them. */
 static void take_shared(trial *t, quantity q, double truth, const stream *found, int row)
 {
     const char *table = place_shared.table;
@@ -170,8 +171,8 @@ static void take_shared(trial *t, quantity q, double truth, const stream *found,
         t->draw->verdict = NO;
 }
 
-/* By least squares over three rates a decade apart. The second compound has the spectrum of the
- * first, so that it is one of all. */
+/* Least squares over three rates a decade apart. The second compound has the spectrum of the first,
+ * so that all share the value. */
 static double rate_factor(const study_prepared *p)
 {
     const double *e = p->compound[0].modulus;
@@ -216,14 +217,14 @@ static void read_collected(const collection_scene *s, const study_prepared *p,
 
 /* ---- what a case says ------------------------------------------------------------------------ */
 
-/* A table of a result; to be freed. NULL if there is none. */
+/* Table of a result; free it. NULL if there is none. */
 static stream *take_table(const char *result, const char *name, const char *path, trial *t)
 {
     const char *const arguments[] = {"table", result, name, "--format", "stream", "-o", path, NULL};
     return trial_run(t, arguments) ? stream_read(path) : NULL;
 }
 
-/* "Does not" and "contradicts" are wrong: the layer of the record is that of the theory. */
+/* "Does not" and "contradicts" are wrong, because the layer of the record follows the theory. */
 static void take_certain(trial *t, quantity q, bool wrong, bool is_certain)
 {
     const double stated = is_certain ? 0 : (double)NAN;
@@ -232,7 +233,7 @@ static void take_certain(trial *t, quantity q, bool wrong, bool is_certain)
         t->draw->verdict = NO;
 }
 
-/* The record is made by the theory, so that it never fails to explain. */
+/* The record follows the theory, so that it always explains it. */
 static bool read_validation(const study_truth *truth, const char *result, const char *path,
                             trial *t)
 {
@@ -248,7 +249,7 @@ static bool read_validation(const study_truth *truth, const char *result, const 
     return said != NO_VERDICT;
 }
 
-/* Without a layer (`soft` is not set) there is no change and no time of it. */
+/* Without a layer (`soft` is not set) there is no change and no time. */
 static bool read_running_in(const study_truth *truth, bool soft, int c, int k, const char *result,
                             const char *path, trial *t)
 {
@@ -294,7 +295,7 @@ static bool read_record(const collection_scene *s, const study_truth *truth, int
     return worn;
 }
 
-/* Does friction take the wavenumbers of which the truth is known? */
+/* True if friction uses the wavenumbers for which the truth is known. */
 static bool is_surface(const char *result, const char *path, trial *t)
 {
     const double near = 1e-3;
@@ -331,7 +332,7 @@ static bool run_case(const collection_scene *s, const study_prepared *p, const s
     char name[24];
     snprintf(name, sizeof name, "%s-%s.xml", study_compound[c], study_severity[k]);
     const char *path = trial_file(t, name);
-    /* of a running-in as many replicates as errors take, for a run of it to be short */
+    /* a running-in uses the replicates of the error estimate, so that a run is short */
     const char *const arguments[] = {
         "run",         path,        "-o", result,
         "--no-report", "--threads", "1",  s->running_in ? "--replicates" : NULL,

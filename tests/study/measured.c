@@ -1,7 +1,7 @@
-/* What weartrack master says of measured isotherms, one row for each set:
+/* Results of weartrack master for measured isotherms, one row for each set:
  *   study_measured WEARTRACK FOLDER [OPTION]...
- * FOLDER is that of the DMA files of the shared data, options go to master. Exit status 77: they
- * are not there. SPDX-License-Identifier: GPL-3.0-or-later */
+ * FOLDER has the DMA files of the shared data; options go to master. Exit status 77 without them.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "places.h"
 #include "program.h"
 
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* With the law that was published, lg aT = -B (1/(Tr - Tinf) - 1/(T - Tinf)), if there is one. */
+/* Published law lg aT = -B (1/(Tr - Tinf) - 1/(T - Tinf)), if there is one. */
 typedef struct set {
     const char *name, *files;
     double b, t_inf;
@@ -31,7 +31,7 @@ static const set sets[] = {
     {"hydrogel", "rheocompass/cnf*.csv", 0, 0},
 };
 
-/* rms of the shifts against the published law, the reference isotherm, which has none, left out. */
+/* rms of the shifts against the published law, without the reference isotherm. */
 static double misfit(const stream *s, const set *from)
 {
     const double reference =

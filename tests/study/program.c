@@ -10,7 +10,7 @@
 #define ARGUMENTS_MAX 60
 #define SECONDS_MAX 120
 
-/* In the child: only what a signal handler may call too. */
+/* Runs in the child: only async-signal-safe functions. */
 static void become(const char *program, const char *const *arguments, const char *errors)
 {
     const char *all[ARGUMENTS_MAX + 2] = {program};

@@ -1,5 +1,6 @@
-/* Measured surfaces: waves with exponential squared amplitudes and random phases, cut out of what
- * goes on beyond them. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Measured surfaces: waves with exponentially distributed squared amplitudes and random phases. The
+ * scans are parts of larger surfaces.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface_observe.h"
 #include "surface_scene.h"
 
@@ -27,7 +28,7 @@ static synthetic_surface surface_of(const surface_scene *s, random_source *rando
 {
     const double roll_off = s->roll_off > 0 ? s->roll_off : 6e5,
                  hurst = s->hurst > 0 ? s->hurst : 0.8;
-    /* of all scenes alike at the roll-off of most */
+    /* in all scenes equal at the usual roll-off */
     const double c0 = 1e-25 * pow(roll_off / 6e5, -2 * (1 + hurst));
     return (synthetic_surface){.n = 256,
                                .length = length,
@@ -41,7 +42,7 @@ static synthetic_surface surface_of(const surface_scene *s, random_source *rando
                                .exponential = true};
 }
 
-/* A part of it as Gwyddion Simple Field. */
+/* Writes a part of it as Gwyddion Simple Field. */
 static int write_scan(const surface_scene *s, const synthetic_surface *surface,
                       random_source *random, const char *path)
 {
@@ -75,10 +76,10 @@ static int write_scan(const surface_scene *s, const synthetic_surface *surface,
     return fclose(out) != 0 || bad ? -1 : 0;
 }
 
-/* The square root of 2 pi int C q^power dq over the rows. */
+/* Square root of 2 pi int C q^power dq over the rows. */
 static double true_rms(const synthetic_surface *truth, double first, double last, double power)
 {
-    enum { STEPS = 4000 }; /* of ln q: the law is smooth but for its roll-off */
+    enum { STEPS = 4000 }; /* step of ln q; the law is smooth except for its roll-off */
     const double step = log(last / first) / STEPS;
     double sum = 0;
     for (int i = 0; i <= STEPS; i++) {
@@ -99,7 +100,7 @@ static void read_spectrum(const char *path, const surface_scene *s, const synthe
         const bool by_law =
             stream_is(found, place_density.table, PLACE_SOURCE, i, PLACE_BY_LAW) != 0;
         if (by_law && i + 1 < n)
-            continue; /* all rows of the law are off together: the last says what they are */
+            continue; /* the errors of all rows of the law are correlated; the last row is tested */
         trial_add(
             t, by_law ? Q_BEYOND : Q_DENSITY,
             surface_density(truth, stream_cell(found, place_density.table, PLACE_WAVENUMBER, i)),
@@ -113,7 +114,7 @@ static void read_spectrum(const char *path, const surface_scene *s, const synthe
         trial_add(t, Q_RMS_SLOPE, true_rms(truth, first, last, 3),
                   place_key(found, &place_rms_slope));
         trial_add(t, Q_HURST, truth->hurst, place_key(found, &place_hurst));
-        /* profiles tell too few bins for a roll-off */
+        /* profiles have too few bins for a roll-off */
         if (!(s->roll_off > 0) && s->profiles == 0) {
             trial_add(t, Q_ROLL_OFF, truth->roll_off, place_key(found, &place_roll_off));
             trial_add(t, Q_C0, truth->c0, place_key(found, &place_c0));

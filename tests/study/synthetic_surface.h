@@ -1,5 +1,6 @@
-/* Random surfaces with a spectrum that is known, made mode by mode: phases by splitmix64, so that
- * any program can make the same. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Random surfaces with a known spectrum, as a sum of modes. The phases are from splitmix64, so that
+ * any program can reproduce them.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef TESTS_SYNTHETIC_SURFACE_H
 #define TESTS_SYNTHETIC_SURFACE_H
 
@@ -23,7 +24,7 @@ static inline double surface_uniform(uint64_t seed, uint64_t i)
     return (double)(surface_random(seed, i) >> 11) * 0x1p-53;
 }
 
-/* Neither CMPLX nor I is the same for all compilers. */
+/* CMPLX and I differ between compilers. */
 static inline double complex surface_complex(double real, double imaginary)
 {
     const double parts[] = {real, imaginary};
@@ -33,13 +34,13 @@ static inline double complex surface_complex(double real, double imaginary)
 }
 
 typedef struct synthetic_surface {
-    size_t n;      /* points of a side */
-    double length; /* of it [m] */
+    size_t n;      /* points per side */
+    double length; /* length of the side [m] */
     uint64_t seed;
-    int modes; /* up to here, in all directions */
+    int modes; /* number of modes, in all directions */
     double c0, roll_off, hurst;
     double stretch;   /* C(phi) = C (1 + stretch cos 2 (phi - texture)) */
-    bool exponential; /* squared amplitudes scatter, as those of a random surface do */
+    bool exponential; /* squared amplitudes are exponentially distributed, as on a random surface */
     double texture;   /* [rad] */
 } synthetic_surface;
 
@@ -61,7 +62,7 @@ static inline double complex surface_amplitude(const synthetic_surface *s, int m
     return sqrt(square) * surface_complex(cos(phase), sin(phase));
 }
 
-/* h(x_i, y_j) at z[j * n + i]: the sum over the modes of one line of them after the other. */
+/* h(x_i, y_j) at z[j * n + i], as a sum over lines of modes. */
 static inline double *surface_create(const synthetic_surface *s)
 {
     const size_t n = s->n;

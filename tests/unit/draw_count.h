@@ -1,7 +1,7 @@
 /* Draws of which shares are counted. The address sanitizer sees in a tenth of them what it sees in
  * all; shares of so few are then not judged:
  *
- *     enum { DRAWS = COUNTED(200) };
+ *     enum { DRAWS = DRAW_COUNT(200) };
  *     ... the draws ...
  *     if (!TEST_RATES)
  *         return;
@@ -13,6 +13,6 @@
 #include "address_sanitizer.h"
 
 #define TEST_RATES (!WITH_ADDRESS_SANITIZER)
-#define COUNTED(draws) (WITH_ADDRESS_SANITIZER ? ((draws) + 9) / 10 : (draws))
+#define DRAW_COUNT(draws) (WITH_ADDRESS_SANITIZER ? ((draws) + 9) / 10 : (draws))
 
 #endif

@@ -19,11 +19,11 @@ typedef struct nanoscope_writer_file {
     bool volume; /* a force volume or a capture, with several curves */
     size_t side; /* number of curves in a line, and of lines */
     size_t n_in, n_hold, n_out;
-    size_t half;    /* reserved samples of each direction of a stopped ramp; 0: none missing */
-    double padding; /* value after the samples of a stopped ramp [V] */
-    unsigned width; /* bytes per sample: 2, 4 */
-    bool scaled;    /* counts times 256 */
-    size_t missing_bytes;                           /* bytes missing at the end */
+    size_t half;          /* reserved samples of each direction of a stopped ramp; 0: none */
+    double padding;       /* value after the samples of a stopped ramp [V] */
+    unsigned width;       /* bytes per sample: 2, 4 */
+    bool scaled;          /* counts times 256 */
+    size_t missing_bytes; /* bytes missing at the end */
     double ramp_volts, z_sensitivity;               /* [V], [nm/V] */
     double deflection_sensitivity, spring_constant; /* [nm/V], [N/m]; 0: omitted */
     double trigger;                                 /* [V]; 0: none */
