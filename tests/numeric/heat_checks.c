@@ -381,7 +381,7 @@ int main(int argc, char **argv)
         const scene s = draw(slow);
         answer warm, cold;
         if (!solve(&s, true, &warm))
-            continue; /* Uses damped steps; convergence of the library is reported separately. */
+            continue; /* without a reference the library is not tested */
         (void)solve(&s, false, &cold);
         settled++;
         matter += fabs(warm.hysteresis / cold.hysteresis - 1) > 0.05 &&

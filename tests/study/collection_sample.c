@@ -282,7 +282,7 @@ static bool has_running_in(const growth_truth *growth, int step)
     return step == 0 && growth->settled > 0;
 }
 
-/* Coefficient of a step. */
+/* Number of laps of a step. */
 static int lap_count(const growth_truth *growth, int step)
 {
     const double laps = settled_times * growth->settled / lap_time(REFERENCE);

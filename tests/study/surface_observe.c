@@ -28,7 +28,7 @@ static synthetic_surface surface_of(const surface_scene *s, random_source *rando
 {
     const double roll_off = s->roll_off > 0 ? s->roll_off : 6e5,
                  hurst = s->hurst > 0 ? s->hurst : 0.8;
-    /* in all scenes equal at the usual roll-off */
+    /* The power law is the same for every roll-off. */
     const double c0 = 1e-25 * pow(roll_off / 6e5, -2 * (1 + hurst));
     return (synthetic_surface){.n = 256,
                                .length = length,
