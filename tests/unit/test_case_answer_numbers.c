@@ -1,4 +1,4 @@
-/* Numbers in the sentences of an answer: unit, digits, errors, signs.
+/* Numbers in the sentences of a result: unit, digits, errors, signs.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 
@@ -64,7 +64,7 @@ static void test_errors(void **state)
     }
 }
 
-/* Two ends that three digits print alike are told apart, and others keep those. */
+/* Two limits that print alike with three digits get more digits; others keep three. */
 static void test_ends(void **state)
 {
     (void)state;
@@ -74,7 +74,7 @@ static void test_ends(void **state)
     assert_string_equal(format_range(2, 2, 3).text, "2 to 2");
 }
 
-/* Further apart than the factor, to either side. */
+/* Differs by more than the factor, in either direction. */
 static void test_other_rubber(void **state)
 {
     (void)state;

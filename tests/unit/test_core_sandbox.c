@@ -1,5 +1,6 @@
-/* The process behind a door can read and answer: every other call that a made file could have it do
- * is stopped before it is done, and named. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A process in the sandbox can read and answer. Every other system call of a malicious file is
+ * stopped before its execution and named.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 
 #include "core/base/memory.h"
@@ -161,8 +162,8 @@ static long takes_another_filter(void)
     return syscall(SYS_seccomp, SECCOMP_SET_MODE_STRICT, 0, NULL);
 }
 
-/* Each with its name in the message, of one of the ways in which a C library does it; it holds back
- * all signals while it makes a process. */
+/* Each call has its name in the message, in one of the variants of C libraries. The library blocks
+ * all signals while it creates a process. */
 static const struct {
     long (*deed)(void);
     const char *calls[3];
@@ -199,7 +200,7 @@ static wt_status does(const sandbox_call *door, FILE *answer, wt_error *err)
     return WT_OK;
 }
 
-/* A door with a file that may be written, as a mistake might leave it. */
+/* A sandbox with a writable file, as an error might leave it. */
 static sandbox_call door_to(wt_status (*reading)(const sandbox_call *, FILE *, wt_error *),
                             const void *with, int file)
 {
@@ -270,7 +271,7 @@ static wt_status ends_itself(const sandbox_call *door, FILE *answer, wt_error *e
     abort();
 }
 
-/* As the scanner of UDUNITS does where it gets no memory. */
+/* Like the scanner of UDUNITS when an allocation fails. */
 static wt_status exits(const sandbox_call *door, FILE *answer, wt_error *err)
 {
     (void)door;
@@ -279,7 +280,7 @@ static wt_status exits(const sandbox_call *door, FILE *answer, wt_error *err)
     _exit(2);
 }
 
-/* A unit is taken for an unknown one for want of memory, and reading goes on without it. */
+/* For lack of memory a unit is treated as unknown, and the reading continues without it. */
 static wt_status goes_without(const sandbox_call *door, FILE *answer, wt_error *err)
 {
     (void)door;
@@ -289,7 +290,7 @@ static wt_status goes_without(const sandbox_call *door, FILE *answer, wt_error *
     return WT_OK;
 }
 
-/* The file is not to blame, and nothing of it is left out in silence. */
+/* The error is not of the file, and no part of it is silently omitted. */
 static void memory_runs_out(void **state)
 {
     (void)state;
@@ -326,7 +327,7 @@ static void reading_goes_on(void **state)
 
 /* ---- systems that do not let it -------------------------------------------------------------- */
 
-/* As a container does that refuses filters: errno of every try is EPERM. */
+/* Like a container that refuses filters: errno of every attempt is EPERM. */
 static bool refuse_filters(void)
 {
     struct sock_filter steps[] = {
@@ -343,7 +344,7 @@ static bool refuse_filters(void)
            prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-/* Runs it in a process of its own, which it changes; 0 if it held there. */
+/* Runs in its own process, which it changes; returns 0 on success there. */
 static int apart(bool (*holds)(int file))
 {
     int state = -1;
@@ -365,7 +366,8 @@ static bool without_filter(int file)
            strstr(wt_sandbox_limitations(), "seccomp") != NULL;
 }
 
-/* Either it is read or it is said that too few files may be open: never that the file is bad. */
+/* The file is read, or the message states that too few files may be open; never that the file is
+ * corrupted. */
 static bool with_few_files(int file)
 {
     bool good = true, read_once = false, refused_once = false;

@@ -1,5 +1,5 @@
-/* The HDF5 store: round trip, same bytes, damaged files. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* The HDF5 store: round trip, same bytes, corrupted files.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 #include "weartrack/core.h"
 
@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* HDF5 1.10 loses an object header when it gives up on a damaged file. */
+/* HDF5 1.10 leaks an object header when it rejects a corrupted file. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {
@@ -76,7 +76,7 @@ static wt_result *make_result(void)
     return result;
 }
 
-/* The text stream of a table says all there is in it. */
+/* The text stream contains everything in a table. */
 static char *text_of(const wt_table *t)
 {
     char *text = NULL;
@@ -126,7 +126,7 @@ static void write_bytes(const char *path, const unsigned char *bytes, size_t siz
     assert_int_equal(fclose(out), 0);
 }
 
-/* A block that was begun last and got no row is not in the file, nor in its digest. */
+/* A block without a row at the end is neither in the file nor in its digest. */
 static void block_without_rows(void **state)
 {
     (void)state;
@@ -151,7 +151,7 @@ static void block_without_rows(void **state)
     wt_result_free(result);
 }
 
-/* Of the first layout, which had one digest of all tables, as text: refused, with a way out. */
+/* Files of the first layout had one digest of all tables as text: refused, with advice. */
 static void first_layout(void **state)
 {
     (void)state;
@@ -167,7 +167,7 @@ static void first_layout(void **state)
     free(bytes);
 }
 
-/* Where the file ends for HDF5, as it says itself; behind that its abstract follows. */
+/* End of the file as stated by HDF5; the summary follows it. */
 static size_t end_of_hdf5(const unsigned char *bytes, size_t size)
 {
     uint64_t end = 0;
@@ -179,7 +179,7 @@ static size_t end_of_hdf5(const unsigned char *bytes, size_t size)
     return (size_t)end;
 }
 
-/* Where the abstract begins, as it says itself, too. */
+/* Start of the summary, as it states itself. */
 static size_t begin_of_abstract(const unsigned char *bytes, size_t size)
 {
     uint64_t length = 0;
@@ -188,7 +188,7 @@ static size_t begin_of_abstract(const unsigned char *bytes, size_t size)
     return size - 16 - (size_t)length;
 }
 
-/* What headlines are made of is read alone, and checked, by HDF5 where the abstract is cut off. */
+/* The main values are read alone and verified, by HDF5 if the summary is missing. */
 static void headlines(void **state)
 {
     (void)state;
@@ -274,8 +274,8 @@ static void same_bytes(void **state)
     free(b);
 }
 
-/* The length that the file says of itself (HDF5 File Format Specification, superblock version 2:
- * bytes 28 to 35) is its length. */
+/* The stated length of the file (HDF5 File Format Specification, superblock version 2: bytes 28 to
+ * 35) is its length. */
 static void length_is_right(void **state)
 {
     (void)state;
@@ -312,7 +312,7 @@ static void empty_result(void **state)
     wt_result_free(result);
 }
 
-/* What other programs see: SI units and words on every column. */
+/* Other programs see SI units and texts on every column. */
 static void as_others_see_it(void **state)
 {
     (void)state;
@@ -385,7 +385,7 @@ static void cut_files(void **state)
         assert_int_not_equal(wt_store_read(cut_path, &read, NULL), WT_OK);
         assert_null(read);
     }
-    /* Without all of its abstract it says what it said. */
+    /* Without its complete summary the file has the same tables. */
     for (size_t cut = end; cut <= size; cut += (size - end) / 8) {
         write_bytes(cut_path, bytes, cut);
         wt_result *read = NULL;
@@ -397,7 +397,7 @@ static void cut_files(void **state)
     wt_result_free(result);
 }
 
-/* A flipped bit may go unnoticed only where it changes nothing. */
+/* A flipped bit may be undetected only if it changes nothing. */
 static void flipped_values(void **state)
 {
     (void)state;
@@ -433,7 +433,7 @@ static void flipped_values(void **state)
     wt_result_free(result);
 }
 
-/* A link that leads to another file is not followed. */
+/* A link to another file is not followed. */
 static void outside_links(void **state)
 {
     (void)state;
@@ -475,7 +475,7 @@ static void odd_block(void **state)
     wt_result_free(result);
 }
 
-/* Replaces the column "modulus" of the one table by something else. */
+/* Replaces the column "modulus" of the table. */
 static void replace_column(const char *path, const wt_result *result, hid_t type, hsize_t n,
                            bool chunked)
 {
@@ -525,7 +525,7 @@ static void cannot_write(void **state)
     assert_string_equal(err.file, path);
     if (access("/dev/full", W_OK) == 0)
         assert_int_equal(wt_store_write("/dev/full", result, false, &err), WT_E_IO);
-    /* As on a full disk. */
+    /* Like a full disk. */
     struct rlimit before, small;
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
     small = before;
@@ -575,7 +575,7 @@ static int remove_folder(void **state)
     for (size_t i = 0; i < n; i++)
         (void)unlink(paths[i]);
     wt_strings_free(paths, n);
-    return rmdir(folder); /* fails if a temporary file was left */
+    return rmdir(folder); /* fails if a temporary file is left */
 }
 
 int main(void)

@@ -1,5 +1,5 @@
-/* One bad isotherm among sound ones: it is left out and named, the others have the true shifts, and
- * the reference temperature moves the shifts only.
+/* One bad isotherm in a sound sweep: it is excluded and named, the others have the true shifts, and
+ * the reference temperature only moves the shifts.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 #include "weartrack/dma.h"
@@ -35,7 +35,7 @@ static void check_shifts(const wt_master *m, size_t bad, double tolerance)
     }
 }
 
-/* Returns the number of losses that name the isotherm and the cause. */
+/* Returns the number of exclusions that name the isotherm and the cause. */
 static size_t named(const wt_log *log, const char *temperature, const char *cause)
 {
     size_t n = 0;
@@ -55,7 +55,7 @@ static size_t count_losses(const wt_log *log)
     return n;
 }
 
-/* The index of the isotherm is that of a sorted sweep. */
+/* Index of the isotherm in the sorted sweep. */
 static void check_left_out(wt_sweep *sweep, size_t index, const char *temperature,
                            const char *cause, bool is_determined)
 {
@@ -126,7 +126,7 @@ static void sound_isotherms_are_all_used(void **state)
     }
 }
 
-/* The largest change of a difference of log aT between two references. */
+/* Largest change of a difference of log aT between two references. */
 static double reference_spread(const wt_sweep *sweep, double one, double other)
 {
     wt_master a = fit(sweep, one, NULL), b = fit(sweep, other, NULL);
@@ -150,8 +150,8 @@ static double reference_spread(const wt_sweep *sweep, double one, double other)
     return high - low;
 }
 
-/* Sound isotherms, and ones that one spectrum does not describe: E'' of the warm half is wrong, so
- * that the overlaps decide. */
+/* Sound isotherms, and isotherms that one spectrum does not describe: E'' of the warm half is
+ * wrong, so that the overlaps decide. */
 static void the_reference_only_moves_the_shifts(void **state)
 {
     (void)state;

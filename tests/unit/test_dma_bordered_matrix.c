@@ -1,4 +1,4 @@
-/* Equations of blocks and a border against the same ones as a whole.
+/* Block equations with a border against the solution of the full matrix.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 
@@ -31,7 +31,7 @@ static void make_whole(struct whole *w, size_t n)
     w->scratch = arena_matrix(&w->memory, n, n);
 }
 
-/* A positive matrix of this form: rows that each touch the border and one block. */
+/* A positive definite matrix of this form: each row touches the border and one block. */
 static void fill(bordered_matrix *b, struct whole *w, uint64_t seed)
 {
     uint64_t state = seed;
@@ -44,7 +44,7 @@ static void fill(bordered_matrix *b, struct whole *w, uint64_t seed)
             for (size_t j = 0; j < m; j++)
                 row[j] = draw(&state);
             row[at] = draw(&state);
-            row[at + 1] = i == 4 ? 0.0 : draw(&state); /* that one is not there */
+            row[at + 1] = i == 4 ? 0.0 : draw(&state); /* that one does not exist */
             for (size_t u = 0; u < w->matrix->size1; u++)
                 for (size_t v = 0; v < w->matrix->size1; v++)
                     *gsl_matrix_ptr(w->matrix, u, v) += row[u] * row[v];
@@ -82,7 +82,7 @@ static void check_inverse(const bordered_matrix *inverse, const gsl_matrix *of)
     }
 }
 
-/* With a border that fills its room and one that does not. */
+/* With a full border and with a partial one. */
 static void test_as_whole(void **state)
 {
     (void)state;

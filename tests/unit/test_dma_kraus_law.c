@@ -1,5 +1,5 @@
-/* Strain sweeps: intervals of the law of Kraus that hold the truth, nothing that is not reached,
- * the numbers of the reference table.
+/* Strain sweeps: coverage of the intervals of the law of Kraus, limits that are not reached, the
+ * numbers of the reference table.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 #include "draw_count.h"
@@ -14,7 +14,7 @@
 
 enum { DRAWS = DRAW_COUNT(200), MOST = 64 };
 
-/* The truth, written down apart from the library: decades of strain about the half of the fall. */
+/* True law, independent of the library: decades of strain about the half of the fall. */
 typedef struct filled {
     double soft, fall, half, exponent, dissipated, rest; /* MPa; half in percent */
 } filled;
@@ -50,7 +50,7 @@ static wt_payne measured(const filled *r, size_t n, double low, double high, dou
         loss[i] = 1e6 * (loss_of(r, percent) + noise * r->dissipated * dma_normal(state));
     }
     assert_int_equal(wt_payne_fit(strain, storage, loss, n, &payne, NULL), WT_OK);
-    wt_payne alone; /* E' is told as it is without E'' */
+    wt_payne alone; /* E' gives the same result without E'' */
     assert_int_equal(wt_payne_fit(strain, storage, NULL, n, &alone, NULL), WT_OK);
     assert_memory_equal(&alone.storage_0, &payne.storage_0, sizeof alone.storage_0);
     assert_memory_equal(&alone.exponent, &payne.exponent, sizeof alone.exponent);
@@ -58,7 +58,7 @@ static wt_payne measured(const filled *r, size_t n, double low, double high, dou
     return payne;
 }
 
-/* An end that the points do not bound is open. */
+/* A limit that the points do not bound is open. */
 static bool holds(const wt_interval *i, double truth)
 {
     return !(truth < i->low) && !(truth > i->high);

@@ -1,5 +1,6 @@
-/* One spectrum behind all isotherms: intervals that hold the truth, far starts, outliers, which
- * law, verdicts, draws. The material is not that of the fit: a sum of two Cole-Cole processes.
+/* One spectrum for all isotherms: coverage of the intervals, distant starting points, outliers,
+ * choice of the law, verdicts, draws. The material, a sum of two Cole-Cole processes, is not that
+ * of the fit.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 #include "dma/numerics/shift_law.h"
@@ -18,7 +19,7 @@ typedef struct material {
     wt_shift_law law[2];
 } material;
 
-/* A transition, and a broad slow process that the plateau has. */
+/* A transition, and a broad slow process on the plateau. */
 static material usual(void)
 {
     const wt_shift_law law = {.kind = WT_LAW_WLF, .wlf = {293.15, 8.2, 110}};
@@ -48,7 +49,7 @@ typedef struct scene {
     double noise, temperature_error;
     uint64_t seed;
     double clamping; /* error of the level of an isotherm */
-    double ends;     /* noise at the ends of an isotherm over that in the middle, less 1 */
+    double ends;     /* noise ratio of the ends and the middle of an isotherm, minus 1 */
 } scene;
 
 /* 13 points over three decades; b follows rho T with reference 293.15 K. */
@@ -111,7 +112,7 @@ static void count(tally *t, wt_interval interval, double truth)
     t->n++;
 }
 
-/* Of 95 %: the bounds are for correlated numbers of few draws. */
+/* Coverage of 95 %; the bounds allow for correlated numbers of few draws. */
 static void check(const tally *t, const char *what)
 {
     const double share = (double)t->inside / (double)t->n;
@@ -119,7 +120,7 @@ static void check(const tally *t, const char *what)
     assert_true(share > 0.88);
 }
 
-/* The slope of a WLF law at its reference is -C1/C2, and its error that of the two together. */
+/* The slope of a WLF law at its reference is -C1/C2; its error is that of both together. */
 static void check_slope(const wt_master *m)
 {
     const double a = m->c1.standard_error / m->c1.value, b = m->c2.standard_error / m->c2.value;
@@ -158,7 +159,7 @@ static void intervals_hold_the_truth(void **state)
         }
         wt_master_clear(&m);
     }
-    for (uint64_t seed = 1; seed <= DRAW_COUNT(12); seed++) { /* with the temperatures known */
+    for (uint64_t seed = 1; seed <= DRAW_COUNT(12); seed++) { /* with known temperatures */
         const scene s = {usual(), 243.15, 333.15, 10, 0.01, 0, seed, 0, 0};
         wt_master m = fit_scene(&s);
         for (size_t i = 0; i < m.n_shifts; i++)
@@ -178,8 +179,8 @@ static void intervals_hold_the_truth(void **state)
     assert_true(width / widths < 0.02);
 }
 
-/* With free vertical shifts too the reference was clamped as the others were: what is stated is of
- * the material. */
+/* With free vertical shifts the reference was clamped like the others: the results are of the
+ * material. */
 static void the_reference_is_clamped_too(void **state)
 {
     (void)state;
@@ -212,7 +213,7 @@ static void the_reference_is_clamped_too(void **state)
     assert_true(width[0] < 0.01 && width[1] > 0.015 && width[1] < 0.04);
 }
 
-/* A melt: how its spectrum goes on is not measured, so only a limit is. */
+/* A melt: the continuation of its spectrum is not measured, so that there is only a limit. */
 static void a_liquid_has_an_upper_limit(void **state)
 {
     (void)state;
@@ -228,7 +229,7 @@ static void a_liquid_has_an_upper_limit(void **state)
 
 /* ---- starts, outliers ------------------------------------------------------------------------ */
 
-/* Shifts of more than 30 decades in all. */
+/* Shifts of more than 30 decades in total. */
 static void far_shifts_are_found(void **state)
 {
     (void)state;
@@ -281,7 +282,7 @@ static void an_isotherm_of_another_temperature_is_named(void **state)
     const scene s = {usual(), 243.15, 333.15, 10, 0.01, 0, 17, 0, 0};
     wt_sweep sweep = {0};
     measure(&s, &sweep);
-    sweep.isotherms[7].temperature += 6; /* it was 6 K colder than it says */
+    sweep.isotherms[7].temperature += 6; /* it was 6 K colder than stated */
     wt_master m = fit(&sweep);
     assert_non_null(strstr(m.shifts[7].note, "off the law"));
     assert_non_null(strstr(m.shifts[7].note, "as if -"));
@@ -292,8 +293,8 @@ static void an_isotherm_of_another_temperature_is_named(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* The law that the others tell holds it, too, so that its error is two to three times theirs and
- * not eight times; of one draw the ratio is anything from 1.6 to 5. */
+/* The law from the other isotherms constrains it, too, so that its error is two to three times
+ * theirs and not eight times. For one draw the ratio lies between 1.6 and 5. */
 static void an_isotherm_with_more_noise_weighs_less(void **state)
 {
     (void)state;
@@ -367,7 +368,7 @@ static void three_isotherms_tell_no_law_beyond_them(void **state)
     wt_master_clear(&m);
 }
 
-/* Shifts of N isotherms with their variances to the law that is chosen. */
+/* Fits the chosen law to shifts of N isotherms with their variances. */
 enum { FEW = 8 };
 static wt_status choose(size_t n, const double *temperature, const double *variance, double *log_a,
                         law_shape *chosen)
@@ -382,8 +383,8 @@ static wt_status choose(size_t n, const double *temperature, const double *varia
     return law_select(&data, 293.15, &r.matrix, chosen, &err);
 }
 
-/* Two isotherms known so well that they alone decide, and they rise with temperature; only if
- * temperatures are not believed does a law fall. It made the search go on with no law at all. */
+/* Two isotherms with so small errors that they alone decide, and they rise with temperature. A law
+ * only falls with an error of the temperatures. It made the search continue without a law. */
 static void shifts_that_rise_have_no_law(void **state)
 {
     (void)state;
@@ -394,8 +395,8 @@ static void shifts_that_rise_have_no_law(void **state)
     assert_int_equal(choose(5, temperature, variance, log_a, &chosen), WT_E_RANGE);
 }
 
-/* Shifts that bend the other way than WLF: its pole would be at the end of the world, known to many
- * powers of ten, and its draws nowhere. */
+/* Shifts with the curvature opposite to WLF: the pole would be at infinity with a huge error, and
+ * the draws without a limit. */
 static void shifts_without_a_pole_are_not_wlf(void **state)
 {
     (void)state;
@@ -425,8 +426,8 @@ static double true_density(const material *m, double log_tau)
     return log10(sum);
 }
 
-/* Its band holds the truth as often as it says, within the measured frequencies, and is not much
- * wider than that needs. */
+/* The stated band covers the truth within the measured frequencies, and is not much wider than
+ * necessary. */
 static void the_spectrum_and_its_band(void **state)
 {
     (void)state;
@@ -466,7 +467,7 @@ static void the_spectrum_and_its_band(void **state)
 
 /* ---- verdicts -------------------------------------------------------------------------------- */
 
-/* A bound in words is not below the number, nor more than the last digit above it. */
+/* A bound in a sentence is not below the number, and at most the last digit above it. */
 static void check_bound(const wt_master *m)
 {
     static const char before[] = "misfit below ";
@@ -488,7 +489,7 @@ static void superposition_is_judged(void **state)
     check_bound(&m);
     wt_master_clear(&m);
 
-    s.material.law[1].wlf.c1 = 2.5; /* a second process goes another way */
+    s.material.law[1].wlf.c1 = 2.5; /* a second process has another shift law */
     s.material.processes[1].strength = 2e7;
     m = fit_scene(&s);
     assert_int_equal(m.superposition, WT_SUPERPOSITION_FAILS);
@@ -504,7 +505,7 @@ static void superposition_is_judged(void **state)
     assert_int_equal(m.superposition, WT_SUPERPOSITION_FAILS);
     assert_non_null(strstr(m.superposition_reason, "Kramers-Kronig"));
     assert_non_null(
-        strstr(m.superposition_reason, "E'' deviates by +")); /* too high, and said to be */
+        strstr(m.superposition_reason, "E'' deviates by +")); /* too high, with a stated error */
     wt_master_clear(&m);
     wt_sweep_clear(&sweep);
 
@@ -515,8 +516,9 @@ static void superposition_is_judged(void **state)
     wt_master_clear(&m);
 }
 
-/* E' and E'' exchanged: no spectrum has such moduli. The fits end at an optimum, and the errors of
- * the shifts are those of the material, not of the noise of a draw; they hold the truth. */
+/* E' and E'' exchanged: no spectrum has such moduli. The fits converge, and the errors of the
+ * shifts are those of the material, not of the noise of a draw; their intervals contain the
+ * truth. */
 static void errors_after_fails_are_no_chance(void **state)
 {
     (void)state;
@@ -572,8 +574,8 @@ static size_t verdicts(double second_c1, wt_superposition verdict)
     return n;
 }
 
-/* What a second process bends an isotherm by is no correlated noise; one with nearly the same law
- * is little in each isotherm, and seen where slow times part from fast ones. */
+/* The slope change by a second process is not correlated noise. With nearly the same law it is
+ * small in each isotherm, and visible where slow and fast times separate. */
 static void a_second_process_is_seen(void **state)
 {
     (void)state;
@@ -582,7 +584,7 @@ static void a_second_process_is_seen(void **state)
     assert_true(verdicts(8.2, WT_SUPERPOSITION_HOLDS) >= 4);
 }
 
-/* Noise that grows towards the ends of all isotherms looks like a misfit there. */
+/* Noise that increases towards the ends of all isotherms looks like a lack of fit there. */
 static void louder_ends_are_no_misfit(void **state)
 {
     (void)state;
@@ -633,8 +635,8 @@ static void draws_scatter_as_the_intervals_say(void **state)
     assert_near(spread[0], storage.standard_error, 0.2);
     assert_near_abs(sum[1], law.value, 4 * law.standard_error / sqrt(DRAWS));
     assert_near(spread[1], law.standard_error, 0.2);
-    /* the same again, and others with another seed, also where the part of the mixture is the same
-     */
+    /* the same again, and others with another seed, also where the part of the mixture is the
+     * same */
     for (size_t i = 0; i < 2 * AGAIN; i++) {
         wt_prony p = {0};
         wt_shift_law drawn;
@@ -651,8 +653,8 @@ static void draws_scatter_as_the_intervals_say(void **state)
     wt_master_clear(&m);
 }
 
-/* The isotherm in the middle is one of a glass, flat in both moduli: onto it no shift is known.
- * Unless it was asked for, one of the transition takes its place. */
+/* The middle isotherm is glassy, flat in both moduli, so that no shift onto it is known. Unless it
+ * was requested, one of the transition replaces it. */
 static void a_flat_middle_is_no_reference(void **state)
 {
     (void)state;
@@ -675,7 +677,7 @@ static void a_flat_middle_is_no_reference(void **state)
         }
     }
     wt_sweep_sort(&sweep);
-    sweep.isotherms[0].loss_modulus[3] = -1; /* told of once, though there are two fits */
+    sweep.isotherms[0].loss_modulus[3] = -1; /* reported once, though there are two fits */
     assert_int_equal(wt_master_fit(&sweep, &options, log, &m, &err), WT_OK);
     assert_true(m.reference_temperature > 243);
     for (size_t i = 10; i < m.n_shifts; i++)
@@ -689,7 +691,7 @@ static void a_flat_middle_is_no_reference(void **state)
     assert_int_equal(left_out, 1);
     wt_master_clear(&m);
     options.reference_temperature = 228.15;
-    /* a stated reference may be flat: it only moves the shifts */
+    /* a stated reference may be flat, because it only moves the shifts */
     assert_int_equal(wt_master_fit(&sweep, &options, NULL, &m, &err), WT_OK);
     assert_near(m.reference_temperature, 228.15, 1e-9);
     wt_master_clear(&m);

@@ -1,4 +1,4 @@
-/* Few terms in place of a spectrum: what is asked for is kept, by moduli worked out here. The
+/* Reduction of a spectrum to few terms: the requested accuracy holds for moduli computed here. The
  * spectrum is that of two Cole-Cole processes in closed form. */
 #include "assert_near.h"
 
@@ -79,7 +79,7 @@ static wt_prony reduce(const wt_prony *from, unsigned terms, double error, doubl
     return to;
 }
 
-/* As close as is asked for, and not with one term less. */
+/* As accurate as requested, and with no term to spare. */
 static void as_close_as_asked(void **state)
 {
     (void)state;
@@ -106,7 +106,7 @@ static void as_close_as_asked(void **state)
         }
 }
 
-/* Lines are found again, and no more of them. */
+/* Spectral lines are recovered, and no others. */
 static void lines(void **state)
 {
     (void)state;
@@ -128,7 +128,7 @@ static void lines(void **state)
     wt_prony_clear(&few);
 }
 
-/* Given it is kept; without one a slow term stands for what there is. */
+/* A stated long-term modulus is kept; without one a slow term replaces it. */
 static void long_term(void **state)
 {
     (void)state;
@@ -143,7 +143,8 @@ static void long_term(void **state)
     assert_near(p.equilibrium_modulus, 1.9e6, 0);
     assert_true(furthest(&s.prony, &p, off) <= 0.02);
     wt_prony_clear(&p);
-    p = reduce(&s.prony, 5, 0.02, 1e7); /* above the modulus itself: said by the deviation */
+    /* above the modulus itself: the stated deviation shows it */
+    p = reduce(&s.prony, 5, 0.02, 1e7);
     assert_near(p.equilibrium_modulus, 1e7, 0);
     assert_true(furthest(&s.prony, &p, off) > 2);
     wt_prony_clear(&p);

@@ -1,4 +1,5 @@
-/* Sweeps of several samples: which there are, those of one, and files that may be two.
+/* Sweeps of several samples: their list, selection of one, and files of possibly different
+ * materials.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 
@@ -36,7 +37,7 @@ static void add_others(const char *ramp, const char *strain)
     s->sample = copy(strain);
 }
 
-/* Each once, in the order of people: 2 before 10. */
+/* Each once, in natural order: 2 before 10. */
 static void test_found(void **state)
 {
     (void)state;
@@ -78,7 +79,7 @@ static void test_taken(void **state)
     assert_string_equal(sweep.isotherms[0].sample, "NR");
 }
 
-/* A name that only strain sweeps or ramps have is there, too. */
+/* A name that only strain sweeps or ramps have is listed, too. */
 static void test_of_others(void **state)
 {
     (void)state;
@@ -104,13 +105,13 @@ static void test_one(void **state)
     assert_int_equal(flow_require_one_sample(&sweep, &set, 1, NULL, &err), WT_E_AMBIGUOUS);
     assert_string_equal(err.expected, "those of one");
     assert_int_equal(strncmp(err.found, "NR, compound 00, compound 01", 28), 0);
-    assert_string_equal(err.found + sizeof err.found - 4, "..."); /* cut, and says so */
+    assert_string_equal(err.found + sizeof err.found - 4, "..."); /* truncated, with a mark */
     set.read.sample = "NR";                                       /* was chosen */
     assert_int_equal(flow_require_one_sample(&sweep, &set, 1, NULL, &err), WT_OK);
     assert_int_equal(flow_require_one_sample(&sweep, NULL, 0, NULL, &err), WT_E_AMBIGUOUS);
 }
 
-/* Two files of one temperature, to half a kelvin, may be two materials: said once. */
+/* Two files at one temperature, within half a kelvin, may be two materials: one warning. */
 static void test_files(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* A material that was stored: its draws are those of the isotherms, bit for bit, and what cannot be
- * such draws is refused. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A stored material: its draws equal those of the isotherms bit for bit; invalid draws are refused.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
 #include "truth_fixture.h"
 
@@ -95,7 +95,7 @@ static void test_same(void **state)
     wt_result_free(stored);
 }
 
-/* As an older version wrote it: what is not known is not 0. */
+/* Table of an older version: unknown values are not 0. */
 static void test_without_draws(void **state)
 {
     (void)state;
