@@ -1,5 +1,5 @@
-/* WITH_ADDRESS_SANITIZER is 1 if the address sanitizer is in the program: it has allocations of its
- * own, and needs more memory. */
+/* WITH_ADDRESS_SANITIZER is 1 with the address sanitizer, which has its own allocations and needs
+ * more memory. */
 #ifndef WT_TESTS_ADDRESS_SANITIZER_H
 #define WT_TESTS_ADDRESS_SANITIZER_H
 

@@ -1,11 +1,11 @@
-/* Draws of which shares are counted. The address sanitizer sees in a tenth of them what it sees in
- * all; shares of so few are then not judged:
+/* Number of draws for a test of a rate. With the address sanitizer, which needs no more, a tenth of
+ * the draws run, and their rates are not tested:
  *
  *     enum { DRAWS = DRAW_COUNT(200) };
- *     ... the draws ...
+ *     ... draws ...
  *     if (!TEST_RATES)
  *         return;
- *     ... what must hold of the shares ...
+ *     ... tests of the rates ...
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_DRAW_COUNT_H
 #define WT_TESTS_DRAW_COUNT_H

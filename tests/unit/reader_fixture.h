@@ -1,7 +1,5 @@
-/* A file that a writer made, and what is read of it: what the tests of the readers share.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* A file of a writer and its reading, for the tests of the readers.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef TESTS_READER_FIXTURE_H
 #define TESTS_READER_FIXTURE_H
 
@@ -15,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* One set serves all tests of a program: making it parses every description. */
+/* One set serves all tests of a program, because its creation parses every description. */
 static wt_formats *formats;
 static char path[] = "/tmp/weartrack-made-XXXXXX";
 
@@ -102,7 +100,7 @@ static inline const double *channel(const wt_segment *segment, wt_quantity quant
     return c != NULL ? c->values : NULL;
 }
 
-/* The file cannot be read, and these words of message, expectation or finding say why. */
+/* Tests that the file cannot be read and that message, expectation or value contain the words. */
 static inline void assert_refused(wt_status expected, const char *words)
 {
     reading r;

@@ -1,5 +1,4 @@
-/* A folder of its own for each test that writes reports, and what is found there.
- *
+/* A separate folder for each test that writes reports, and functions that examine it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_REPORT_FOLDER_H
 #define WT_TESTS_REPORT_FOLDER_H
@@ -13,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Every test works in a folder of its own, so that nothing depends on another test. */
+/* Each test has its own folder, so that tests are independent. */
 static inline int create_work_folder(void **state)
 {
     char *folder = strdup("/tmp/weartrack-report-XXXXXX");
@@ -89,7 +88,7 @@ static inline size_t count_files(const char *path)
     return n;
 }
 
-/* Programs inherit this variable, by which they are found. */
+/* Programs inherit this variable, which identifies them. */
 #define PROGRAM_MARK "WEARTRACK_TEST_PROGRAM"
 
 static inline bool has_program_mark(const char *process)
@@ -123,7 +122,8 @@ static inline void mark_programs(void)
     assert_int_equal(setenv(PROGRAM_MARK, number, 1), 0);
 }
 
-/* Whether every program and what it started ends within five seconds: a kill takes a moment. */
+/* Returns true if every program and its children end within five seconds, because a kill takes a
+ * moment. */
 static inline bool all_programs_end(void)
 {
     for (int i = 0; i < 500 && find_program() != 0; i++)

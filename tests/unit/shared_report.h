@@ -1,5 +1,4 @@
-/* One report of everything, for the tests that only look at it.
- *
+/* One complete report for tests that only read it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_SHARED_REPORT_H
 #define WT_TESTS_SHARED_REPORT_H
@@ -7,11 +6,11 @@
 #include "report_fixture.h"
 #include "report_folder.h"
 
-enum { MOST = 64 }; /* sections of the data of one figure */
+enum { MOST = 64 }; /* sections in the data of one figure */
 
 static char place[] = "/tmp/weartrack-drawn-XXXXXX";
 static wt_result *everything;
-static bool drawn; /* as "out" in the place, if gnuplot is there */
+static bool drawn; /* written to "out", if gnuplot is installed */
 
 static inline int create_shared_report(void **state)
 {

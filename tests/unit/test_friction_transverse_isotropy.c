@@ -1,5 +1,5 @@
-/* Directions of a material: the trends that the source draws (figures 3.3 and 3.4), on the bundled
- * case. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Transverse isotropy: the trends of the source (figures 3.3 and 3.4), on the bundled case.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sliding_fixture.h"
 #include "table_cells.h"
 
@@ -40,7 +40,8 @@ static double at(const wt_table *table, const char *factors, size_t i, const cha
     return 0;
 }
 
-/* More loss along the normal: more friction. More storage: less contact, and that most. */
+/* More loss along the normal: more friction. More storage: less contact area, the largest
+ * effect. */
 static void test_trends(void **state)
 {
     (void)state;
@@ -58,7 +59,7 @@ static void test_trends(void **state)
     }
 }
 
-/* Both: the friction of the case. None: that of the rubber without directions. */
+/* Both: the friction of the case. None: that of the isotropic rubber. */
 static void test_ends(void **state)
 {
     (void)state;

@@ -1,8 +1,6 @@
-/* A sine on the baseline: fitted exactly where there is no noise, found in noise, not found where
- * there is none, and in the error.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* A sine on the baseline (optical interference): exact without noise, found in noise, not found
+ * where there is none, and part of the error.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "draw_count.h"
 #include "fitted_curve.h"
 
@@ -13,7 +11,7 @@ typedef struct sine {
     bool by_height;
 } sine;
 
-/* 1.2 um of baseline, and 250 nm in contact, of which a fifth bends the lever. */
+/* 1.2 um of baseline, and 250 nm in contact, of which a fifth bends the cantilever. */
 static curve_truth soft(void)
 {
     curve_truth t = curve_standard();
@@ -68,7 +66,7 @@ static void exact(void **state)
     }
 }
 
-/* What lies beyond the range of the fit is without the wave, too. */
+/* The part outside the fit range is corrected, too. */
 static void with_a_range(void **state)
 {
     (void)state;
@@ -94,7 +92,7 @@ static void with_a_range(void **state)
     }
 }
 
-/* Of a half and of three standard deviations of the noise, white and correlated. */
+/* Amplitudes of half and three standard deviations of the noise, white and correlated. */
 static void intervals_cover(void **state)
 {
     (void)state;
@@ -131,7 +129,7 @@ static void intervals_cover(void **state)
     }
 }
 
-/* Of baselines without a sine one in 1000 is said to have one; a bent one is bent. */
+/* One in 1000 baselines without a sine is said to have one; a curved one remains curved. */
 static void no_false_alarms(void **state)
 {
     (void)state;
@@ -175,8 +173,8 @@ static void add(wt_force_curve *curve, wt_segment_kind kind, const curve_truth *
     }
 }
 
-/* A pull-off makes a fit with adhesion be tried. Where that does not describe the curve, all that
- * is told is as if it had not been. */
+/* A pull-off causes a fit with adhesion. If that does not describe the curve, all results are as
+ * without it. */
 static void adhesion_tried_in_vain(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* A spot of a height image: surfaces written out here, whose roughness is known.
+/* A position in a height image: surfaces defined here, with known roughness.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth_fixture.h"
 
@@ -42,7 +42,7 @@ static surface random_surface(uint64_t *state)
     return s;
 }
 
-/* The waves are products of what the columns and the lines have. */
+/* The waves are products of column and line factors. */
 static void add_wave(const surface *s, int wave, const double *x, const double *y, size_t n,
                      double *z)
 {
@@ -120,9 +120,8 @@ static int end(void **state)
     return 0;
 }
 
-/* A wave that is short beside the contact has amplitude / sqrt(2) on any disc; the tilt is taken
- * off. For a cone the area goes with the square of the depth, so 10 % of it are 5 % of the depth.
- */
+/* A wave shorter than the contact has amplitude / sqrt(2) on any disc; the tilt is subtracted. The
+ * area of a cone is proportional to the squared depth, so that 10 % of it are 5 % of the depth. */
 static void test_roughness(void **state)
 {
     (void)state;
@@ -151,7 +150,7 @@ static void test_roughness(void **state)
     }
 }
 
-/* The slope of a plane, and what noise leaves of it. */
+/* Slope of a plane, and its error by noise. */
 static void test_tilt(void **state)
 {
     (void)state;
@@ -183,8 +182,7 @@ static void write_field(const char *path, const double *z)
     assert_int_equal(fclose(file), 0);
 }
 
-/* Heights that end beside the contact: within the error of the position nobody knows how rough it
- * is. */
+/* The image ends beside the contact: the roughness is unknown within the error of the position. */
 static void test_hole(void **state)
 {
     (void)state;
@@ -207,7 +205,7 @@ static void test_hole(void **state)
     }
 }
 
-/* What the lever did is in metres too, and no height: it must be asked for by name. */
+/* The deflection channel is in metres, too, but no height: it must be requested by name. */
 static void test_images_of_the_lever(void **state)
 {
     (void)state;
@@ -281,7 +279,7 @@ static void test_cannot_say(void **state)
     assert_null(none);
 }
 
-/* Every column of one spot. */
+/* Every column of one position. */
 static void test_columns(void **state)
 {
     (void)state;
@@ -315,7 +313,7 @@ static void test_columns(void **state)
     wt_table_free(t);
 }
 
-/* Discs far off the image, also further than whole numbers count. */
+/* Discs far outside the image, also beyond the range of integers. */
 static void test_far_off(void **state)
 {
     (void)state;

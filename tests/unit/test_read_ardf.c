@@ -1,7 +1,6 @@
-/* Force maps of Asylum Research: written by an independent writer, stopped, of two passes, damaged.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Force maps of Asylum Research by an independent writer: complete, stopped, with two passes,
+ * corrupted.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reader_fixture.h"
 #include "writers/ardf_writer.h"
 
@@ -30,8 +29,8 @@ static ardf_writer_file usual(void)
                               .note = "SpringConstant: 0.5\rInvOLS: 5e-08\r"};
 }
 
-/* The curves of the first pass, whatever the direction of the scan and with another pass between
- * its lines. */
+/* Curves of the first pass, for any direction of the scan and with another pass between its
+ * lines. */
 static void all_curves(void **state)
 {
     (void)state;
@@ -107,8 +106,8 @@ static void misunderstood(void **state)
     assert_refused(WT_E_CORRUPT, "a first sample for each segment");
 }
 
-/* A changed byte that is used is found by its check sum; with the sums mended no length or position
- * leads out of the file. */
+/* Checksums detect a changed byte that is used. With corrected checksums no length or position
+ * leads outside the file. */
 static void damaged(void **state)
 {
     (void)state;

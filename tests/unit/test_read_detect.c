@@ -1,8 +1,6 @@
-/* Input and detection: files, pipes and memory give the same bytes; the four answers of a detector;
- * ties; words for what is not known.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Input and detection: files, pipes and memory give the same bytes; the four results of a detector;
+ * ties; messages for unknown files.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 
 #include "read/formats.h"
@@ -19,7 +17,7 @@
 
 /* ---- input -------------------------------------------------------------------------------- */
 
-/* Standard input replaced by a pipe that holds `text`. */
+/* Replaces standard input with a pipe that contains `text`. */
 static int replace_stdin(const char *text, size_t n)
 {
     int ends[2], saved = dup(STDIN_FILENO);
@@ -37,8 +35,8 @@ static void restore_stdin(int saved)
     close(saved);
 }
 
-/* Of a large file a second input gives the same parts, also when its name has another one by then
- * and the first is closed; of a small one there is none. */
+/* A second input of a large file gives the same parts, also after the file was renamed and the
+ * first input closed; a small file has no second input. */
 static void file_beside(void **state)
 {
     (void)state;
@@ -99,7 +97,7 @@ static void pipe_file_and_memory(void **state)
     unlink(path);
 }
 
-/* Writes so many bytes into standard input from a process of its own. */
+/* Another process writes the bytes into standard input. */
 static pid_t feed_stdin(size_t n, int *saved)
 {
     int ends[2];
@@ -122,7 +120,7 @@ static pid_t feed_stdin(size_t n, int *saved)
     return child;
 }
 
-/* What could not be kept of a pipe is not taken for what comes behind it. */
+/* Discarded bytes of a pipe are not replaced with later ones. */
 static void a_pipe_that_cannot_be_kept(void **state)
 {
     (void)state;
@@ -183,7 +181,7 @@ static wt_status detect_text(const char *text, size_t n, unsigned kinds, const c
     return status;
 }
 
-/* What readers.def demands of each: complete, and not claiming what is nobody's. */
+/* Requirements of readers.def: each reader is complete and does not claim foreign bytes. */
 static void binary_readers_are_complete(void **state)
 {
     static const file_reader *const readers[] = {
@@ -223,7 +221,7 @@ static void unknown_files_are_described(void **state)
         const char *bytes;
         size_t n;
         const char *words, *advice;
-        wt_status status; /* unsupported: what may have been measured */
+        wt_status status; /* unsupported: possible measurements */
     } cases[] = {
         {"", 0, "an empty file", "export it again", WT_E_UNSUPPORTED},
         {"\211HDF\r\n\032\n\0", 9, "HDF5", "export it as text", WT_E_UNSUPPORTED},
@@ -255,16 +253,16 @@ static void nanosurf_answers(void **state)
     static const char good[] = "[DataSet]\r\nVersion=2\r\nGroupCount=1\r\n\r\n#!";
     assert_int_equal(detect_text(good, sizeof good - 1, 0, &id, &err), WT_OK);
     assert_string_equal(id, "nid");
-    /* The header alone: recognised, but not to be read. */
+    /* Only the header: detected, but not readable. */
     assert_int_equal(detect_text(good, sizeof good - 3, 0, &id, &err), WT_E_UNSUPPORTED);
     assert_non_null(strstr(err.message, "without its data"));
-    /* Recognised, but of another kind. */
+    /* Detected, but another kind of data. */
     assert_int_equal(detect_text(good, sizeof good - 1, WT_KIND_SWEEP, &id, &err), WT_E_EMPTY);
     assert_non_null(strstr(err.message, "DMA sweeps"));
     assert_non_null(strstr(err.found, "nid"));
 }
 
-/* A long header on a pipe: the detector asks for more until it has seen enough. */
+/* A long header on a pipe: the detector requests more until it suffices. */
 static void more_is_shown(void **state)
 {
     (void)state;
@@ -288,7 +286,7 @@ static void more_is_shown(void **state)
     free(text);
 }
 
-/* A description and its copy under another name know the same files equally well. */
+/* A description and its copy with another name match equally well. */
 static void ties_name_both(void **state)
 {
     (void)state;
@@ -325,7 +323,7 @@ static void ties_name_both(void **state)
     rmdir(folder);
 }
 
-/* A description that claims more of a file than its binary reader does is not even asked. */
+/* A description that claims more files than its binary reader is not used. */
 static void a_signature_comes_first(void **state)
 {
     (void)state;
@@ -379,7 +377,7 @@ static void chosen_format(void **state)
     assert_int_equal(wt_input_open_memory("text", 4, "test", &input, NULL), WT_OK);
     o.format = "no-such-format";
     assert_int_equal(wt_force_open(formats, input, &o, NULL, &source, &err), WT_E_NOT_FOUND);
-    o.format = "nid"; /* overrules detection; the reader then says what is wrong */
+    o.format = "nid"; /* overrides detection; the reader then reports the error */
     assert_int_equal(wt_force_open(formats, input, &o, NULL, &source, &err), WT_E_CORRUPT);
     o = wt_read_defaults();
     o.spring_constant = -1;

@@ -1,8 +1,6 @@
-/* Force curves from the facts of a reader: a reader made up here, whose channels hold 1, 2, 3, ...
- * so that each column shows its scaling.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Force curves from the metadata of a reader. The reader is defined here; its channels contain 1,
+ * 2, 3, ... so that each column shows its scaling.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 
 #include "core/table/registry.h"
@@ -18,7 +16,7 @@ typedef struct made_up {
     wt_force_source base;
     force_metadata facts;
     size_t n_curves;
-    wt_status status; /* of `next` after the segment was added */
+    wt_status status; /* result of `next` after the segment was added */
 } made_up;
 
 static wt_status next(wt_force_source *base, wt_force_curve *curve, wt_error *err)
@@ -67,7 +65,7 @@ static made_up make(wt_cantilever cantilever)
                      .n_curves = 1};
 }
 
-/* The numbers of a channel are `number` times as large in the unit of the quantity. */
+/* Values of a channel are `number` times the unit of the quantity. */
 static void add(made_up *m, wt_quantity quantity, double number, double offset, const char *channel)
 {
     force_add_signal(&m->facts, (force_signal){.quantity = quantity,
@@ -77,8 +75,8 @@ static void add(made_up *m, wt_quantity quantity, double number, double offset, 
                                                .channel = channel});
 }
 
-/* One channel of 0.1 V, which the file's calibration makes a deflection and a force; with offsets
- * that a calibration by values does not have. */
+/* One channel of 0.1 V, which the calibration of the file converts to deflection and force; it has
+ * offsets, unlike a stated calibration. */
 static void add_chain(made_up *m)
 {
     add(m, WT_Q_DEFLECTION_VOLTAGE, 0.1, 0.01, one);
@@ -133,7 +131,7 @@ static void as_the_file_says(void **state)
     assert_near(s->duration, 2, 0);
     assert_near(s->velocity, 1e-6, 0);
     assert_near(s->setpoint, 0.5 * 50e-9 * 0.3, 1e-14);
-    /* In one order, which is not that of the offers. */
+    /* In a fixed order, not that of the reader. */
     static const wt_quantity order[] = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_FORCE, WT_Q_DEFLECTION,
                                         WT_Q_DEFLECTION_VOLTAGE};
     assert_int_equal(m.facts.offers[0], WT_Q_FORCE);
@@ -150,20 +148,20 @@ static void as_the_file_says(void **state)
     assert_column(&curve, WT_Q_DEFLECTION, 5e-9, 1e-9);
     assert_column(&curve, WT_Q_DEFLECTION_VOLTAGE, 0.1, 0.01);
     assert_int_equal(wt_log_count(m.base.log), 0);
-    /* What comes first counts. */
+    /* The first one counts. */
     add(&m, WT_Q_HEIGHT, 2, 0, three);
     force_add_offer(&m.facts, WT_Q_HEIGHT);
     assert_int_equal(m.facts.n_offers, 5);
     assert_string_equal(force_find_signal(&m.facts, WT_Q_HEIGHT)->name, "two");
     assert_int_equal(m.facts.n_signals, 4);
-    /* A time of the file goes before one from the duration. */
+    /* A time channel precedes a time from the duration. */
     add(&m, WT_Q_TIME, 3, 0, two);
     assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
     assert_column(&curve, WT_Q_TIME, 3, 0);
     done(&m, &curve);
 }
 
-/* A factor beyond all sense: what it makes infinite is missing, and said once for all curves. */
+/* An extreme factor: infinite values are missing, with one warning for all curves. */
 static void infinite_samples(void **state)
 {
     made_up m = make(known);
@@ -189,7 +187,7 @@ static void infinite_samples(void **state)
     done(&m, &curve);
 }
 
-/* Only what is asked for and offered. */
+/* Only requested and available quantities. */
 static void as_asked_for(void **state)
 {
     made_up m = make(known);
@@ -205,7 +203,7 @@ static void as_asked_for(void **state)
     assert_column(&curve, WT_Q_FORCE, 1.5e-9, 2e-9);
     assert_true(force_is_segment_requested(&m.base, WT_SEGMENT_RETRACT));
     assert_false(force_is_segment_requested(&m.base, WT_SEGMENT_APPROACH));
-    /* Nothing to read is no segment, but its calibration counts. */
+    /* Nothing to read means no segment, but its calibration counts. */
     m.facts.n_points = 0;
     assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
     assert_int_equal(curve.n_segments, 0);
@@ -215,7 +213,7 @@ static void as_asked_for(void **state)
 
 /* ---- what the user says ------------------------------------------------------------------- */
 
-/* What is given replaces a link of the chain: what comes behind it is made of what comes before. */
+/* A stated value replaces a step of the conversion; later quantities follow from earlier ones. */
 static void given_to_a_chain(void **state)
 {
     (void)state;
@@ -245,7 +243,7 @@ static void given_to_a_chain(void **state)
     }
 }
 
-/* Columns that were exported apart are each made anew by what was given over what was. */
+/* Separately exported columns are each converted by stated over original calibration. */
 static void given_to_columns(void **state)
 {
     made_up m = make(known);
@@ -263,7 +261,7 @@ static void given_to_columns(void **state)
     assert_true(logged(&m, "the spring constant given, 0.6 N/m, takes the place of that of the "
                            "file, 0.3 N/m"));
     assert_true(logged(&m, "the deflection sensitivity given, 75 nm/V, takes the place of that"));
-    /* Where the file does not tell its own, it stays and that is said. */
+    /* If the file does not state its own calibration, the column stays, with a warning. */
     m.facts.cantilever = unknown;
     assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
     assert_column(&curve, WT_Q_FORCE, 0.3e-9, 0);
@@ -281,8 +279,8 @@ static void given_to_columns(void **state)
 
 /* ---- contradictions ----------------------------------------------------------------------- */
 
-/* Force and deflection that were stored apart mean a spring constant; heights go as far as one
- * another. Each is said once. */
+/* Separately stored force and deflection imply a spring constant; heights are as long as each
+ * other. Each has one warning. */
 static void contradictions(void **state)
 {
     static const struct {
@@ -332,7 +330,7 @@ static void contradictions(void **state)
 
 /* ---- what is missing ---------------------------------------------------------------------- */
 
-/* Of any one signal, what the calibration allows. */
+/* For a single signal, the quantities that the calibration permits. */
 static void from_one_signal(void **state)
 {
     static const wt_quantity chain[] = {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, WT_Q_FORCE};
@@ -383,7 +381,7 @@ static void missing_calibration(void **state)
         assert_string_equal(err.file, "made-up");
         assert_string_equal(err.place, "there");
         assert_int_equal(curve.n_segments, 0);
-        /* With everything it is left out with a warning of the same words. */
+        /* If everything is requested, it is omitted with a warning of the same text. */
         m.base.options.want = WT_Q_ALL;
         assert_int_equal(read_curve(&m, &curve, &err), WT_OK);
         assert_null(wt_segment_channel(&curve.segments[0], cases[i].wanted));
@@ -418,7 +416,7 @@ static void missing_channels(void **state)
     done(&m, &curve);
 }
 
-/* A segment that says nothing of its calibration does not take away that of those before it. */
+/* A segment without a calibration does not remove that of earlier segments. */
 static void calibration_of_the_curve(void **state)
 {
     made_up m = make(known);

@@ -1,7 +1,5 @@
-/* Igor binary waves of Asylum Research: written by an independent writer, and damaged.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Igor binary waves of Asylum Research by an independent writer, and corrupted ones.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reader_fixture.h"
 #include "writers/ibw_writer.h"
 
@@ -67,8 +65,8 @@ static void test_curve(void **state)
     }
 }
 
-/* A curve without Indexes, as extracted from a map, is split where the piezo turns:
- * the sample of the turn ends the approach. */
+/* A curve without Indexes, as extracted from a map, is split where the piezo turns; the approach
+ * includes the turning sample. */
 static void test_turning_point(void **state)
 {
     (void)state;
@@ -98,7 +96,7 @@ static void test_turning_point(void **state)
     }
 }
 
-/* The value at which the approach ends, in newtons, metres or volts. */
+/* Value at the end of the approach, in newtons, metres or volts. */
 static void test_trigger(void **state)
 {
     (void)state;
@@ -161,7 +159,7 @@ static void test_refused(void **state)
     close_all(&r);
 }
 
-/* Sizes that lie, and a file that is cut. */
+/* Wrong sizes, and a truncated file. */
 static void test_damaged(void **state)
 {
     (void)state;
@@ -183,7 +181,8 @@ static void test_damaged(void **state)
         assert_int_not_equal(open_bytes(bytes, length), WT_OK);
 }
 
-/* Bytes are lost in the samples or the note, and as many follow the labels: these are no names. */
+/* Bytes of the samples or the note are missing, and others follow the labels: these are not
+ * names. */
 static void test_shifted(void **state)
 {
     (void)state;
@@ -199,7 +198,7 @@ static void test_shifted(void **state)
     }
 }
 
-/* A wave of version 2 is named, one whose sizes do not add up is unknown. */
+/* A wave of version 2 is named; one with inconsistent sizes is unknown. */
 static void test_old(void **state)
 {
     (void)state;
@@ -216,7 +215,7 @@ static void test_old(void **state)
     }
 }
 
-/* A number of the note goes through the reader of header numbers. */
+/* The common parser of header numbers reads a number of the note. */
 static void test_contradictions(void **state)
 {
     (void)state;

@@ -1,8 +1,6 @@
-/* NanoScope force files from the independent writer, numbers chosen so that they read back exactly.
- * The measured files are compared in test_read_measured.c.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* NanoScope force files by the independent writer, with numbers that are read back exactly.
+ * test_read_measured.c compares the measured files.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reader_fixture.h"
 #include "writers/nanoscope_writer.h"
 
@@ -17,7 +15,7 @@ enum {
 static const double step = 0.000375, sensor_step = 0.0001;
 static double volts[MOST], sensor[MOST];
 
-/* Curve by curve, in the order of time: the end of the way in is 0.75 V above its beginning. */
+/* Curves in time order: the end of the approach is 0.75 V above its start. */
 static nanoscope_writer_file usual(size_t n_hold, bool volume)
 {
     static nanoscope_writer_channel channels[2];
@@ -116,7 +114,7 @@ static void curves(void **state)
             }
 }
 
-/* Sizes of a block are as large as a map needs. */
+/* Blocks as large as a map needs. */
 static void large(void **state)
 {
     (void)state;
@@ -135,7 +133,7 @@ static void large(void **state)
     close_all(&r);
 }
 
-/* The file is cut off: the curves before it are there. */
+/* Truncated: the curves before the end are read. */
 static void cut(void **state)
 {
     (void)state;
@@ -155,7 +153,7 @@ static void cut(void **state)
     close_all(&r);
 }
 
-/* The mark of the format and nothing behind it: known for what it is, and damaged. */
+/* Only the mark of the format: detected, and corrupted. */
 static void mark_alone(void **state)
 {
     (void)state;
@@ -169,7 +167,7 @@ static void mark_alone(void **state)
     }
 }
 
-/* A ramp that was stopped leaves room behind the samples of each way. */
+/* A stopped ramp leaves padding after the samples of each direction. */
 static void stopped_ramp(void **state)
 {
     (void)state;
@@ -199,7 +197,7 @@ static void stopped_ramp(void **state)
         close_all(&r);
         static unsigned char bytes[16384];
         const size_t n = read_bytes(bytes, sizeof bytes);
-        bytes[n - 4] ^= 1; /* the padding of the last way */
+        bytes[n - 4] ^= 1; /* padding of the last direction */
         assert_int_equal(open_bytes(bytes, n), WT_E_CORRUPT);
     }
 }
@@ -217,7 +215,7 @@ static void oddities(void **state)
     assert_true(isnan(channel(&r.curve.segments[0], WT_Q_FORCE)[2]));
     assert_true(has_logged(&r, "are missing: not measured"));
     close_all(&r);
-    /* Nor does it hide which way the sensor counts, nor what the deflection rises by. */
+    /* It does not affect the detected direction of the sensor or of the deflection. */
     f = usual(0, false);
     volts[IN - 1] = sensor[0] = (double)NAN;
     assert_int_equal(nanoscope_write(&f), 0);
@@ -227,7 +225,7 @@ static void oddities(void **state)
                     1e-20);
     assert_false(has_logged(&r, "the scale of the file is doubtful"));
     close_all(&r);
-    /* The mark of 16 bits is a number like any other in 32. */
+    /* The mark of 16 bits is an ordinary number in 32 bits. */
     f = usual(0, false);
     f.width = 4;
     volts[2] = -32768 * step;
@@ -236,14 +234,14 @@ static void oddities(void **state)
     next_curve(&r);
     assert_near(channel(&r.curve.segments[0], WT_Q_DEFLECTION_VOLTAGE)[2], volts[2], 1e-12);
     close_all(&r);
-    /* A trigger that the deflections contradict. */
+    /* A trigger that contradicts the deflections. */
     f = usual(0, false);
     f.trigger = 0.1;
     assert_int_equal(nanoscope_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
     assert_true(has_logged(&r, "the trigger was 0.1 V: the scale of the file is doubtful"));
     close_all(&r);
-    /* Not calibrated: what to give is said. */
+    /* Not calibrated: the message states the required options. */
     f = usual(0, false);
     f.spring_constant = f.deflection_sensitivity = 0;
     wt_read_options o = wt_read_defaults();
@@ -255,7 +253,7 @@ static void oddities(void **state)
     close_all(&r);
 }
 
-/* A period that is stored from anywhere is turned so that its farthest point lies in the middle. */
+/* A period with any stored start is rotated so that its farthest point is in the middle. */
 static void peakforce(void **state)
 {
     (void)state;
@@ -282,7 +280,7 @@ static void peakforce(void **state)
     close_all(&r);
 }
 
-/* Wherever a byte is changed or the file is cut, it is read or refused. */
+/* After a change of any byte or a truncation the file is read or refused. */
 static void damaged(void **state)
 {
     (void)state;
@@ -307,7 +305,8 @@ static void damaged(void **state)
     }
     for (size_t length = 0; length < n; length += 29)
         (void)open_bytes(bytes, length);
-    /* One channel of one curve beside one of nine: it would read on in the block of the other. */
+    /* One channel with one curve and another with nine: the first must not read into the block of
+     * the other. */
     f = usual(0, true);
     assert_int_equal(nanoscope_write(&f), 0);
     const size_t n_volume = read_bytes(bytes, sizeof bytes);
@@ -317,7 +316,7 @@ static void damaged(void **state)
     assert_int_equal(open_bytes(bytes, n_volume), WT_E_CORRUPT);
 }
 
-/* A number of the header is whole, or is named with its line. */
+/* A header number is complete, or named with its line. */
 static void contradictions(void **state)
 {
     (void)state;

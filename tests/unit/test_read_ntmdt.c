@@ -1,14 +1,11 @@
-/* Text exports of NT-MDT: rows by hand. The measured file is compared in test_read_measured.c.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Text exports of NT-MDT with rows written here. test_read_measured.c compares the measured file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reader_fixture.h"
 
 enum { ROWS = 12, IDLE = 3 };
 
-/* From the end of the ramp in the sample outwards; the first rows repeat the first that was
- * reached.
- */
+/* From the end of the ramp in the sample outwards; the first rows repeat the first reached
+ * position. */
 static void write_rows(size_t n, const char *end)
 {
     FILE *out = fopen(path, "wb");
@@ -50,7 +47,7 @@ static void curve(void **state)
     close_all(&r);
 }
 
-/* Any other numbers are not taken for it. */
+/* Other numbers are not detected as this format. */
 static void others(void **state)
 {
     (void)state;
@@ -62,7 +59,7 @@ static void others(void **state)
     assert_refused(WT_E_FORMAT, "not recognised");
     write_rows(5, "");
     assert_refused(WT_E_FORMAT, "not recognised");
-    write_rows(2000, "-0,1\t1,0\r\n"); /* behind what detection saw */
+    write_rows(2000, "-0,1\t1,0\r\n"); /* after the part that the detection reads */
     assert_refused(WT_E_CORRUPT, "no row of three numbers");
 }
 

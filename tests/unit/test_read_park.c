@@ -1,8 +1,6 @@
-/* TIFF files of Park Systems from the independent writer. The measured file is compared in
- * test_read_measured.c.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* TIFF files of Park Systems by the independent writer. test_read_measured.c compares the measured
+ * file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reader_fixture.h"
 #include "writers/park_writer.h"
 
@@ -15,7 +13,7 @@ static bool valid(size_t i)
     return i < HALF ? i < VALID_IN : i - HALF < VALID_OUT;
 }
 
-/* Numbers that floats hold exactly; behind the last one of each half it is repeated. */
+/* Numbers that floats represent exactly; the last one of each half is repeated. */
 static park_writer_file usual(void)
 {
     static const park_writer_channel channels[] = {{"Force", "nN", 2, force},
@@ -67,7 +65,7 @@ static void curves(void **state)
     }
 }
 
-/* Without a time nothing tells what was measured, and that is said. */
+/* Without a time the measured part is unknown, which is reported. */
 static void untimed(void **state)
 {
     (void)state;
@@ -110,7 +108,7 @@ static void damaged(void **state)
         assert_int_not_equal(open_bytes(bytes, length), WT_OK);
 }
 
-/* Bytes that are missing inside shift all behind them: the small picture at the end shows it. */
+/* Missing bytes move all later ones, which the small image at the end shows. */
 static void missing_inside(void **state)
 {
     (void)state;

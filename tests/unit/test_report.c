@@ -1,5 +1,4 @@
-/* The report room: the folder with its figures and its page.
- *
+/* The report: the folder with its figures and its page.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
 #include "report_folder.h"
@@ -149,7 +148,7 @@ static void test_page(void **state)
         "<td class=\"n\" data-label=\"Numerical error\">–</td>",
         "Modulus, bulk</th><td class=\"n\" data-label=\"Value\">7.99 MPa</td>",
         (">3.16 µm</td><td class=\"n\" data-label=\"Statistical error\">± 0.80 µm</td>"
-         "<td class=\"n\" data-label=\"Numerical error\">± "), /* and of rounding */
+         "<td class=\"n\" data-label=\"Numerical error\">± "), /* and the rounding error */
         "; 1.0 % from frequencies outside the measured ones</td>",
         "bulk: 12 curves, 0 wide, 0 doubtful, 1 rejected",
         "R^2 0.71 below 0.90 &lt;i&gt;",
@@ -208,7 +207,7 @@ static void set_floor(wt_table *table)
         fixture_key(table, "offset", 0, 1e-7, "1");
 }
 
-/* Order, units and digits of the columns, and the headline numbers. */
+/* Order, units and digits of the columns, and the main numbers. */
 static void test_tables_on_the_page(void **state)
 {
     (void)state;
@@ -261,7 +260,7 @@ static void test_tables_on_the_page(void **state)
     }
     assert_int_equal(count_words(page, "<caption>Main numbers at 300 mm/s</caption>"), 1);
     // Friction next to the decades of 1e-4 to 10 m/s.
-    /* an error that does not apply is no number */
+    /* an error that does not apply is not a number */
     assert_non_null(strstr(page, "<th scope=\"row\">Reference temperature</th>"
                                  "<td class=\"n\" data-label=\"Value\">20 °C</td>"
                                  "<td class=\"n\" data-label=\"95 % interval\">–</td>"));
@@ -280,14 +279,14 @@ static bool ran(const wt_table *cost, size_t row)
     return wt_table_number(cost, row, (size_t)wt_table_find(cost, "runs")) > 0;
 }
 
-/* Milliseconds, in the middle of the table two of some seconds. */
+/* Milliseconds, with two values of some seconds in the middle of the table. */
 static void set_times(wt_table *cost, size_t row)
 {
     fixture_put(cost, "wall_time", row == 3 || row == 4 ? 2 : 1e-3 * (double)(2 + row));
     fixture_put(cost, "cpu_time", 5);
 }
 
-/* Not the first value, the middle one or the mean, but the median decides. */
+/* The median decides, not the first value, the middle one or the mean. */
 static void test_the_median_decides_the_unit(void **state)
 {
     (void)state;
@@ -365,7 +364,7 @@ static void test_the_same_bytes_twice(void **state)
     wt_result_free(result);
 }
 
-/* Without its empty groups: a gnuplot that has drawn nothing yet begins with one. */
+/* Without its empty groups, because gnuplot writes one at its start. */
 static size_t leave_out_empty_groups(char *picture)
 {
     for (char *group = strstr(picture, "<g "); group != NULL; group = strstr(group, "<g ")) {
@@ -378,7 +377,7 @@ static size_t leave_out_empty_groups(char *picture)
     return strlen(picture);
 }
 
-/* `cd plots && gnuplot NAME.gp` gives the same picture, also after the folder has moved. */
+/* `cd plots && gnuplot NAME.gp` draws the same picture, also after the folder was moved. */
 static void test_plots_can_be_drawn_again(void **state)
 {
     (void)state;
@@ -443,7 +442,7 @@ static void test_missing_tables(void **state)
     wt_result_free(result);
 }
 
-/* Tables without a single number: the page says so. */
+/* Tables without a number: the page states it. */
 static void test_nothing_to_draw(void **state)
 {
     (void)state;
@@ -552,7 +551,7 @@ static void two_seconds(wt_table *copy, size_t row)
     fixture_put(copy, "cpu_time", 1.7);
 }
 
-/* Beside its names a panel is narrow: numbers of four digits would stand on one another. */
+/* With long names a panel is narrow, so that numbers of four digits would overlap. */
 static void test_few_numbers_on_a_narrow_axis(void **state)
 {
     (void)state;
@@ -591,8 +590,8 @@ static void half_area(wt_table *copy, size_t row)
     fixture_put(copy, "isotropic_area_ratio", 0.5);
 }
 
-/* A case of one velocity is a point, no line of one; long names keep the end that tells them apart;
- * the isotropic rubber beside one with directions is dashed, in the colour of its velocity. */
+/* A case of one velocity is a point, not a line. Long names keep their distinguishing end. The
+ * isotropic rubber is dashed in the colour of its velocity. */
 static void test_cases_beside_one_another(void **state)
 {
     static const struct {
@@ -633,8 +632,8 @@ static void known_well(wt_table *copy, size_t row)
     fixture_put(copy, "paused_time", 0);
 }
 
-/* A cell has the digits of its interval, whose ends three would print alike; zeros are of the unit
- * without a prefix. */
+/* A cell has the digits of its interval if three digits would make the limits equal; zeros have the
+ * unit without a prefix. */
 static void test_digits_of_intervals(void **state)
 {
     (void)state;
@@ -681,7 +680,7 @@ static void test_only_reports_are_replaced(void **state)
     }
     assert_false(exists("out/plots/friction.svg"));
     assert_int_equal(count_files("out"), 2 + 4);
-    // An empty folder that a file manager has looked at.
+    /* An empty folder that a file manager has opened. */
     assert_int_equal(mkdir("seen", 0777), 0);
     write_all("seen/.DS_Store", "x");
     write_all("seen/Thumbs.db", "x");
@@ -725,7 +724,8 @@ static void test_only_reports_are_replaced(void **state)
     wt_result_free(result);
 }
 
-/* One file, the same as in a folder; it replaces a page of ours and nothing else. */
+/* A single file equals that in a folder; it replaces an older page of weartrack and nothing
+ * else. */
 static void test_a_page_alone(void **state)
 {
     (void)state;
@@ -780,7 +780,7 @@ static void test_a_page_alone(void **state)
     wt_result_free(result);
 }
 
-/* A page of strain sweeps has their numbers, though no figure draws them. */
+/* The page of strain sweeps has their numbers, though no figure shows them. */
 static void test_strain_sweeps(void **state)
 {
     (void)state;
@@ -801,7 +801,7 @@ static void give_law(wt_table *shifts)
     fixture_key(shifts, "law_slope", -0.1, (double)NAN, "1/K");
 }
 
-/* A law that was given is none that was fitted, and has no band. */
+/* A stated law is not called fitted, and has no band. */
 static void test_a_given_law(void **state)
 {
     (void)state;
@@ -827,7 +827,7 @@ static void many_groups(wt_table *depths, size_t row)
     fixture_text(depths, "group", name);
 }
 
-/* More of them than a figure has colours for are not left out without a word. */
+/* A number above the colours of a figure is reported. */
 static void test_too_many_groups(void **state)
 {
     (void)state;
@@ -843,7 +843,7 @@ static void test_too_many_groups(void **state)
     wt_result_free(result);
 }
 
-/* Permissions, of the folder too, are those of the older report. */
+/* The permissions, also of the folder, are those of the older report. */
 static void test_modes_stay(void **state)
 {
     (void)state;
@@ -870,7 +870,7 @@ static void test_modes_stay(void **state)
     wt_result_free(result);
 }
 
-/* Writes a report in another process, and holds still while it draws. */
+/* Writes a report in another process, and pauses while it draws. */
 static pid_t draw_slowly(const wt_result *result, const char *folder, const char *gnuplot)
 {
     const pid_t writer = fork();
@@ -883,7 +883,7 @@ static pid_t draw_slowly(const wt_result *result, const char *folder, const char
     return writer;
 }
 
-/* gnuplot writes in its folder only: that of a new report, or one in the folder of the report. */
+/* gnuplot only writes in its folder: that of a new report, or one in the report folder. */
 static void wait_for(const char *name)
 {
     bool found = false;
@@ -899,8 +899,8 @@ static void wait_for(const char *name)
     assert_true(found);
 }
 
-/* What a killed run has left is swept away by the next one, in a new place and over an older
- * report; what a run that lives is working on is not. */
+/* The next run removes the files of a killed one, in a new folder and over an older report; it does
+ * not touch those of a live run. */
 static void test_leftovers(void **state)
 {
     (void)state;
@@ -918,7 +918,7 @@ static void test_leftovers(void **state)
         assert_int_equal(waitpid(killed, NULL, 0), killed);
         const pid_t alive = draw_slowly(result, "out", "./later");
         wait_for("later_begun");
-        write_report(result, "out", NULL); // into the same folder, while the other one draws
+        write_report(result, "out", NULL); /* into the same folder while the other one draws */
         write_report(result, "other", NULL);
         int end = -1;
         assert_int_equal(waitpid(alive, &end, 0), alive);

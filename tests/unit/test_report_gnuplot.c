@@ -1,6 +1,5 @@
-/* What gnuplot is given and what it does: texts of strangers, a gnuplot that hangs, floods, dies or
- * leaves children behind, a report that is killed while it draws.
- *
+/* Input and behaviour of gnuplot: hostile texts, a gnuplot that hangs, writes too much, dies or
+ * leaves child processes, a report that is killed while it draws.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
 #include "report_folder.h"
@@ -21,7 +20,7 @@ static void rename_first_group(wt_table *table, size_t row)
         fixture_text(table, "group", hostile);
 }
 
-/* The text between the tags of a picture, entities resolved. */
+/* Text between the tags of a picture, with entities resolved. */
 static bool picture_says(const char *path, const char *words)
 {
     xmlDoc *picture = xmlReadFile(path, NULL, XML_PARSE_NONET | XML_PARSE_NOERROR);
@@ -39,7 +38,7 @@ static void test_hostile_texts(void **state)
     (void)state;
     NEED_GNUPLOT();
     static const struct {
-        const char *group, *drawn; /* NULL: as it is */
+        const char *group, *drawn; /* NULL: unchanged */
     } texts[] = {
         {"'", NULL},
         {"'quoted'", NULL},
@@ -89,7 +88,7 @@ static void test_hostile_texts(void **state)
     free(long_text);
 }
 
-/* Settings of the user's change nothing and run nothing. */
+/* Settings of the user change nothing and execute nothing. */
 static void test_settings_of_the_user(void **state)
 {
     (void)state;
@@ -210,7 +209,7 @@ static void test_cancelled_while_it_draws(void **state)
     wt_result_free(result);
 }
 
-/* Not even SIGKILL leaves gnuplot behind. */
+/* gnuplot ends also after SIGKILL of the report. */
 static void test_killed_while_it_draws(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-/* Figures for a paper: as wide as asked for in every format, with the same type, and refusals.
- *
+/* Figures for a paper: the requested width in every format, with the same font size, and refusals.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
 #include "report_folder.h"
@@ -25,7 +24,7 @@ static unsigned long prefix_length(const char *bytes)
     return word;
 }
 
-/* Width and height in millimetres as the file says them. */
+/* Width and height in millimetres as stated in the file. */
 static void svg_size(const char *bytes, double size[2])
 {
     size[0] = number_behind(bytes, "<svg width=\"");
@@ -58,7 +57,7 @@ static void png_size(const char *bytes, size_t length, double size[2])
     size[1] = 1e3 * (double)prefix_length(bytes + 20) / dots;
 }
 
-/* All type is of one size, but for what stands higher or lower. */
+/* All text has the same size, except superscripts and subscripts. */
 static void check_type(const char *name, const char *bytes)
 {
     static const char size[] = "font-size=\"";
@@ -151,7 +150,7 @@ static void test_the_font_is_that_of_the_figures_and_the_page(void **state)
     wt_result_free(result);
 }
 
-/* An fc-match that has one family, whatever it is asked for. */
+/* An fc-match that always returns one family. */
 static void test_a_font_that_is_not_there(void **state)
 {
     (void)state;
@@ -159,7 +158,7 @@ static void test_a_font_that_is_not_there(void **state)
     char instead[10] = "";
     FILE *script = fopen("fc-match", "w");
     assert_non_null(script);
-    /* a hyphen that is not escaped would begin a size */
+    /* an unescaped hyphen would begin a size */
     (void)fprintf(script, "#!/bin/sh\ncase $3 in 7-*) exit 1;; esac\n"
                           "echo 'DejaVu Sans,Sans Book'\n");
     assert_int_equal(fclose(script), 0);
@@ -173,7 +172,8 @@ static void test_a_font_that_is_not_there(void **state)
     assert_string_equal(instead, "DejaVu Sa");
     assert_false(wt_report_font_is_available("7-", instead, sizeof instead));
     assert_int_equal(unlink("fc-match"), 0);
-    assert_true(wt_report_font_is_available("Sans", instead, sizeof instead)); /* none to ask */
+    /* no family to return */
+    assert_true(wt_report_font_is_available("Sans", instead, sizeof instead));
     assert_int_equal(setenv("PATH", path, 1), 0);
     free(here);
     free(path);
@@ -220,7 +220,7 @@ static void test_refusals(void **state)
     assert_int_equal(options.figures, WT_FIGURE_PNG | WT_FIGURE_SVG);
 }
 
-/* Each picture has its time, the last one too. */
+/* Each picture has its own time limit, the last one too. */
 static void test_one_of_many_hangs(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-/* The report room: texts and numbers for reading, lab units, pictures for a page, axes.
- *
+/* Texts of a report: numbers for reading, lab units, pictures for a page, axes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 #include "report/display_units.h"
@@ -103,7 +102,7 @@ static void test_escaping(void **state)
     assert_text(&text, "# a b  c   \n");
 }
 
-/* Numbers and units in ASCII have the signs of the page; names and words stay. */
+/* Numbers and units in ASCII get the typographic characters of the page; names and words do not. */
 static void test_typography(void **state)
 {
     (void)state;
@@ -183,7 +182,7 @@ static void test_svg_is_made_fit_for_a_page(void **state)
     text_free(&text);
 }
 
-/* Symbols that pictures have in common stand once on a page; colours and empty groups are short. */
+/* Symbols that pictures share occur once on a page; colours and empty groups are short. */
 static void test_svg_symbols_are_shared(void **state)
 {
     (void)state;
@@ -217,8 +216,8 @@ static void test_data_links(void **state)
     assert_text(&text, "data:text/plain;charset=utf-8,");
 }
 
-/* gnuplot puts the label of an axis beside those of its tics, and off the paper if they are wide.
- */
+/* gnuplot puts the label of an axis next to those of its tics, and off the paper if they are
+ * wide. */
 static void test_wide_labels_have_a_margin(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Heights to power spectra, against numbers of another program for surfaces that are made by a
- * formula. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Heights to power spectra, against numbers of another program for synthetic surfaces.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 #include "draw_count.h"
 #include "truth_fixture.h"
@@ -55,7 +55,7 @@ static double *duplicate_file(const double *z)
     return c;
 }
 
-/* Surface A with the form that is to be found again. */
+/* Surface A with a form that must be recovered. */
 static double *tilted(void)
 {
     double *z = duplicate_file(a);
@@ -82,7 +82,7 @@ static double rms_of(const double *z)
     return sqrt(sum / SIDE / SIDE);
 }
 
-/* The bins of the reference, relative to the largest density where one is nearly nothing. */
+/* The bins of the reference; nearly zero ones relative to the largest density. */
 static void compare_bins(const wt_surface_spectrum *s, const reference_bin *bins, size_t n,
                          double close)
 {
@@ -119,8 +119,8 @@ static void test_samples(void **state)
     assert_near(b[0], 1.3159534177204704e-06, 1e-12);
 }
 
-/* The surface goes on beyond its edges, so that with one more row and column forward differences
- * are there at every point. */
+/* The surface continues beyond its edges, so that with one more row and column forward differences
+ * exist at every point. */
 static void test_heights(void **state)
 {
     (void)state;
@@ -230,7 +230,7 @@ static void test_missing(void **state)
     free(with_holes);
 }
 
-/* C1 at mode k, of all rows in the mean: a range that holds no other. */
+/* C1 at mode k, mean of all rows: a range with a single mode. */
 static double line_density(const wt_height_map *map, wt_surface_window window, size_t k)
 {
     const double q = 2 * M_PI * (double)k / ((double)map->nx * map->dx);
@@ -275,7 +275,7 @@ static void test_inversion(void **state)
                     1e-13);
     }
     assert_true(isnan(surface_invert_profile(q, c1, 5, true, 999, rule)));
-    /* A power law goes on for ever: C = C1/q Gamma(1 + H) / (sqrt(pi) Gamma(1/2 + H)). */
+    /* An unlimited power law: C = C1/q Gamma(1 + H) / (sqrt(pi) Gamma(1/2 + H)). */
     const double h = 0.8, two[] = {1e3, 2e3}, power[] = {1, pow(2, -1 - 2 * h)};
     assert_near(surface_invert_profile(two, power, 2, true, 1e3, rule),
                 1e-3 * tgamma(1 + h) / (sqrt(M_PI) * tgamma(0.5 + h)), 1e-12);
@@ -284,10 +284,10 @@ static void test_inversion(void **state)
     gsl_integration_glfixed_table_free(rule);
 }
 
-/* Two scans of different size. What a mean of logarithms is too low by, which the reference leaves
- * in, is known. */
-/* What places make of the constants is what the fit makes of bins that the places of each size have
- * moved, one size after the other. */
+/* Two scans of different size. The bias of a mean of logarithms, which the reference contains, is
+ * known. */
+/* The effect of positions on the constants equals that of fits to bins moved by the positions of
+ * each size, one size after the other. */
 static void check_places_of_law(wt_surface_spectrum *s)
 {
     enum { CONSTANTS = 3 };
@@ -360,7 +360,7 @@ static void test_stitch(void **state)
         assert_near(joined.bins[k].wavenumber, stitched[k].q, 1e-12);
         assert_near(joined.bins[k].density * exp(lacks), stitched[k].c, 1e-9);
     }
-    /* The law behind both; without exponential amplitudes the misfit is far below 1. */
+    /* The law of both; without exponential amplitudes the lack of fit is far below 1. */
     wt_self_affine law;
     law = wt_self_affine_fit(&joined);
     assert_true(law.found);
@@ -374,8 +374,8 @@ static void test_stitch(void **state)
     wt_surface_spectrum_clear(&joined);
 }
 
-/* Of a power law through so few bins the errors have a closed form: by the scatter of the modes, or
- * by a larger misfit with Student's t of its six degrees of freedom; not by both. */
+/* Errors of a power law through so few bins have a closed form: by the scatter of the modes, or by
+ * a larger lack of fit with Student's t of its six degrees of freedom; not by both. */
 static void errors_of_the_law(void **state)
 {
     (void)state;
@@ -431,8 +431,8 @@ static void test_slope_end(void **state)
     }
 }
 
-/* A part of a random surface, whose squared amplitudes are exponential; bins agree with the truth
- * within their scatter, and so do directions and the law. */
+/* A part of a random surface with exponential squared amplitudes: bins agree with the truth within
+ * their scatter, and so do anisotropy and the law. */
 static void test_scatter(void **state)
 {
     (void)state;
@@ -463,8 +463,9 @@ static void test_scatter(void **state)
     assert_true((double)within > 0.88 * (double)all);
 }
 
-/* What a window mixes in of longer waves is taken off, of every window: of a steep law that goes on
- * beyond the map the first bins, of two waves and more, would be a fifth to a third too high. */
+/* The leakage of longer waves through a window is subtracted, for every window. For a steep law
+ * that continues beyond the map the first bins of two or more waves would be too high by a fifth to
+ * a third. */
 static void test_leak(void **state)
 {
     (void)state;
@@ -521,8 +522,8 @@ static void test_directions(void **state)
     free(z);
 }
 
-/* Of random surfaces whose density is 1 + 0.4 cos 2 (phi - 0.5) + 0.25 cos 4 (phi + 0.2) times that
- * of their law, from x. */
+/* Random surfaces whose density is 1 + 0.4 cos 2 (phi - 0.5) + 0.25 cos 4 (phi + 0.2) times that of
+ * their law, from x. */
 static const double grooves[] = {0.4, 0.25}, grooves_at[] = {0.5, -0.2};
 
 static double grooved_density(double phi)
@@ -563,7 +564,7 @@ static double *make_grooved(uint64_t seed, size_t n)
     return z;
 }
 
-/* What is found of them lies about the truth as its errors say. */
+/* The recovered values scatter about the truth by their errors. */
 static void check_grooved(wt_surface_window window)
 {
     enum { SURFACES = 60, N = 256 };
@@ -612,7 +613,7 @@ static void test_orders(void **state)
     check_grooved(WT_WINDOW_HANN);
 }
 
-/* Places that differ by a factor: it is told, and the interval holds it. */
+/* Positions that differ by a factor: it is stated, and the interval covers it. */
 static void test_places(void **state)
 {
     (void)state;
@@ -640,7 +641,8 @@ static void test_places(void **state)
     wt_surface_spectrum_clear(&joined);
     assert_int_equal(wt_surface_combine(all, PLACES, &joined, NULL), WT_OK);
     assert_near(joined.place_scatter, 0.54, 0.15); /* of the logarithms of the factors */
-    /* Student's t of four degrees of freedom; the modes are little beside such a scatter */
+    /* Student's t with four degrees of freedom; the modes are negligible compared with such a
+     * scatter */
     assert_near(joined.place_reach, joined.place_scatter * 2.7764 / 1.95996, 0.02);
     assert_near(joined.place_error, joined.place_reach / sqrt(PLACES), 1e-12);
     const wt_interval together = wt_surface_density(&joined, joined.n - 1);
@@ -650,8 +652,8 @@ static void test_places(void **state)
     wt_surface_spectrum_clear(&joined);
 }
 
-/* Of one bin at `n` places that scatter by `scatter` times what its modes do: how many of the
- * intervals hold the truth, which is 1. */
+/* One bin at `n` positions that scatter by `scatter` times the effect of its modes: the number of
+ * intervals that contain the true value 1. */
 static size_t places_held(size_t n, double scatter, size_t draws)
 {
     enum { MOST = 3, MODES = 200 };
@@ -684,9 +686,9 @@ static size_t places_held(size_t n, double scatter, size_t draws)
     return held;
 }
 
-/* The modes of few places often scatter by as much as the places do, or by little: neither makes
- * an interval too narrow. While all of what modes do in the mean was taken off, 87 and 91 % of two
- * and three places were held. */
+/* The modes of few positions often scatter as much as the positions, or little: neither makes an
+ * interval too narrow. When the whole mean effect of the modes was subtracted, 87 and 91 % of two
+ * and three positions were covered. */
 static void test_few_places(void **state)
 {
     (void)state;
@@ -721,7 +723,7 @@ static void test_refused(void **state)
     free(z);
 }
 
-/* A tip rounds what is sharper than it, and the range ends there. */
+/* A tip rounds sharper features, and the range ends there. */
 static void test_tip(void **state)
 {
     (void)state;
