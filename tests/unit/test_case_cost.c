@@ -233,7 +233,7 @@ static void test_any_number_of_threads(void **state)
 
 /* ---- materials ------------------------------------------------------------------------------- */
 
-static size_t fits; /* count of the angular integrals of a material */
+static size_t fits; /* fits of the angular integrals of a material */
 
 wt_status __real_angular_subintervals_new(const wt_material *material, const gauss_rule *rule,
                                           double low, double high, double goal,

@@ -570,7 +570,7 @@ static void largest_variance(void **state)
     wt_roughness_free(r.roughness);
     for (double c0 = 1e100; c0 < 1e280; c0 *= 1e30) {
         double mu[2], variance[2];
-        for (int k = 0; k < 2; k++) { /* twice the roughness (times two), half the contact area */
+        for (int k = 0; k < 2; k++) { /* four times as rough, half the contact area */
             assert_int_equal(wt_roughness_self_affine(1e3, 5e3, 1e7, 0.8, (k ? 4 : 1) * c0 * height,
                                                       &r.roughness, NULL),
                              WT_OK);

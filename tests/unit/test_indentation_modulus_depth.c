@@ -38,7 +38,7 @@ typedef struct scene {
     double ratio, thickness; /* of a layer; 0: none */
     double radius_factor;    /* of the true tip */
     double noise;            /* [N] */
-    double bow;              /* drift of the force over the approach [N] */
+    double bow;              /* bow of the force over the approach [N] */
     double loss_error;       /* of the modulus, as if the rubber had loss */
 } scene;
 

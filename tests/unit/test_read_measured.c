@@ -50,7 +50,7 @@ typedef struct known_file {
     const char *refused; /* words of the message if there is no curve */
     size_t curves;
     double spring_constant, sensitivity; /* stated value, 0: none */
-    size_t rows;                         /* name in the reference */
+    size_t rows;                         /* rows of the reference */
 } known_file;
 
 static const known_file known_files[] = {
