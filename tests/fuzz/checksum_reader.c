@@ -19,7 +19,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     if (size > 0)
         memcpy(copy, data, size);
-    JOIN(READER_ID, _writer_mend)(copy, size);
+    JOIN(READER_ID, _writer_fix_checksums)(copy, size);
     read_all(&JOIN(reader_, READER_ID), copy, size);
     free(copy);
     return 0;

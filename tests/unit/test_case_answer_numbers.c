@@ -65,7 +65,7 @@ static void test_errors(void **state)
 }
 
 /* Two limits that print alike with three digits get more digits; others keep three. */
-static void test_ends(void **state)
+static void test_limits_with_more_digits(void **state)
 {
     (void)state;
     assert_string_equal(format_range(0.56651, 0.84118, 3).text, "0.567 to 0.841");
@@ -117,8 +117,9 @@ static void test_rejected(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values), cmocka_unit_test(test_errors), cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_other_rubber), cmocka_unit_test(test_rejected)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_errors),
+                                       cmocka_unit_test(test_limits_with_more_digits),
+                                       cmocka_unit_test(test_other_rubber),
+                                       cmocka_unit_test(test_rejected)};
     return cmocka_run_group_tests_name("words of the answer", tests, NULL, NULL);
 }

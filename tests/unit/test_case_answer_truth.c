@@ -235,7 +235,7 @@ static void test_sliding(void **state)
 }
 
 /* Inconsistencies are reported: a layer without a difference, a difference without a layer. */
-static void test_disagreement(void **state)
+static void test_inconsistencies(void **state)
 {
     (void)state;
     run(0.96, 0.1,
@@ -482,7 +482,7 @@ static void run_bundled(void)
     wt_case_free(c);
 }
 
-static void test_told_alike(void **state)
+static void test_same_numbers_everywhere(void **state)
 {
     (void)state;
     run_bundled();
@@ -564,7 +564,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_verdicts),        cmocka_unit_test(test_one_spot),
         cmocka_unit_test(test_one_spot_slides), cmocka_unit_test(test_sliding),
-        cmocka_unit_test(test_disagreement),    cmocka_unit_test(test_told_alike),
+        cmocka_unit_test(test_inconsistencies), cmocka_unit_test(test_same_numbers_everywhere),
         cmocka_unit_test(test_limits),          cmocka_unit_test(test_common_rates),
         cmocka_unit_test(test_other_spectrum),
     };

@@ -300,7 +300,7 @@ static void test_materials_are_shared(void **state)
 }
 
 /* A shared material gives the same numbers as that of a single job. */
-static void test_shared_or_not(void **state)
+static void test_shared_material_changes_nothing(void **state)
 {
     (void)state;
     const wt_zener zener = {.e0 = 5e6, .eg = 2e9, .tau = 1e-6, .alpha = 0.4};
@@ -358,7 +358,7 @@ static void log_storage(spectrum *s, const double *value, double *log_e, size_t 
 
 /* The continued fit of the case, noise and smoothness included, is within its stated error. The
  * vertical shifts are fixed, so that there is one fit. */
-static void test_further_steps(void **state)
+static void test_continued_fit(void **state)
 {
     (void)state;
     enum { PLACES = 20, MORE = 40 };
@@ -450,7 +450,7 @@ static void test_nodes(void **state)
     wt_table_free(table);
 }
 
-static void test_not_asked(void **state)
+static void test_nothing_timed_without_request(void **state)
 {
     (void)state;
     wt_cost *cost = wt_cost_new(true, 1);
@@ -473,10 +473,10 @@ int main(void)
         cmocka_unit_test(test_case),
         cmocka_unit_test(test_any_number_of_threads),
         cmocka_unit_test(test_materials_are_shared),
-        cmocka_unit_test(test_shared_or_not),
-        cmocka_unit_test(test_further_steps),
+        cmocka_unit_test(test_shared_material_changes_nothing),
+        cmocka_unit_test(test_continued_fit),
         cmocka_unit_test(test_nodes),
-        cmocka_unit_test(test_not_asked),
+        cmocka_unit_test(test_nothing_timed_without_request),
     };
     wt_error err = WT_ERROR_INIT;
     if (wt_case_read(CASE "/case.xml", &the_case, &err) != WT_OK) {

@@ -89,7 +89,7 @@ static bool depth_of_one(void)
     return done && isnan(depth.change_p);
 }
 
-static void nothing_ends_the_process(void **state)
+static void gsl_errors_do_not_abort(void **state)
 {
     (void)state;
     assert_true(comes_back(dwell_on_a_wall));
@@ -109,7 +109,7 @@ static void dwell_without_noise(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_ends_the_process),
+        cmocka_unit_test(gsl_errors_do_not_abort),
         cmocka_unit_test(dwell_without_noise),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

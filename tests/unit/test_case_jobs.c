@@ -476,7 +476,7 @@ static void test_surface_text(void **state)
 
 /* A self-affine law that is sampled at a few points and truncated between them equals the truncated
  * law. */
-static void test_surface_cut(void **state)
+static void test_surface_truncated(void **state)
 {
     (void)state;
     double q[8], c[8], slope[2];
@@ -657,7 +657,7 @@ int main(void)
         cmocka_unit_test(test_rubber_at),
         cmocka_unit_test(test_rubber_at_reference),
         cmocka_unit_test(test_surface_text),
-        cmocka_unit_test(test_surface_cut),
+        cmocka_unit_test(test_surface_truncated),
         cmocka_unit_test(test_calibration),
         cmocka_unit_test(test_layer_numbers),
         cmocka_unit_test(test_draws),

@@ -123,7 +123,7 @@ static void test_measured(void **state)
 }
 
 /* Only requested inputs are opened: the curves need not exist if only the material is requested. */
-static void test_only_what_is_asked(void **state)
+static void test_only_requested_inputs_are_opened(void **state)
 {
     (void)state;
     static const char xml[] =
@@ -174,7 +174,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_measured),
-        cmocka_unit_test(test_only_what_is_asked),
+        cmocka_unit_test(test_only_requested_inputs_are_opened),
         cmocka_unit_test(test_no_track),
     };
     return cmocka_run_group_tests_name("flow measured", tests, NULL, NULL);

@@ -73,7 +73,7 @@ static void check_because(const char *text, const char *stage, const char *part)
     wt_table_free(plan);
 }
 
-static void test_what_runs(void **state)
+static void test_stages_that_run(void **state)
 {
     (void)state;
     check_plan(HEAD "</case>", "");
@@ -117,7 +117,7 @@ static void test_titles(void **state)
 }
 
 /* Only requested stages run, and only their inputs are read. */
-static void test_what_is_asked(void **state)
+static void test_requested_stages(void **state)
 {
     (void)state;
 #define ALL HEAD "<indentation>" TIP BULK TRACK "</indentation>" DMA ROAD SLIDE LAYER
@@ -237,7 +237,7 @@ static void test_table_of_stages(void **state)
 
 /* Each source states what is missing without it. A table has the name of its schema and can be
  * requested by it. */
-static void test_table_of_things(void **state)
+static void test_table_of_resources(void **state)
 {
     (void)state;
     for (unsigned i = 0; i < FLOW_N_RESOURCES; i++) {
@@ -257,9 +257,9 @@ static void test_table_of_things(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_runs),       cmocka_unit_test(test_what_is_asked),
+        cmocka_unit_test(test_stages_that_run), cmocka_unit_test(test_requested_stages),
         cmocka_unit_test(test_reasons),         cmocka_unit_test(test_titles),
-        cmocka_unit_test(test_table_of_stages), cmocka_unit_test(test_table_of_things),
+        cmocka_unit_test(test_table_of_stages), cmocka_unit_test(test_table_of_resources),
         cmocka_unit_test(test_records),
     };
     return cmocka_run_group_tests_name("flow plan", tests, NULL, NULL);

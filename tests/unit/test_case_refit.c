@@ -168,7 +168,7 @@ static void keeps_rubber_and_surface(void **state)
     }
 }
 
-static void says_what_is_missing(void **state)
+static void names_missing_inputs(void **state)
 {
     (void)state;
     static const refit_curve wrong[] = {{"bulk", "bulk-2.jpk-force-map", 99, "", ""},
@@ -191,6 +191,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(has_the_numbers_of_the_run),
                                        cmocka_unit_test(follows_contact_point_and_case),
                                        cmocka_unit_test(keeps_rubber_and_surface),
-                                       cmocka_unit_test(says_what_is_missing)};
+                                       cmocka_unit_test(names_missing_inputs)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

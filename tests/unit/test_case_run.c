@@ -161,7 +161,7 @@ static void test_layer(void **state)
 
 /* The complete stage fails (a layer without wear has no thickness): the simpler one replaces it,
  * and the result states what is missing. */
-static void test_stand_in(void **state)
+static void test_simpler_stage_replaces_failed_one(void **state)
 {
     (void)state;
     ran r = run_text(
@@ -296,10 +296,14 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_friction_only),  cmocka_unit_test(test_layer),
-        cmocka_unit_test(test_stand_in),       cmocka_unit_test(test_missing_file),
-        cmocka_unit_test(test_missing_curves), cmocka_unit_test(test_spectrum),
-        cmocka_unit_test(test_one_isotherm),   cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_friction_only),
+        cmocka_unit_test(test_layer),
+        cmocka_unit_test(test_simpler_stage_replaces_failed_one),
+        cmocka_unit_test(test_missing_file),
+        cmocka_unit_test(test_missing_curves),
+        cmocka_unit_test(test_spectrum),
+        cmocka_unit_test(test_one_isotherm),
+        cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests_name("flow run", tests, NULL, NULL);
 }

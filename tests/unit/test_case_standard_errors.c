@@ -306,7 +306,7 @@ static void test_measured(void **state)
 }
 
 /* Unknown errors are named. */
-static void test_named(void **state)
+static void test_unknown_errors_are_named(void **state)
 {
     (void)state;
 #define BOTH "pressure, temperature, roughness, "
@@ -406,9 +406,12 @@ static int clear(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all),           cmocka_unit_test(test_measured),
-        cmocka_unit_test(test_named),         cmocka_unit_test(test_share),
-        cmocka_unit_test(test_no_replicates), cmocka_unit_test(test_not_shown),
+        cmocka_unit_test(test_all),
+        cmocka_unit_test(test_measured),
+        cmocka_unit_test(test_unknown_errors_are_named),
+        cmocka_unit_test(test_share),
+        cmocka_unit_test(test_no_replicates),
+        cmocka_unit_test(test_not_shown),
     };
     return cmocka_run_group_tests_name("errors known", tests, NULL, clear);
 }

@@ -170,7 +170,7 @@ static void run_case_of(const char *path, bool errors, double tolerance, const c
 }
 
 /* The incompressible isotropic solid is not a transversely isotropic one. */
-static void test_directions(void **state)
+static void test_transverse_isotropy(void **state)
 {
     (void)state;
     static const double velocity = 0.1;
@@ -445,7 +445,7 @@ static void test_layer_by_curves(void **state)
 }
 
 /* One position of each, with a stated scatter. */
-static void test_one_spot_of_each(void **state)
+static void test_one_position_per_group(void **state)
 {
     (void)state;
     static const char *const files[] = {CASE "bulk-1.jpk-force-map", CASE "track-1.jpk-force-map"};
@@ -1282,7 +1282,7 @@ static bool is_never_met(const table_schema *schema, size_t key)
            (schema == &comparison_schema && strcmp(name, "rate_spread") == 0);
 }
 
-static void test_all_put(void **state)
+static void test_everything_is_written(void **state)
 {
     (void)state;
     bool good = true;
@@ -1334,7 +1334,7 @@ int main(void)
         cmocka_unit_test(test_flash),
         cmocka_unit_test(test_materials),
         cmocka_unit_test(test_layer_by_curves),
-        cmocka_unit_test(test_one_spot_of_each),
+        cmocka_unit_test(test_one_position_per_group),
         cmocka_unit_test(test_spring_constants),
         cmocka_unit_test(test_conversions),
         cmocka_unit_test(test_ramps),
@@ -1346,11 +1346,11 @@ int main(void)
         cmocka_unit_test(test_identification),
         cmocka_unit_test(test_dwell),
         cmocka_unit_test(test_thermal),
-        cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_transverse_isotropy),
         cmocka_unit_test(test_spot),
         cmocka_unit_test(test_surface),
         cmocka_unit_test(test_data_quality),
-        cmocka_unit_test(test_all_put),
+        cmocka_unit_test(test_everything_is_written),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);
 }

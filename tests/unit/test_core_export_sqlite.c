@@ -163,7 +163,7 @@ static void same_bytes(void **state)
 }
 
 /* Bytes that are not UTF-8 are replaced as in JSON, because invalid text stops other programs. */
-static void no_utf8(void **state)
+static void invalid_utf8(void **state)
 {
     (void)state;
     wt_table *const t = make_table("friction");
@@ -214,8 +214,8 @@ static void refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cells),   cmocka_unit_test(columns_and_keys),
-        cmocka_unit_test(blocks),  cmocka_unit_test(same_bytes),
-        cmocka_unit_test(no_utf8), cmocka_unit_test(refused)};
+        cmocka_unit_test(cells),        cmocka_unit_test(columns_and_keys),
+        cmocka_unit_test(blocks),       cmocka_unit_test(same_bytes),
+        cmocka_unit_test(invalid_utf8), cmocka_unit_test(refused)};
     return cmocka_run_group_tests_name("table as a database", tests, NULL, NULL);
 }

@@ -126,7 +126,7 @@ static void globs(void **state)
     assert_int_equal(rmdir(sub), 0);
 }
 
-static void complete_or_not_at_all(void **state)
+static void output_is_complete_or_absent(void **state)
 {
     (void)state;
     char path[256];
@@ -228,7 +228,7 @@ static void modes_and_links(void **state)
     assert_int_equal(unlink(path), 0);
 }
 
-static void leftovers(void **state)
+static void leftover_temporary_files(void **state)
 {
     (void)state;
     /* A process that has just ended, and its process id with other names. */
@@ -288,7 +288,7 @@ static void write_database(const char *path, const char *id)
     assert_int_equal(fclose(file), 0);
 }
 
-static void guarded(void **state)
+static void inputs_are_not_overwritten(void **state)
 {
     (void)state;
     char path[256], other[256], pdf[256];
@@ -423,7 +423,7 @@ static uint64_t fingerprint_of(void *bytes, size_t length, bool beside)
 }
 
 /* Bytes in several blocks: the digest of all, and a fingerprint that only copies share. */
-static void digests_of_pieces(void **state)
+static void digests_of_blocks(void **state)
 {
     (void)state;
     enum { MOST = 150000 };
@@ -501,11 +501,16 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(globs),           cmocka_unit_test(complete_or_not_at_all),
-        cmocka_unit_test(modes_and_links), cmocka_unit_test(leftovers),
-        cmocka_unit_test(guarded),         cmocka_unit_test(outfile_failures),
-        cmocka_unit_test(digests),         cmocka_unit_test(digests_of_pieces),
-        cmocka_unit_test(outfile_memory),  cmocka_unit_test(mixed_numbers),
+        cmocka_unit_test(globs),
+        cmocka_unit_test(output_is_complete_or_absent),
+        cmocka_unit_test(modes_and_links),
+        cmocka_unit_test(leftover_temporary_files),
+        cmocka_unit_test(inputs_are_not_overwritten),
+        cmocka_unit_test(outfile_failures),
+        cmocka_unit_test(digests),
+        cmocka_unit_test(digests_of_blocks),
+        cmocka_unit_test(outfile_memory),
+        cmocka_unit_test(mixed_numbers),
         cmocka_unit_test(provenance),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

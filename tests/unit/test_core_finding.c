@@ -38,7 +38,7 @@ static void test_no_findings(void **state)
 }
 
 /* The table of version 0.9.0 has sentences in as many rows, which are not results. */
-static void test_former_answer(void **state)
+static void test_table_of_earlier_version(void **state)
 {
     (void)state;
     for (int former = 0; former < 2; former++) {
@@ -176,12 +176,9 @@ static void test_what_to_measure(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_digits_of_every_interval),
-        cmocka_unit_test(test_no_findings),
-        cmocka_unit_test(test_former_answer),
-        cmocka_unit_test(test_verdicts),
-        cmocka_unit_test(test_change_without_a_layer),
-        cmocka_unit_test(test_what_to_measure),
+        cmocka_unit_test(test_digits_of_every_interval), cmocka_unit_test(test_no_findings),
+        cmocka_unit_test(test_table_of_earlier_version), cmocka_unit_test(test_verdicts),
+        cmocka_unit_test(test_change_without_a_layer),   cmocka_unit_test(test_what_to_measure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

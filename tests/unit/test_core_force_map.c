@@ -137,7 +137,7 @@ static size_t read_back(size_t *first_bad)
     return n_bad;
 }
 
-static void comes_back(void **state)
+static void map_is_read_back(void **state)
 {
     size_t bad = 0;
     (void)state;
@@ -154,7 +154,7 @@ static size_t length_in(hid_t file, const char *name)
     return (size_t)n;
 }
 
-static void as_documented(void **state)
+static void layout_is_documented(void **state)
 {
     static double force[2 * CURVES * MOST], samples[2 * CURVES];
     size_t n = 0, row = 0;
@@ -240,7 +240,7 @@ static void counts(void **state)
 }
 
 /* A file truncated after its tables were read: every remaining curve fails. */
-static void cut_off(void **state)
+static void truncated_map(void **state)
 {
     wt_result *result = NULL;
     map_reader *map = NULL;
@@ -310,9 +310,12 @@ static void a_full_disk(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comes_back),    cmocka_unit_test(cut_off),
-        cmocka_unit_test(as_documented), cmocka_unit_test(a_changed_sample),
-        cmocka_unit_test(counts),        cmocka_unit_test(no_disk),
+        cmocka_unit_test(map_is_read_back),
+        cmocka_unit_test(truncated_map),
+        cmocka_unit_test(layout_is_documented),
+        cmocka_unit_test(a_changed_sample),
+        cmocka_unit_test(counts),
+        cmocka_unit_test(no_disk),
         cmocka_unit_test(a_full_disk),
     };
     return cmocka_run_group_tests_name("map of force curves", tests, write_map, clean);

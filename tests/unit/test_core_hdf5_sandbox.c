@@ -186,7 +186,7 @@ static wt_status opens(hid_t file, size_t n, FILE *out, wt_error *err)
     return WT_OK;
 }
 
-static void every_end(void **state)
+static void every_exit_is_an_error(void **state)
 {
     (void)state;
     char *answer = NULL;
@@ -258,7 +258,7 @@ static void take_all(int number)
         handled++;
 }
 
-static void of_the_program(void **state)
+static void callers_children_are_unaffected(void **state)
 {
     (void)state;
     char *answer = NULL;
@@ -336,8 +336,10 @@ static void with_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_end),    cmocka_unit_test(every_limit),
-        cmocka_unit_test(not_hdf5),     cmocka_unit_test(of_the_program),
+        cmocka_unit_test(every_exit_is_an_error),
+        cmocka_unit_test(every_limit),
+        cmocka_unit_test(not_hdf5),
+        cmocka_unit_test(callers_children_are_unaffected),
         cmocka_unit_test(with_threads),
     };
     return cmocka_run_group_tests_name("hdf5 door", tests, set_up, clean);

@@ -20,7 +20,7 @@ static bool below_step(double x, void *user)
     return x < 0.3; /* a jump, and no value beyond it */
 }
 
-static void test_halves(void **state)
+static void test_bisection(void **state)
 {
     (void)state;
     int calls = 0;
@@ -89,7 +89,7 @@ static void test_series(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_halves), cmocka_unit_test(test_maximum),
+        cmocka_unit_test(test_bisection), cmocka_unit_test(test_maximum),
         cmocka_unit_test(test_equations), cmocka_unit_test(test_series)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -120,7 +120,7 @@ static void assert_whole(void)
 }
 
 /* The tables with their keys; tables of main values with keys only have no rows. */
-static void what_headlines_need(void **state)
+static void main_values_are_readable(void **state)
 {
     (void)state;
     wt_result *all = NULL, *read = NULL;
@@ -155,7 +155,7 @@ static void what_headlines_need(void **state)
 
 /* Each changed byte is detected, or the file is read as one without a summary. Reading by HDF5 does
  * not depend on it. */
-static void every_byte(void **state)
+static void changed_bytes_are_detected(void **state)
 {
     (void)state;
     wt_error err;
@@ -177,7 +177,7 @@ static void every_byte(void **state)
 }
 
 /* With and without a summary the same tables have the same keys. */
-static void by_both_ways(void **state)
+static void same_as_by_hdf5(void **state)
 {
     (void)state;
     const size_t size = write_result();
@@ -221,7 +221,7 @@ static void other_tables(void **state)
 }
 
 /* A program that opens the file for writing removes the summary, even without changes. */
-static void not_older_than_the_file(void **state)
+static void modified_file_has_no_summary(void **state)
 {
     (void)state;
     wt_error err;
@@ -283,7 +283,7 @@ static void put_bomb(size_t n_columns, size_t n_filler)
 
 /* A crafted summary is refused before it allocates memory out of proportion to its bytes: 2000
  * columns with a row for each of 100,000 bytes are 1.6 GB. */
-static void no_bomb(void **state)
+static void memory_is_proportional_to_file(void **state)
 {
     (void)state;
     wt_error err;
@@ -343,10 +343,12 @@ static void made_files(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_headlines_need), cmocka_unit_test(every_byte),
-        cmocka_unit_test(by_both_ways),        cmocka_unit_test(not_older_than_the_file),
-        cmocka_unit_test(other_tables),        cmocka_unit_test(no_bomb),
-        cmocka_unit_test(made_files)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(main_values_are_readable),
+                                       cmocka_unit_test(changed_bytes_are_detected),
+                                       cmocka_unit_test(same_as_by_hdf5),
+                                       cmocka_unit_test(modified_file_has_no_summary),
+                                       cmocka_unit_test(other_tables),
+                                       cmocka_unit_test(memory_is_proportional_to_file),
+                                       cmocka_unit_test(made_files)};
     return cmocka_run_group_tests_name("abstract of a result", tests, set_up, clean);
 }

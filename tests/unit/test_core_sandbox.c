@@ -223,7 +223,7 @@ static bool names_one(const char *message, const char *const calls[3])
     return false;
 }
 
-static void nothing_but_reading(void **state)
+static void other_system_calls_are_stopped(void **state)
 {
     (void)state;
     (void)signal(SIGUSR1, note_signal);
@@ -306,7 +306,7 @@ static void memory_runs_out(void **state)
     }
 }
 
-static void reading_goes_on(void **state)
+static void reading_continues(void **state)
 {
     (void)state;
     char *answer = NULL;
@@ -388,7 +388,7 @@ static bool with_few_files(int file)
     return good && read_once && refused_once;
 }
 
-static void of_the_system(void **state)
+static void filter_refused_by_system(void **state)
 {
     (void)state;
     assert_int_equal(apart(without_filter), 0);
@@ -398,10 +398,10 @@ static void of_the_system(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_but_reading),
-        cmocka_unit_test(reading_goes_on),
+        cmocka_unit_test(other_system_calls_are_stopped),
+        cmocka_unit_test(reading_continues),
         cmocka_unit_test(memory_runs_out),
-        cmocka_unit_test(of_the_system),
+        cmocka_unit_test(filter_refused_by_system),
     };
     return cmocka_run_group_tests_name("door", tests, set_up, clean);
 }

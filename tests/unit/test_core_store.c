@@ -313,7 +313,7 @@ static void empty_result(void **state)
 }
 
 /* Other programs see SI units and texts on every column. */
-static void as_others_see_it(void **state)
+static void layout_for_other_programs(void **state)
 {
     (void)state;
     char path[256];
@@ -368,7 +368,7 @@ static void not_a_store(void **state)
     check_refused(path, WT_E_FORMAT);
 }
 
-static void cut_files(void **state)
+static void truncated_files(void **state)
 {
     (void)state;
     char path[256], cut_path[256];
@@ -434,7 +434,7 @@ static void flipped_values(void **state)
 }
 
 /* A link to another file is not followed. */
-static void outside_links(void **state)
+static void external_links(void **state)
 {
     (void)state;
     char path[256], linked[256];
@@ -453,7 +453,7 @@ static void outside_links(void **state)
 }
 
 /* Blocks begin with 0, also in a table of one row. */
-static void odd_block(void **state)
+static void unexpected_block(void **state)
 {
     (void)state;
     char path[256];
@@ -495,7 +495,7 @@ static void replace_column(const char *path, const wt_result *result, hid_t type
     (void)H5Fclose(file);
 }
 
-static void odd_columns(void **state)
+static void unexpected_columns(void **state)
 {
     (void)state;
     char path[256];
@@ -581,14 +581,22 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(round_trip),         cmocka_unit_test(same_bytes),
-        cmocka_unit_test(length_is_right),    cmocka_unit_test(empty_result),
-        cmocka_unit_test(as_others_see_it),   cmocka_unit_test(not_a_store),
-        cmocka_unit_test(cut_files),          cmocka_unit_test(flipped_values),
-        cmocka_unit_test(outside_links),      cmocka_unit_test(odd_block),
-        cmocka_unit_test(odd_columns),        cmocka_unit_test(cannot_write),
-        cmocka_unit_test(names_that_collide), cmocka_unit_test(block_without_rows),
-        cmocka_unit_test(first_layout),       cmocka_unit_test(headlines),
+        cmocka_unit_test(round_trip),
+        cmocka_unit_test(same_bytes),
+        cmocka_unit_test(length_is_right),
+        cmocka_unit_test(empty_result),
+        cmocka_unit_test(layout_for_other_programs),
+        cmocka_unit_test(not_a_store),
+        cmocka_unit_test(truncated_files),
+        cmocka_unit_test(flipped_values),
+        cmocka_unit_test(external_links),
+        cmocka_unit_test(unexpected_block),
+        cmocka_unit_test(unexpected_columns),
+        cmocka_unit_test(cannot_write),
+        cmocka_unit_test(names_that_collide),
+        cmocka_unit_test(block_without_rows),
+        cmocka_unit_test(first_layout),
+        cmocka_unit_test(headlines),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

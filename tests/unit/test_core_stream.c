@@ -181,7 +181,7 @@ static void several_tables(void **state)
     wt_table_free(t);
 }
 
-static void by_hand(void **state)
+static void handwritten_stream(void **state)
 {
     (void)state;
     wt_table *t = NULL;
@@ -250,7 +250,7 @@ static void refused(void **state)
     }
 }
 
-static void any_cut_and_any_byte(void **state)
+static void truncated_and_changed_streams(void **state)
 {
     (void)state;
     wt_table *const t = make_table();
@@ -342,8 +342,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(round_trip),     cmocka_unit_test(exact_text),
-        cmocka_unit_test(several_tables), cmocka_unit_test(by_hand),
-        cmocka_unit_test(refused),        cmocka_unit_test(any_cut_and_any_byte),
+        cmocka_unit_test(several_tables), cmocka_unit_test(handwritten_stream),
+        cmocka_unit_test(refused),        cmocka_unit_test(truncated_and_changed_streams),
         cmocka_unit_test(full_disk),      cmocka_unit_test(foreign_locale),
         cmocka_unit_test(no_table),
     };

@@ -245,7 +245,7 @@ static void test_continued(void **state)
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-static void test_bound(void **state)
+static void test_read_by_declaration(void **state)
 {
     (void)state;
     wt_table *table = make_prony();
@@ -284,7 +284,7 @@ static void check_unbound(const char *column, const char *unit, const char *key,
     wt_table_free(table);
 }
 
-static void test_unbound(void **state)
+static void test_refused_tables(void **state)
 {
     (void)state;
     check_unbound("modulus", "Pa", "deformation", WT_OK, "");
@@ -321,10 +321,10 @@ static void test_optional(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_declarations), cmocka_unit_test(test_example),
-        cmocka_unit_test(test_written),      cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_continued),    cmocka_unit_test(test_bound),
-        cmocka_unit_test(test_unbound),      cmocka_unit_test(test_optional),
+        cmocka_unit_test(test_declarations),   cmocka_unit_test(test_example),
+        cmocka_unit_test(test_written),        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_continued),      cmocka_unit_test(test_read_by_declaration),
+        cmocka_unit_test(test_refused_tables), cmocka_unit_test(test_optional),
     };
     return cmocka_run_group_tests_name("data tables", tests, NULL, NULL);
 }

@@ -90,7 +90,7 @@ static void temperatures(void **state)
     check_refused("C", WT_Q_TEMPERATURE); /* coulomb */
 }
 
-static void frequency_is_not_angular(void **state)
+static void frequency_differs_from_angular_frequency(void **state)
 {
     (void)state;
     check_unit("kHz", WT_Q_FREQUENCY, 1e3, 0);
@@ -155,7 +155,7 @@ static void wrong_units(void **state)
     assert_int_equal(wt_unit_to_si("Ohm", WT_Q_PRESSURE, &f, &o, NULL), WT_E_UNIT);
 }
 
-static void every_si_unit_is_itself(void **state)
+static void si_units_are_unchanged(void **state)
 {
     (void)state;
     for (size_t i = 0; i < (size_t)WT_Q_COUNT; i++) {
@@ -189,7 +189,7 @@ static void check_known(const char *text, wt_quantity quantity)
         assert_near(known[i], udunits[i], 0.0);
 }
 
-static void known_as_udunits_says(void **state)
+static void table_agrees_with_udunits(void **state)
 {
     (void)state;
     /* the units of the table in unit.c */
@@ -380,7 +380,7 @@ static void several_threads(void **state)
     }
 }
 
-static void chances_in_words(void **state)
+static void probabilities_as_text(void **state)
 {
     (void)state;
     assert_string_equal(format_probability(0.0214).text, "0.021");
@@ -432,18 +432,18 @@ int main(void)
         cmocka_unit_test(no_database),
         cmocka_unit_test(units_of_instruments),
         cmocka_unit_test(temperatures),
-        cmocka_unit_test(frequency_is_not_angular),
+        cmocka_unit_test(frequency_differs_from_angular_frequency),
         cmocka_unit_test(spellings),
         cmocka_unit_test(wrong_units),
-        cmocka_unit_test(every_si_unit_is_itself),
+        cmocka_unit_test(si_units_are_unchanged),
         cmocka_unit_test(quantities),
         cmocka_unit_test(largest_of_each),
         cmocka_unit_test(quantities_refused),
         cmocka_unit_test(formatted),
         cmocka_unit_test(foreign_locale),
-        cmocka_unit_test(chances_in_words),
+        cmocka_unit_test(probabilities_as_text),
         cmocka_unit_test(several_threads),
-        cmocka_unit_test(known_as_udunits_says),
+        cmocka_unit_test(table_agrees_with_udunits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

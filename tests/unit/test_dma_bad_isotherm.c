@@ -80,7 +80,7 @@ static void a_bad_loss_modulus_is_named(void **state)
     check_left_out(&sweep, BAD, "20.00 °C", "its E'' is left out: it deviates by +", true);
 }
 
-static void radians_under_hertz_are_named(void **state)
+static void radians_labelled_hertz_are_named(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
@@ -90,7 +90,7 @@ static void radians_under_hertz_are_named(void **state)
     check_left_out(&sweep, BAD, "20.00 °C", "rad/s read as Hz", false);
 }
 
-static void kelvin_under_celsius_is_named(void **state)
+static void kelvin_labelled_celsius_is_named(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
@@ -171,8 +171,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_bad_loss_modulus_is_named),
-        cmocka_unit_test(radians_under_hertz_are_named),
-        cmocka_unit_test(kelvin_under_celsius_is_named),
+        cmocka_unit_test(radians_labelled_hertz_are_named),
+        cmocka_unit_test(kelvin_labelled_celsius_is_named),
         cmocka_unit_test(an_isotherm_without_positive_moduli_is_named),
         cmocka_unit_test(sound_isotherms_are_all_used),
         cmocka_unit_test(the_reference_only_moves_the_shifts),

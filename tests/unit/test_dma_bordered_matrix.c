@@ -83,7 +83,7 @@ static void check_inverse(const bordered_matrix *inverse, const gsl_matrix *of)
 }
 
 /* With a full border and with a partial one. */
-static void test_as_whole(void **state)
+static void test_equals_full_matrix(void **state)
 {
     (void)state;
     for (size_t m = MOST_BORDER - 6; m <= MOST_BORDER; m += 6) {
@@ -150,7 +150,7 @@ static void test_not_positive(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_as_whole),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_equals_full_matrix),
                                        cmocka_unit_test(test_not_positive)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -604,7 +604,7 @@ static void relaxation_is_that_of_the_fit(void **state)
     check_all(&law);
 }
 
-static void of_shear(void **state)
+static void shear_relaxation(void **state)
 {
     (void)state;
     const wt_shift_law law = fitted_law();
@@ -663,7 +663,7 @@ static void at_one_temperature(void **state)
 }
 
 /* Abaqus for vibrations: the same series with the long-term modulus, and no shifts. */
-static void of_frequency(void **state)
+static void vibration_series(void **state)
 {
     (void)state;
     const wt_shift_law law = fitted_law();
@@ -676,7 +676,7 @@ static void of_frequency(void **state)
 }
 
 /* 1120 kg/m3 are 1.12e-9 t/mm3 and 1.12e-6 kg/mm3. */
-static void what_else_a_material_has(void **state)
+static void density_and_expansion(void **state)
 {
     (void)state;
     static const double factor[] = {1, 1e-12, 1e-9};
@@ -716,7 +716,7 @@ static void what_else_a_material_has(void **state)
 
 /* The storage modulus at the limit of the measurement, and the share of the instantaneous modulus
  * beyond it. */
-static void the_fast_end_is_told(void **state)
+static void instantaneous_modulus_is_stated(void **state)
 {
     (void)state;
     const wt_table *p = tables.prony_reduced;
@@ -814,7 +814,7 @@ static void check_joined(double from_reference, bool below)
     free(text);
 }
 
-static void a_joined_law(void **state)
+static void law_of_two_parts(void **state)
 {
     (void)state;
     wt_table *shifts = tables.shift_factors;
@@ -881,14 +881,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(relaxation_is_that_of_the_fit),
-        cmocka_unit_test(of_shear),
+        cmocka_unit_test(shear_relaxation),
         cmocka_unit_test(at_one_temperature),
-        cmocka_unit_test(of_frequency),
-        cmocka_unit_test(what_else_a_material_has),
-        cmocka_unit_test(the_fast_end_is_told),
+        cmocka_unit_test(vibration_series),
+        cmocka_unit_test(density_and_expansion),
+        cmocka_unit_test(instantaneous_modulus_is_stated),
         cmocka_unit_test(in_another_locale),
         cmocka_unit_test(other_laws),
-        cmocka_unit_test(a_joined_law),
+        cmocka_unit_test(law_of_two_parts),
         cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, make, clear);

@@ -101,7 +101,7 @@ static void test_intervals_hold_the_truth(void **state)
     }
 }
 
-static void test_what_is_not_reached_is_not_told(void **state)
+static void test_unreached_limits_are_open(void **state)
 {
     uint64_t seed = 7;
     (void)state;
@@ -124,7 +124,7 @@ static void test_what_is_not_reached_is_not_told(void **state)
     assert_true(p.strain_tenth > 0);
 }
 
-static void test_of_the_law(void **state)
+static void test_law_values(void **state)
 {
     uint64_t seed = 5;
     (void)state;
@@ -213,7 +213,7 @@ static void check_epdm(const char *name)
     wt_sweep_clear(&sweep);
 }
 
-static void test_of_the_reference(void **state)
+static void test_reference_values(void **state)
 {
     (void)state;
     if (access(SCANS "payne.csv", R_OK) != 0)
@@ -226,9 +226,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_intervals_hold_the_truth),
-        cmocka_unit_test(test_what_is_not_reached_is_not_told),
-        cmocka_unit_test(test_of_the_law),
-        cmocka_unit_test(test_of_the_reference),
+        cmocka_unit_test(test_unreached_limits_are_open),
+        cmocka_unit_test(test_law_values),
+        cmocka_unit_test(test_reference_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -230,7 +230,7 @@ static void a_liquid_has_an_upper_limit(void **state)
 /* ---- starts, outliers ------------------------------------------------------------------------ */
 
 /* Shifts of more than 30 decades in total. */
-static void far_shifts_are_found(void **state)
+static void large_shifts_are_found(void **state)
 {
     (void)state;
     const wt_shift_law steep = {.kind = WT_LAW_WLF, .wlf = {293.15, 40, 150}};
@@ -356,7 +356,7 @@ static void the_law_is_that_of_the_shifts(void **state)
     }
 }
 
-static void three_isotherms_tell_no_law_beyond_them(void **state)
+static void three_isotherms_give_no_extrapolation(void **state)
 {
     (void)state;
     const scene s = {usual(), 283.15, 303.15, 10, 0.005, 0, 41, 0, 0};
@@ -478,7 +478,7 @@ static void check_bound(const wt_master *m)
     assert_true(bound >= number && bound < number + 0.1 + 1e-9);
 }
 
-static void superposition_is_judged(void **state)
+static void superposition_is_tested(void **state)
 {
     (void)state;
     scene s = {usual(), 233.15, 353.15, 10, 0.01, 0, 31, 0, 0};
@@ -519,7 +519,7 @@ static void superposition_is_judged(void **state)
 /* E' and E'' exchanged: no spectrum has such moduli. The fits converge, and the errors of the
  * shifts are those of the material, not of the noise of a draw; their intervals contain the
  * truth. */
-static void errors_after_fails_are_no_chance(void **state)
+static void errors_after_failed_superposition(void **state)
 {
     (void)state;
     double error[3][13] = {{0}};
@@ -576,7 +576,7 @@ static size_t verdicts(double second_c1, wt_superposition verdict)
 
 /* The slope change by a second process is not correlated noise. With nearly the same law it is
  * small in each isotherm, and visible where slow and fast times separate. */
-static void a_second_process_is_seen(void **state)
+static void second_process_is_detected(void **state)
 {
     (void)state;
     assert_int_equal(verdicts(5, WT_SUPERPOSITION_FAILS), 5);
@@ -585,7 +585,7 @@ static void a_second_process_is_seen(void **state)
 }
 
 /* Noise that increases towards the ends of all isotherms looks like a lack of fit there. */
-static void louder_ends_are_no_misfit(void **state)
+static void noisier_ends_are_no_lack_of_fit(void **state)
 {
     (void)state;
     size_t holds = 0;
@@ -655,7 +655,7 @@ static void draws_scatter_as_the_intervals_say(void **state)
 
 /* The middle isotherm is glassy, flat in both moduli, so that no shift onto it is known. Unless it
  * was requested, one of the transition replaces it. */
-static void a_flat_middle_is_no_reference(void **state)
+static void flat_isotherm_is_not_the_reference(void **state)
 {
     (void)state;
     const scene s = {usual(), 243.15, 273.15, 5, 0.01, 0, 51, 0, 0};
@@ -702,22 +702,22 @@ static void a_flat_middle_is_no_reference(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_flat_middle_is_no_reference),
+        cmocka_unit_test(flat_isotherm_is_not_the_reference),
         cmocka_unit_test(intervals_hold_the_truth),
         cmocka_unit_test(a_liquid_has_an_upper_limit),
-        cmocka_unit_test(far_shifts_are_found),
+        cmocka_unit_test(large_shifts_are_found),
         cmocka_unit_test(single_bad_values_are_left_out_and_counted),
         cmocka_unit_test(an_isotherm_of_another_temperature_is_named),
         cmocka_unit_test(an_isotherm_with_more_noise_weighs_less),
         cmocka_unit_test(the_law_is_that_of_the_shifts),
-        cmocka_unit_test(three_isotherms_tell_no_law_beyond_them),
+        cmocka_unit_test(three_isotherms_give_no_extrapolation),
         cmocka_unit_test(shifts_that_rise_have_no_law),
         cmocka_unit_test(shifts_without_a_pole_are_not_wlf),
         cmocka_unit_test(the_spectrum_and_its_band),
-        cmocka_unit_test(superposition_is_judged),
-        cmocka_unit_test(errors_after_fails_are_no_chance),
-        cmocka_unit_test(a_second_process_is_seen),
-        cmocka_unit_test(louder_ends_are_no_misfit),
+        cmocka_unit_test(superposition_is_tested),
+        cmocka_unit_test(errors_after_failed_superposition),
+        cmocka_unit_test(second_process_is_detected),
+        cmocka_unit_test(noisier_ends_are_no_lack_of_fit),
         cmocka_unit_test(the_reference_is_clamped_too),
         cmocka_unit_test(draws_scatter_as_the_intervals_say),
     };

@@ -302,7 +302,7 @@ static void transverse_checks(void **state)
 }
 
 /* Each modulus has its own law; the knots and the range are those of all. */
-static void transverse_of_three_laws(void **state)
+static void transverse_moduli_of_three_laws(void **state)
 {
     (void)state;
     const double omega[2][3] = {{1e-2, 1, 1e3}, {1e-1, 1, 1e4}};
@@ -423,7 +423,7 @@ int main(void)
         cmocka_unit_test(fractional_zener_moduli),
         cmocka_unit_test(transverse_surface),
         cmocka_unit_test(transverse_checks),
-        cmocka_unit_test(transverse_of_three_laws),
+        cmocka_unit_test(transverse_moduli_of_three_laws),
         cmocka_unit_test(bad_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

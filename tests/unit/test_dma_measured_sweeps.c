@@ -238,7 +238,7 @@ static const double nrel_published[] = {10.24,  9.36,   7.84,   6.09,   4.26,   
                                         -1.91,  -3.41,  -5.03,  -6.69,  -8.45,  -10.31, -12.10,
                                         -13.43, -14.51, -15.46, -16.31, -17.07, -17.75, -18.34};
 
-static void thermoplastics_do_not_superpose(void **state)
+static void thermoplastics_fail_superposition(void **state)
 {
     (void)state;
     static const struct {
@@ -288,7 +288,7 @@ int main(void)
         cmocka_unit_test(auhl_2008_draws),
         cmocka_unit_test(soft_polymer_with_compliance_limit),
         cmocka_unit_test(filled_rubber_departs_from_rubber_elasticity),
-        cmocka_unit_test(thermoplastics_do_not_superpose),
+        cmocka_unit_test(thermoplastics_fail_superposition),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -349,7 +349,7 @@ static double true_top(double from, double to, double share)
     return at;
 }
 
-static void lower_peaks_are_told(void **unused)
+static void lower_peaks_are_found(void **unused)
 {
     (void)unused;
     uint64_t state = 11;
@@ -410,7 +410,7 @@ int main(void)
                                        cmocka_unit_test(parabola),
                                        cmocka_unit_test(reference_parabolas),
                                        cmocka_unit_test(slopes),
-                                       cmocka_unit_test(lower_peaks_are_told),
+                                       cmocka_unit_test(lower_peaks_are_found),
                                        cmocka_unit_test(no_lower_peak)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -80,7 +80,7 @@ static wt_prony reduce(const wt_prony *from, unsigned terms, double error, doubl
 }
 
 /* As accurate as requested, and with no term to spare. */
-static void as_close_as_asked(void **state)
+static void requested_accuracy_is_met(void **state)
 {
     (void)state;
     const double errors[] = {0.1, 0.02, 0.005, 0.0005};
@@ -107,7 +107,7 @@ static void as_close_as_asked(void **state)
 }
 
 /* Spectral lines are recovered, and no others. */
-static void lines(void **state)
+static void spectral_lines_are_recovered(void **state)
 {
     (void)state;
     double tau[] = {1e-4, 1e-2, 1, 1e2, 1e4}, modulus[] = {1e6, 5e6, 2e6, 4e6, 3e6};
@@ -177,8 +177,8 @@ static void refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_close_as_asked),
-        cmocka_unit_test(lines),
+        cmocka_unit_test(requested_accuracy_is_met),
+        cmocka_unit_test(spectral_lines_are_recovered),
         cmocka_unit_test(long_term),
         cmocka_unit_test(refused),
     };

@@ -73,7 +73,7 @@ static wt_master_options options(void)
 }
 
 /* Both methods for one material: each covers the truth, and they agree within their errors. */
-static void sweeps_are_isotherms(void **unused)
+static void ramps_agree_with_isotherms(void **unused)
 {
     const wt_master_options o = options();
     size_t held = 0, agree = 0, law = 0;
@@ -144,7 +144,7 @@ static void one_frequency(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sweeps_are_isotherms),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(ramps_agree_with_isotherms),
                                        cmocka_unit_test(one_frequency)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -38,7 +38,7 @@ static void add_others(const char *ramp, const char *strain)
 }
 
 /* Each once, in natural order: 2 before 10. */
-static void test_found(void **state)
+static void test_list_of_samples(void **state)
 {
     (void)state;
     wt_sample_names samples = {0, NULL};
@@ -57,7 +57,7 @@ static void test_found(void **state)
     assert_int_equal(samples.n, 0);
 }
 
-static void test_taken(void **state)
+static void test_name_with_strain_sweeps_only(void **state)
 {
     (void)state;
     wt_error err = WT_ERROR_INIT;
@@ -80,7 +80,7 @@ static void test_taken(void **state)
 }
 
 /* A name that only strain sweeps or ramps have is listed, too. */
-static void test_of_others(void **state)
+static void test_other_samples(void **state)
 {
     (void)state;
     add("NR", 300, "a");
@@ -160,8 +160,9 @@ static int end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(test_found, end), cmocka_unit_test_teardown(test_taken, end),
-        cmocka_unit_test_teardown(test_of_others, end), cmocka_unit_test_teardown(test_one, end),
-        cmocka_unit_test_teardown(test_files, end)};
+        cmocka_unit_test_teardown(test_list_of_samples, end),
+        cmocka_unit_test_teardown(test_name_with_strain_sweeps_only, end),
+        cmocka_unit_test_teardown(test_other_samples, end),
+        cmocka_unit_test_teardown(test_one, end), cmocka_unit_test_teardown(test_files, end)};
     return cmocka_run_group_tests_name("samples of sweeps", tests, NULL, NULL);
 }

@@ -208,7 +208,7 @@ static void a_plateau_without_slope_decides_nothing(void **state)
 }
 
 /* E' on a plateau, E'' still with a slope: E'' decides (polyisoprene melts, warm networks). */
-static void on_the_plateau_of_storage_the_loss_decides(void **state)
+static void loss_decides_on_the_storage_plateau(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
@@ -480,7 +480,7 @@ static void thermal_expansion_enters_the_physical_shift(void **state)
 }
 
 /* A second relaxation with another temperature dependence, in E'' only. */
-static void failing_superposition_is_said(void **state)
+static void failed_superposition_is_reported(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
@@ -506,7 +506,7 @@ static void failing_superposition_is_said(void **state)
     wt_sweep_clear(&other);
 }
 
-static void mixed_strain_amplitudes_are_said(void **state)
+static void mixed_strain_amplitudes_are_reported(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
@@ -541,7 +541,7 @@ static void expect_failure(const wt_sweep *sweep, const wt_master_options *optio
 
 /* One sharp process per decade: the positions of the spectrum terms do not attract the isotherms,
  * for lines at or between them. */
-static void lines_between_the_terms_pull_nothing(void **state)
+static void spectral_lines_do_not_bias_shifts(void **state)
 {
     (void)state;
     static const double phase[] = {0.0, 0.6, 0.0}, scatter[] = {0.005, 0.005, 0.03};
@@ -694,7 +694,7 @@ static void storage_alone_finds_a_spectrum_of_lines(void **state)
     }
 }
 
-static void many_points_say_what_few_say(void **state)
+static void many_points_give_the_result_of_few(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
@@ -741,7 +741,7 @@ static size_t points_of(size_t near)
 
 /* Neighbouring points are merged if there are five for each remaining one, because their distances
  * are uneven. */
-static void dense_points_become_one(void **state)
+static void dense_points_are_merged(void **state)
 {
     (void)state;
     assert_int_equal(points_of(2), 62);
@@ -759,9 +759,9 @@ int main(void)
         cmocka_unit_test(an_isotherm_without_overlap_has_no_shift),
         cmocka_unit_test(no_overlap_at_all_is_an_error),
         cmocka_unit_test(a_plateau_without_slope_decides_nothing),
-        cmocka_unit_test(on_the_plateau_of_storage_the_loss_decides),
+        cmocka_unit_test(loss_decides_on_the_storage_plateau),
         cmocka_unit_test(storage_alone_finds_a_spectrum_of_lines),
-        cmocka_unit_test(many_points_say_what_few_say),
+        cmocka_unit_test(many_points_give_the_result_of_few),
         cmocka_unit_test(on_a_power_law_both_shifts_are_one),
         cmocka_unit_test(points_without_positive_modulus_are_left_out_and_named),
         cmocka_unit_test(single_bad_points_have_little_weight),
@@ -769,10 +769,10 @@ int main(void)
         cmocka_unit_test(the_reference_temperature_need_not_be_measured),
         cmocka_unit_test(a_moved_reference_moves_all_shifts_alike),
         cmocka_unit_test(thermal_expansion_enters_the_physical_shift),
-        cmocka_unit_test(failing_superposition_is_said),
-        cmocka_unit_test(mixed_strain_amplitudes_are_said),
-        cmocka_unit_test(dense_points_become_one),
-        cmocka_unit_test(lines_between_the_terms_pull_nothing),
+        cmocka_unit_test(failed_superposition_is_reported),
+        cmocka_unit_test(mixed_strain_amplitudes_are_reported),
+        cmocka_unit_test(dense_points_are_merged),
+        cmocka_unit_test(spectral_lines_do_not_bias_shifts),
         cmocka_unit_test(impossible_input_is_refused),
         cmocka_unit_test(isotherms_of_few_points_are_left_out),
     };

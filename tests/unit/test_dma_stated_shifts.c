@@ -33,7 +33,7 @@ static void heat(wt_sweep *sweep, double omega, size_t n, uint64_t *state)
     }
 }
 
-static void cut_by_temperature_and_frequency(void **unused)
+static void excluded_by_temperature_and_frequency(void **unused)
 {
     static const char *const texts[] = {"temperature:..-5degC", "temperature:30degC",
                                         "frequency:10Hz.."};
@@ -61,7 +61,7 @@ static void cut_by_temperature_and_frequency(void **unused)
     wt_sweep_clear(&sweep);
 }
 
-static void words_that_cut_nothing(void **unused)
+static void invalid_exclusions(void **unused)
 {
     static const char *const bad[] = {
         "temperature",           "temperature:", "temperature:..",
@@ -115,7 +115,7 @@ static void one_frequency_by_a_law(void **unused)
 }
 
 /* Shifts of every second isotherm are fixed, the others are fitted between them. */
-static void some_given_others_fitted(void **unused)
+static void stated_shifts_are_fixed(void **unused)
 {
     wt_sweep sweep = {0};
     wt_master m = {0};
@@ -173,7 +173,7 @@ static void one_shift_by_hand(void **unused)
 }
 
 /* A manual shift is added to a law for all others, and is refused for the reference. */
-static void by_hand_beside_a_law_and_where_it_is_none(void **unused)
+static void manual_shift_with_a_law(void **unused)
 {
     static const char *const forty[] = {"40degC=-1.5"}, *const reference[] = {"20.3degC=-1.5"},
                              *const other[] = {"25degC=1"},
@@ -397,14 +397,14 @@ static void no_glass_transition_far_from_the_isotherms(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cut_by_temperature_and_frequency),
-        cmocka_unit_test(words_that_cut_nothing),
+        cmocka_unit_test(excluded_by_temperature_and_frequency),
+        cmocka_unit_test(invalid_exclusions),
         cmocka_unit_test(one_frequency_by_a_law),
-        cmocka_unit_test(some_given_others_fitted),
+        cmocka_unit_test(stated_shifts_are_fixed),
         cmocka_unit_test(runs_at_one_temperature_keep_their_shifts),
         cmocka_unit_test(no_glass_transition_far_from_the_isotherms),
         cmocka_unit_test(one_shift_by_hand),
-        cmocka_unit_test(by_hand_beside_a_law_and_where_it_is_none),
+        cmocka_unit_test(manual_shift_with_a_law),
         cmocka_unit_test(closed_form_of_the_standard),
         cmocka_unit_test(one_quantity_alone),
         cmocka_unit_test(one_modulus_and_free_shifts),

@@ -70,7 +70,7 @@ static void check_same(const wt_table *a, const wt_table *b)
         }
 }
 
-static void test_same(void **state)
+static void test_draws_are_identical(void **state)
 {
     (void)state;
     static const char path[] = "test_flow_stored.h5";
@@ -231,7 +231,7 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same),
+        cmocka_unit_test(test_draws_are_identical),
         cmocka_unit_test(test_without_draws),
         cmocka_unit_test(test_refused),
     };

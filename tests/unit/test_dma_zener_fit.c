@@ -73,7 +73,7 @@ static wt_prony series(double decades, double *tau, double *modulus, size_t n)
         .equilibrium_modulus = 3e6, .n = n, .relaxation_time = tau, .modulus = modulus};
 }
 
-static void found_again(void **state)
+static void law_is_recovered(void **state)
 {
     (void)state;
     points p;
@@ -124,7 +124,7 @@ static void two_processes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(found_again),
+        cmocka_unit_test(law_is_recovered),
         cmocka_unit_test(two_processes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

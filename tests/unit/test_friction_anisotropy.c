@@ -309,7 +309,7 @@ static void grooves_across(void **state)
     free(c);
 }
 
-static void what_cannot_be(void **state)
+static void impossible_input(void **state)
 {
     (void)state;
     wt_error err = WT_ERROR_INIT;
@@ -368,7 +368,7 @@ static double worst_terms(const double power[WEIGHT_POWERS])
 }
 
 /* Factor of the errors: where terms cancel they are larger than without a weight. */
-static void caution_of_weights(void **state)
+static void error_factor_of_weights(void **state)
 {
     (void)state;
     const wt_anisotropy across = {.amplitude = {0.8}, .angle = {M_PI / 2}},
@@ -389,10 +389,14 @@ static void caution_of_weights(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numeric_cases),      cmocka_unit_test(none_is_isotropic_to_the_bit),
-        cmocka_unit_test(directions),         cmocka_unit_test(full_contact_is_linear),
-        cmocka_unit_test(all_orders),         cmocka_unit_test(grooves_across),
-        cmocka_unit_test(caution_of_weights), cmocka_unit_test(what_cannot_be),
+        cmocka_unit_test(numeric_cases),
+        cmocka_unit_test(none_is_isotropic_to_the_bit),
+        cmocka_unit_test(directions),
+        cmocka_unit_test(full_contact_is_linear),
+        cmocka_unit_test(all_orders),
+        cmocka_unit_test(grooves_across),
+        cmocka_unit_test(error_factor_of_weights),
+        cmocka_unit_test(impossible_input),
         cmocka_unit_test(no_static_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -113,7 +113,7 @@ static void decades_end_at_decades(void **state)
 
 /* ---- direction of sliding -------------------------------------------------------------------- */
 
-static void sides(void **state)
+static void lateral_force(void **state)
 {
     (void)state;
     wt_table *table = NULL, *plain;
@@ -155,7 +155,7 @@ int main(void)
         cmocka_unit_test(decades_add_up),
         cmocka_unit_test(decades_have_the_shearing),
         cmocka_unit_test(decades_end_at_decades),
-        cmocka_unit_test(sides),
+        cmocka_unit_test(lateral_force),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

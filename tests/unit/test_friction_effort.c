@@ -133,7 +133,7 @@ static void assert_same(wt_estimate a, wt_estimate b)
 
 /* Knots on a straight line change nothing. As many as here must not make the time grow
  * quadratically; it was half a minute. */
-static void knots_on_a_line(void **state)
+static void collinear_knots_change_nothing(void **state)
 {
     (void)state;
     wt_friction_point few, many;
@@ -148,7 +148,7 @@ static void knots_on_a_line(void **state)
 
 /* The digits of a velocity are independent of the other velocities and their number; 0 is among
  * them. */
-static void neighbours_move_nothing(void **state)
+static void velocities_are_independent(void **state)
 {
     (void)state;
     wt_material *const materials[] = {prony(5), prony(12), prony(40), table()};
@@ -205,8 +205,9 @@ static void many_terms(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nodes_follow_the_tolerance), cmocka_unit_test(knots_on_a_line),
-        cmocka_unit_test(neighbours_move_nothing), cmocka_unit_test(many_terms)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(nodes_follow_the_tolerance),
+                                       cmocka_unit_test(collinear_knots_change_nothing),
+                                       cmocka_unit_test(velocities_are_independent),
+                                       cmocka_unit_test(many_terms)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

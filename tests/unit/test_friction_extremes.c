@@ -357,7 +357,7 @@ static void try_edge(const numeric_case *c, const scene *s, double tolerance)
     wt_material_free(material);
 }
 
-static void edges_of_the_domain(void **ignored)
+static void limits_of_validity(void **ignored)
 {
     (void)ignored;
     FILE *in = fopen(WT_SOURCE_DIR "/tests/numeric/friction-edges.txt", "r");
@@ -387,7 +387,7 @@ static void draw_case(drawn *d, size_t i)
  * anisotropic one with nearly singular moduli between its knots; and a storage modulus that rises
  * by six decades between two knots while the loss modulus rises by two. The hysteresis then comes
  * from where G has hardly begun to rise. */
-static void once_broken(void **ignored)
+static void earlier_failures(void **ignored)
 {
     (void)ignored;
     static const struct {
@@ -416,7 +416,7 @@ static void once_broken(void **ignored)
 /* An anisotropic table whose modulus nearly vanishes between the edges of the subintervals of its
  * angular integrals, with a loss modulus that softens less than the storage modulus; and two that
  * soften so close to q0 that a rounded wavenumber loses the strain. */
-static void softened_once_broken(void **ignored)
+static void earlier_failures_with_softening(void **ignored)
 {
     (void)ignored;
     static const struct {
@@ -525,9 +525,9 @@ int main(int argc, char **argv)
     make_rule();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(truth_of_reference, begin),
-        cmocka_unit_test_setup(edges_of_the_domain, begin),
-        cmocka_unit_test_setup(once_broken, begin),
-        cmocka_unit_test_setup(softened_once_broken, begin),
+        cmocka_unit_test_setup(limits_of_validity, begin),
+        cmocka_unit_test_setup(earlier_failures, begin),
+        cmocka_unit_test_setup(earlier_failures_with_softening, begin),
         cmocka_unit_test_setup(steep_and_continued, begin),
         cmocka_unit_test_setup(extreme_friction, begin),
         cmocka_unit_test_setup(softened_cases, begin),

@@ -233,7 +233,7 @@ static void test_flash_off(void **state)
 }
 
 /* The result of a velocity depends neither on other velocities nor on the threads. */
-static void test_flash_alone(void **state)
+static void test_flash_is_independent_of_other_velocities(void **state)
 {
     (void)state;
     enum { N = 9 };
@@ -326,7 +326,7 @@ static void test_flash_branches(void **state)
 }
 
 /* Rubber above the limit of temperature has no friction, and nothing is returned. */
-static void test_flash_unsettled(void **state)
+static void test_flash_without_convergence(void **state)
 {
     (void)state;
     wt_error err = WT_ERROR_INIT;
@@ -402,11 +402,16 @@ static void test_flash_table(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_area_cases),     cmocka_unit_test(test_flash_cases),
-        cmocka_unit_test(test_flash_off),      cmocka_unit_test(test_flash_alone),
-        cmocka_unit_test(test_flash_error),    cmocka_unit_test(test_flash_limits),
-        cmocka_unit_test(test_flash_branches), cmocka_unit_test(test_flash_unsettled),
-        cmocka_unit_test(test_flash_energy),   cmocka_unit_test(test_flash_table),
+        cmocka_unit_test(test_area_cases),
+        cmocka_unit_test(test_flash_cases),
+        cmocka_unit_test(test_flash_off),
+        cmocka_unit_test(test_flash_is_independent_of_other_velocities),
+        cmocka_unit_test(test_flash_error),
+        cmocka_unit_test(test_flash_limits),
+        cmocka_unit_test(test_flash_branches),
+        cmocka_unit_test(test_flash_without_convergence),
+        cmocka_unit_test(test_flash_energy),
+        cmocka_unit_test(test_flash_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -215,7 +215,7 @@ static void area_functions(void **state)
 }
 
 /* Many areas at once, from full contact to almost none, including where the methods change. */
-static void areas_of_many(void **state)
+static void many_areas_at_once(void **state)
 {
     (void)state;
     enum { MANY = 700 };
@@ -562,7 +562,7 @@ static void extrapolated_share(void **state)
 }
 
 /* G = (E* h' / sigma0)^2 / 8 and P = 1 / sqrt(pi G), until G overflows. */
-static void largest_variance(void **state)
+static void variance_overflow(void **state)
 {
     (void)state;
     rig r = rig_named("normal_prony_v1e-2");
@@ -755,7 +755,7 @@ int main(void)
         cmocka_unit_test(numeric_profiles),
         cmocka_unit_test(profile_ends),
         cmocka_unit_test(area_functions),
-        cmocka_unit_test(areas_of_many),
+        cmocka_unit_test(many_areas_at_once),
         cmocka_unit_test(errors_of_the_area),
         cmocka_unit_test(area_integral_with_correction),
         cmocka_unit_test(odd_in_velocity),
@@ -768,7 +768,7 @@ int main(void)
         cmocka_unit_test(elastic_area),
         cmocka_unit_test(same_bits_for_any_threads),
         cmocka_unit_test(extrapolated_share),
-        cmocka_unit_test(largest_variance),
+        cmocka_unit_test(variance_overflow),
         cmocka_unit_test(same_as_shared_reference),
         cmocka_unit_test(bad_input),
         cmocka_unit_test(layer_limits),

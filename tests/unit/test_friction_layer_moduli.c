@@ -161,7 +161,7 @@ static void integrals_are_sums(void **state)
 /* ---- limits ---------------------------------------------------------------------------------- */
 
 /* Without thickness: the friction of the bulk, bit by bit. */
-static void thin(void **state)
+static void zero_thickness(void **state)
 {
     (void)state;
     wt_material *bulk = rubber(modulus);
@@ -177,7 +177,7 @@ static void thin(void **state)
 
 /* A ratio that hardly depends on the frequency, or only over a short range: the result of a
  * constant ratio. */
-static void one_ratio(void **state)
+static void constant_ratio(void **state)
 {
     (void)state;
     wt_material *bulk = rubber(modulus);
@@ -246,7 +246,7 @@ static void errors_hold(void **state)
 
 /* Anisotropic roughness, a softening and flash temperature use the same moduli for a layer with a
  * constant ratio. */
-static void with_all_else(void **state)
+static void with_other_effects(void **state)
 {
     (void)state;
     wt_material *bulk = rubber(modulus);
@@ -279,13 +279,10 @@ static void with_all_else(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(phase_is_causal),
-        cmocka_unit_test(integrals_are_sums),
-        cmocka_unit_test(thin),
-        cmocka_unit_test(one_ratio),
-        cmocka_unit_test(frequencies_are_shifted),
-        cmocka_unit_test(errors_hold),
-        cmocka_unit_test(with_all_else),
+        cmocka_unit_test(phase_is_causal),         cmocka_unit_test(integrals_are_sums),
+        cmocka_unit_test(zero_thickness),          cmocka_unit_test(constant_ratio),
+        cmocka_unit_test(frequencies_are_shifted), cmocka_unit_test(errors_hold),
+        cmocka_unit_test(with_other_effects),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

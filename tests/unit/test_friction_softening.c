@@ -114,7 +114,7 @@ static void test_mean(void **state)
 }
 
 /* Two sweeps with disjoint strains are two, although their strains increase throughout. */
-static void test_apart(void **state)
+static void test_disjoint_strains(void **state)
 {
     (void)state;
     static const double strain[] = {1e-3, 1e-2, 0.1, 0.2, 0.5, 1},
@@ -147,7 +147,7 @@ static void test_apart(void **state)
 }
 
 /* Sweeps at several temperatures or of several samples are not repeats: one is selected. */
-static void test_chosen(void **state)
+static void test_selected_sweep(void **state)
 {
     (void)state;
     static const double at[] = {296.15, 296.65, 333.15, 333.15}, end[] = {0.5, 0.52, 0.7, 0.9};
@@ -258,7 +258,7 @@ static void test_shares(void **state)
 
 /* The tables softening and friction agree; without softening friction is that of a call without the
  * option. */
-static void test_same(void **state)
+static void test_tables_agree(void **state)
 {
     (void)state;
     const wt_strain_softening s = given(false);
@@ -480,7 +480,7 @@ static void test_cases(void **state)
 }
 
 /* A stated table, with columns in any order and strain in any unit: both errors or none. */
-static void test_given(void **state)
+static void test_stated_table(void **state)
 {
     (void)state;
     static const char *const names[] = {"strain", "g_error", "g", "f_error", "f"};
@@ -530,11 +530,11 @@ static void test_given(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mean),   cmocka_unit_test(test_apart),
-        cmocka_unit_test(test_chosen), cmocka_unit_test(test_covered),
-        cmocka_unit_test(test_shares), cmocka_unit_test(test_same),
-        cmocka_unit_test(test_drawn),  cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_cases),  cmocka_unit_test(test_given),
+        cmocka_unit_test(test_mean),           cmocka_unit_test(test_disjoint_strains),
+        cmocka_unit_test(test_selected_sweep), cmocka_unit_test(test_covered),
+        cmocka_unit_test(test_shares),         cmocka_unit_test(test_tables_agree),
+        cmocka_unit_test(test_drawn),          cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_cases),          cmocka_unit_test(test_stated_table),
     };
     return cmocka_run_group_tests_name("softening", tests, make_sweeps, free_sweeps);
 }

@@ -60,7 +60,7 @@ static void test_trends(void **state)
 }
 
 /* Both: the friction of the case. None: that of the isotropic rubber. */
-static void test_ends(void **state)
+static void test_limits(void **state)
 {
     (void)state;
     const wt_table *table = wt_result_find(result, "transverse_isotropy"),
@@ -100,6 +100,7 @@ static void test_ends(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_trends), cmocka_unit_test(test_ends)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_trends),
+                                       cmocka_unit_test(test_limits)};
     return cmocka_run_group_tests_name("transverse_isotropy", tests, run_case, free_result);
 }

@@ -160,7 +160,7 @@ static void intervals_cover_the_truth(void **state)
 
 /* The plain residual is not the default because of its bias: with a cantilever 12 times softer than
  * the contact the modulus is wrong by many standard deviations. */
-static void plain_least_squares_is_biased_with_a_soft_lever(void **state)
+static void plain_least_squares_is_biased_with_a_soft_cantilever(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -223,7 +223,7 @@ static void sensitivity_budget(void **state)
 
 /* A baseline that enters by its sums has the same cost as its samples, also when the contact point
  * moves into it. */
-static void sums_stand_for_the_baseline(void **state)
+static void baseline_by_sums(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -331,7 +331,7 @@ static void baseline_given(void **state)
 }
 
 /* Another zero of height and force, or other curves before it: the same result. */
-static void nothing_hidden_decides(void **state)
+static void irrelevant_changes_have_no_effect(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -546,7 +546,7 @@ static void step_from(const curve_truth *t, const wt_indent_fit *fit, double *st
     *most = sqrt(length * solved[1][0]) * unit[0] / p[0];
 }
 
-static void what_a_further_step_would_change(void **state)
+static void fit_has_converged(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -577,18 +577,18 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_curves_give_the_truth),
         cmocka_unit_test(intervals_cover_the_truth),
-        cmocka_unit_test(plain_least_squares_is_biased_with_a_soft_lever),
+        cmocka_unit_test(plain_least_squares_is_biased_with_a_soft_cantilever),
         cmocka_unit_test(sensitivity_budget),
-        cmocka_unit_test(sums_stand_for_the_baseline),
+        cmocka_unit_test(baseline_by_sums),
         cmocka_unit_test(largest_force),
         cmocka_unit_test(spikes_at_the_ends),
         cmocka_unit_test(contact_point_given),
         cmocka_unit_test(baseline_given),
-        cmocka_unit_test(nothing_hidden_decides),
+        cmocka_unit_test(irrelevant_changes_have_no_effect),
         cmocka_unit_test(points_for_plots),
         cmocka_unit_test(force_curve_as_read),
         cmocka_unit_test(arguments),
-        cmocka_unit_test(what_a_further_step_would_change),
+        cmocka_unit_test(fit_has_converged),
     };
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

@@ -156,7 +156,7 @@ static void disturbed_baseline(void **state)
     assert_true(fabs(fit.modulus.value - t.modulus) < 4 * fit.modulus.standard_error);
 }
 
-static void wrong_way(void **state)
+static void wrong_direction(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -186,7 +186,7 @@ static void wrong_way(void **state)
     expect(&t, WT_CURVE_NO_APPROACH, "does not go one way");
 }
 
-static void too_stiff_for_the_lever(void **state)
+static void too_stiff_for_the_cantilever(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -215,7 +215,7 @@ static void more_bending_than_travel(void **state)
     }
 }
 
-static void snap_on_is_left_out(void **state)
+static void snap_in_is_excluded(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -233,7 +233,7 @@ static void snap_on_is_left_out(void **state)
     assert_near_abs(fit.contact_point.value, t.height0 + t.contact_point, 0.5e-9);
 }
 
-static void not_this_tip(void **state)
+static void wrong_tip_is_detected(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -320,7 +320,7 @@ static void one_contact_point(void **state)
 }
 
 /* Meaningless numbers: always a verdict with a reason, never a modulus that is not a number. */
-static void nonsense_has_a_verdict_too(void **state)
+static void meaningless_data_have_a_verdict(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -478,7 +478,7 @@ static void bend(const curve_truth *t, double force)
 }
 
 /* Another tip or a curved baseline: R squared accepts them at 0.999 and more. */
-static void not_by_the_noise(void **state)
+static void weak_nonlinearity_is_not_saturation(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -628,18 +628,18 @@ int main(void)
         cmocka_unit_test(uneven_heights),
         cmocka_unit_test(deeper_than_the_sphere),
         cmocka_unit_test(too_uncertain),
-        cmocka_unit_test(not_by_the_noise),
+        cmocka_unit_test(weak_nonlinearity_is_not_saturation),
         cmocka_unit_test(curves_together),
         cmocka_unit_test(adhesive_contact_is_fitted),
         cmocka_unit_test(loss_of_the_sample),
-        cmocka_unit_test(wrong_way),
-        cmocka_unit_test(too_stiff_for_the_lever),
+        cmocka_unit_test(wrong_direction),
+        cmocka_unit_test(too_stiff_for_the_cantilever),
         cmocka_unit_test(more_bending_than_travel),
-        cmocka_unit_test(snap_on_is_left_out),
-        cmocka_unit_test(not_this_tip),
+        cmocka_unit_test(snap_in_is_excluded),
+        cmocka_unit_test(wrong_tip_is_detected),
         cmocka_unit_test(several_contact_points),
         cmocka_unit_test(one_contact_point),
-        cmocka_unit_test(nonsense_has_a_verdict_too),
+        cmocka_unit_test(meaningless_data_have_a_verdict),
         cmocka_unit_test(names_of_verdicts),
     };
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);

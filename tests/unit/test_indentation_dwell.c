@@ -38,7 +38,7 @@ static double summed(double exponent, double power, double load, double t)
 }
 
 /* An unusable dwell has a message and no moduli. */
-static void test_none(void **state)
+static void test_unusable_dwells(void **state)
 {
     (void)state;
     enum { FEW = 64 };
@@ -285,7 +285,7 @@ static void test_relaxation(void **state)
 
 /* Single relaxation times are not a broad spectrum: each dwell states it. Neither a dwell nor the
  * mean has an error, because the scatter does not show a shared error. */
-static void test_lines(void **state)
+static void test_single_relaxation_times(void **state)
 {
     (void)state;
     static const char path[] = "test_dwell_lines.jpk-force-map";
@@ -413,7 +413,7 @@ static void test_modulation(void **state)
 }
 
 /* A pause of 3 s on a gel. */
-static void test_genuine(void **state)
+static void test_measured_dwell(void **state)
 {
     (void)state;
     static const char path[] =
@@ -429,7 +429,7 @@ static void test_genuine(void **state)
 
 /* An adhesive retraction: the neck lasts until 4 um above the contact point, four times the depth,
  * and the force after it is that of the baseline. The free part begins after the neck. */
-static void test_free_of_the_neck(void **state)
+static void test_adhesive_neck(void **state)
 {
     (void)state;
     enum { IN = 600, HELD = 600, OUT = 700 };
@@ -467,8 +467,8 @@ static void test_free_of_the_neck(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_none),    cmocka_unit_test(test_relaxation),
-        cmocka_unit_test(test_lines),   cmocka_unit_test(test_modulation),
-        cmocka_unit_test(test_genuine), cmocka_unit_test(test_free_of_the_neck)};
+        cmocka_unit_test(test_unusable_dwells),         cmocka_unit_test(test_relaxation),
+        cmocka_unit_test(test_single_relaxation_times), cmocka_unit_test(test_modulation),
+        cmocka_unit_test(test_measured_dwell),          cmocka_unit_test(test_adhesive_neck)};
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

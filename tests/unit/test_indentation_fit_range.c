@@ -119,7 +119,7 @@ static void every_limit(void **state)
 }
 
 /* A sample that differs near its surface: only a lower limit gives the modulus below it. */
-static void what_is_shallow_does_not_count(void **state)
+static void shallow_part_is_excluded(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -249,11 +249,9 @@ static void limits_in_order(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(range_of_the_fit),
-                                       cmocka_unit_test(every_limit),
-                                       cmocka_unit_test(what_is_shallow_does_not_count),
-                                       cmocka_unit_test(intervals_cover),
-                                       cmocka_unit_test(too_little_is_refused),
-                                       cmocka_unit_test(limits_in_order)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(range_of_the_fit),         cmocka_unit_test(every_limit),
+        cmocka_unit_test(shallow_part_is_excluded), cmocka_unit_test(intervals_cover),
+        cmocka_unit_test(too_little_is_refused),    cmocka_unit_test(limits_in_order)};
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

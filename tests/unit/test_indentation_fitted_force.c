@@ -116,7 +116,7 @@ static void test_adhesion(void **state)
 }
 
 /* The two with the largest relative errors, and one named by the end of its path. */
-static void test_which(void **state)
+static void test_selected_curves(void **state)
 {
     (void)state;
     static const char *const file[] = {CASE "bulk-1.jpk-force-map"};
@@ -150,7 +150,7 @@ static void test_which(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_adhesion),
-                                       cmocka_unit_test(test_which)};
+                                       cmocka_unit_test(test_selected_curves)};
     if (wt_formats_new(NULL, &formats, NULL, NULL) != WT_OK)
         return 1;
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

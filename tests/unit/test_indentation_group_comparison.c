@@ -266,7 +266,7 @@ static void signs(void **state)
     assert_true(fabs(worn.log_modulus) < 1e-5 && worn.misfit < 1e-5);
 }
 
-static void no_answer(void **state)
+static void groups_without_result(void **state)
 {
     (void)state;
     const double good[] = {1e6, 2e6, 3e6}, bad[] = {1e6, -2e6}, equal[] = {1e6, 1e6};
@@ -418,7 +418,7 @@ static void rates_by_slope(void **state)
                 sqrt(2 * spots / SPOTS + pow(2 * step * slope_error, 2)), 1e-9);
 }
 
-static void rates_that_say_nothing(void **state)
+static void rates_without_information(void **state)
 {
     (void)state;
     two_rates a, b;
@@ -568,11 +568,11 @@ int main(void)
         cmocka_unit_test(order_does_not_matter),
         cmocka_unit_test(mann_whitney_agrees_with_enumeration),
         cmocka_unit_test(summary_of_one_group),
-        cmocka_unit_test(no_answer),
+        cmocka_unit_test(groups_without_result),
         cmocka_unit_test(signs),
         cmocka_unit_test(rates_in_common),
         cmocka_unit_test(rates_by_slope),
-        cmocka_unit_test(rates_that_say_nothing),
+        cmocka_unit_test(rates_without_information),
         cmocka_unit_test(rates_between_spots),
         cmocka_unit_test(known_offset),
         cmocka_unit_test(two_units_and_more),

@@ -209,7 +209,7 @@ static void test_range_error(void **state)
 
 /* An attraction before contact that no law of adhesion describes is returned if it is above a tenth
  * of the largest force; the larger adhesion of the retraction replaces it. */
-static void test_left_out_pull(void **state)
+static void test_excluded_attraction(void **state)
 {
     (void)state;
     const double none = (double)NAN;
@@ -246,6 +246,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_radius), cmocka_unit_test(test_stated),
                                        cmocka_unit_test(test_one_relaxation_time),
                                        cmocka_unit_test(test_range_error),
-                                       cmocka_unit_test(test_left_out_pull)};
+                                       cmocka_unit_test(test_excluded_attraction)};
     return cmocka_run_group_tests_name("error of a group", tests, open_formats, close_formats);
 }

@@ -255,7 +255,7 @@ static void bias_of_loss(void **state)
 }
 
 /* The error of an elastic fit on lossy rubber is stated only where it was tested. */
-static void no_word_beyond_what_was_tried(void **state)
+static void error_is_stated_within_tested_range(void **state)
 {
     (void)state;
     const wt_indent_fit some = fit_lossy(0.3, 1, WITHOUT_TIMES),
@@ -276,7 +276,7 @@ int main(void)
         cmocka_unit_test(coverage),
         cmocka_unit_test(times),
         cmocka_unit_test(bias_of_loss),
-        cmocka_unit_test(no_word_beyond_what_was_tried),
+        cmocka_unit_test(error_is_stated_within_tested_range),
     };
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

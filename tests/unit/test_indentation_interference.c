@@ -175,7 +175,7 @@ static void add(wt_force_curve *curve, wt_segment_kind kind, const curve_truth *
 
 /* A pull-off causes a fit with adhesion. If that does not describe the curve, all results are as
  * without it. */
-static void adhesion_tried_in_vain(void **state)
+static void rejected_adhesion_changes_nothing(void **state)
 {
     (void)state;
     wt_contact_table *table = NULL;
@@ -220,6 +220,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact), cmocka_unit_test(with_a_range), cmocka_unit_test(intervals_cover),
-        cmocka_unit_test(no_false_alarms), cmocka_unit_test(adhesion_tried_in_vain)};
+        cmocka_unit_test(no_false_alarms), cmocka_unit_test(rejected_adhesion_changes_nothing)};
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

@@ -214,7 +214,7 @@ static void assert_held(const scene *s, const wt_modulus_profile *d)
 
 /* A curvature that all baselines share does not scatter: the intervals include it, and no change is
  * found. With little noise they would not without it. */
-static void bent_baselines(void **state)
+static void curved_baselines(void **state)
 {
     (void)state;
     for (double bow = 150e-12; bow < 700e-12; bow *= 1.7) {
@@ -278,7 +278,7 @@ static void loss_of_layers(void **state)
 }
 
 /* The verdict on a change agrees with its interval, and the advice with its largest error. */
-static void words_of_a_change(void **state)
+static void text_of_a_change(void **state)
 {
     (void)state;
     static const struct {
@@ -309,7 +309,7 @@ static void words_of_a_change(void **state)
     }
 }
 
-static void words_of_no_answer(void **state)
+static void text_without_result(void **state)
 {
     (void)state;
     static const struct {
@@ -357,12 +357,12 @@ int main(void)
         cmocka_unit_test(layers),
         cmocka_unit_test(wrong_tip),
         cmocka_unit_test(too_little),
-        cmocka_unit_test(words_of_a_change),
+        cmocka_unit_test(text_of_a_change),
         cmocka_unit_test(little_change),
-        cmocka_unit_test(bent_baselines),
+        cmocka_unit_test(curved_baselines),
         cmocka_unit_test(loss),
         cmocka_unit_test(loss_of_layers),
-        cmocka_unit_test(words_of_no_answer),
+        cmocka_unit_test(text_without_result),
     };
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

@@ -206,7 +206,7 @@ static void test_hole(void **state)
 }
 
 /* The deflection channel is in metres, too, but no height: it must be requested by name. */
-static void test_images_of_the_lever(void **state)
+static void test_deflection_images(void **state)
 {
     (void)state;
     static const char *const names[] = {"DeflectionRetrace", "AmplitudeRetrace", "HeightRetrace"};
@@ -248,7 +248,7 @@ static void test_images_of_the_lever(void **state)
     }
 }
 
-static void test_cannot_say(void **state)
+static void test_inconclusive(void **state)
 {
     (void)state;
     uint64_t seed = 4;
@@ -314,7 +314,7 @@ static void test_columns(void **state)
 }
 
 /* Discs far outside the image, also beyond the range of integers. */
-static void test_far_off(void **state)
+static void test_disc_outside_image(void **state)
 {
     (void)state;
     static const double z[4] = {1, 2, 3, 4};
@@ -335,10 +335,10 @@ int main(void)
         cmocka_unit_test(test_columns),
         cmocka_unit_test(test_roughness),
         cmocka_unit_test(test_tilt),
-        cmocka_unit_test(test_cannot_say),
-        cmocka_unit_test(test_far_off),
+        cmocka_unit_test(test_inconclusive),
+        cmocka_unit_test(test_disc_outside_image),
         cmocka_unit_test(test_hole),
-        cmocka_unit_test(test_images_of_the_lever),
+        cmocka_unit_test(test_deflection_images),
     };
     return cmocka_run_group_tests_name("spot", tests, begin, end);
 }

@@ -240,7 +240,7 @@ static void test_several(void **state)
 }
 
 /* Fit of the instrument: 179.8 kHz, Q 442. */
-static void test_genuine(void **state)
+static void test_measured_tune(void **state)
 {
     (void)state;
     static const char path[] = WT_SHARED_DIR "/data/afm/nanosurf/thermal.nid";
@@ -255,7 +255,7 @@ static void test_genuine(void **state)
 }
 
 /* Sader's method with the noise; a method that differs by more than a factor 1.5 is not advised. */
-static void test_contradiction(void **state)
+static void test_inconsistency(void **state)
 {
     (void)state;
     wt_thermal_job job = wt_thermal_job_defaults();
@@ -292,7 +292,7 @@ static void test_contradiction(void **state)
 
 /* The error of a spectrum that is not an oscillator may be shared: the mean of several has no
  * error, either. */
-static void test_departing(void **state)
+static void test_not_an_oscillator(void **state)
 {
     (void)state;
     static const char path[] = WT_SHARED_DIR "/data/afm/nanosurf/thermal.nid";
@@ -324,9 +324,9 @@ static void test_departing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_metres),       cmocka_unit_test(test_volts),
-        cmocka_unit_test(test_tune),         cmocka_unit_test(test_several),
-        cmocka_unit_test(test_genuine),      cmocka_unit_test(test_departing),
-        cmocka_unit_test(test_contradiction)};
+        cmocka_unit_test(test_metres),        cmocka_unit_test(test_volts),
+        cmocka_unit_test(test_tune),          cmocka_unit_test(test_several),
+        cmocka_unit_test(test_measured_tune), cmocka_unit_test(test_not_an_oscillator),
+        cmocka_unit_test(test_inconsistency)};
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

@@ -22,7 +22,7 @@ static wt_tip parsed(const char *text)
     return tip;
 }
 
-static void understood(void **state)
+static void valid_texts(void **state)
 {
     (void)state;
     wt_tip tip = parsed("pyramid:half-angle=35deg,radius=20nm");
@@ -77,7 +77,7 @@ static void understood(void **state)
     assert_near(tip.transition_radius, 10e-9 * cos(20 * degree), 1e-14);
 }
 
-static void refused_in_clear_words(void **state)
+static void refused_texts(void **state)
 {
     (void)state;
     const struct {
@@ -288,9 +288,12 @@ static void test_default_transition(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_default_transition),    cmocka_unit_test(understood),
-        cmocka_unit_test(refused_in_clear_words),     cmocka_unit_test(errors_of_angle_and_radius),
-        cmocka_unit_test(described_with_all_numbers), cmocka_unit_test(kept_in_a_table),
+        cmocka_unit_test(test_default_transition),
+        cmocka_unit_test(valid_texts),
+        cmocka_unit_test(refused_texts),
+        cmocka_unit_test(errors_of_angle_and_radius),
+        cmocka_unit_test(described_with_all_numbers),
+        cmocka_unit_test(kept_in_a_table),
         cmocka_unit_test(within_declared_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

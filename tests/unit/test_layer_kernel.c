@@ -435,7 +435,7 @@ static void time_to_a_thickness(void **state)
 
 /* ---- laws ------------------------------------------------------------------------------------ */
 
-static void three_ways_agree(void **state)
+static void three_methods_agree(void **state)
 {
     (void)state;
     /* a sum of two equal exponentials is one, but uses the general method */
@@ -508,7 +508,7 @@ static void an_error_may_be_a_layer(void **state)
 
 /* Thickness never decreases during growth from 0, never increases during shrinkage, and both limits
  * meet. */
-static void monotone_and_same_end(void **state)
+static void thickness_is_monotonic(void **state)
 {
     (void)state;
     rig r = rig_several();
@@ -542,7 +542,7 @@ static void monotone_and_same_end(void **state)
     rig_free(&r);
 }
 
-static void what_moves_the_balance(void **state)
+static void inputs_of_the_steady_state(void **state)
 {
     (void)state;
     rig r = rig_several();
@@ -627,7 +627,7 @@ static bool whole(double x)
 }
 
 /* No NaN without dissipation. */
-static void nothing_happens(void **state)
+static void no_dissipation(void **state)
 {
     (void)state;
     for (unsigned bits = 0; bits < 128; bits++) {
@@ -699,7 +699,7 @@ static void history_alone(rig *r, const double *time, size_t n)
 }
 
 /* Otherwise a result that is not requested changes no bit of the others. */
-static void numbers_alone(void **state)
+static void results_without_errors(void **state)
 {
     (void)state;
     enum { TIMES = 40 };
@@ -843,16 +843,16 @@ int main(void)
         cmocka_unit_test(error_at_the_onset),
         cmocka_unit_test(bands_with_wear),
         cmocka_unit_test(time_to_a_thickness),
-        cmocka_unit_test(three_ways_agree),
+        cmocka_unit_test(three_methods_agree),
         cmocka_unit_test(restart_changes_nothing),
         cmocka_unit_test(old_layer_has_an_error),
         cmocka_unit_test(an_error_may_be_a_layer),
-        cmocka_unit_test(monotone_and_same_end),
-        cmocka_unit_test(what_moves_the_balance),
+        cmocka_unit_test(thickness_is_monotonic),
+        cmocka_unit_test(inputs_of_the_steady_state),
         cmocka_unit_test(regimes),
         cmocka_unit_test(calibration),
-        cmocka_unit_test(nothing_happens),
-        cmocka_unit_test(numbers_alone),
+        cmocka_unit_test(no_dissipation),
+        cmocka_unit_test(results_without_errors),
         cmocka_unit_test(bad_input),
         cmocka_unit_test(fastest_formation),
         cmocka_unit_test(edge_within_rounding),

@@ -135,7 +135,7 @@ static void check_ball(const numeric_case *c, const case_line *line, wt_ball_con
 }
 
 /* Unknown is not 0, and outside the track there is no contact. */
-static void duty_of_nothing(void **state)
+static void duty_without_contact(void **state)
 {
     (void)state;
     assert_true(wt_ball_duty(1e-3, 1e-2, 1.1e-3) == 0);
@@ -176,6 +176,6 @@ static void numeric_cases(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(numeric_cases),
-                                       cmocka_unit_test(duty_of_nothing)};
+                                       cmocka_unit_test(duty_without_contact)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -76,7 +76,7 @@ static void assert_entry(zip_archive *a, const char *name, const char *text)
 }
 
 /* Without a directory, truncated at every position: complete entries are read, and nothing else. */
-static void cut_anywhere(void **state)
+static void truncated_anywhere(void **state)
 {
     (void)state;
     bytes b = {.n = 0};
@@ -217,7 +217,7 @@ static void number_of_entries(void **state)
 }
 
 /* Programs without ZIP64 count modulo 65536. */
-static void more_than_the_number_holds(void **state)
+static void entry_count_overflow(void **state)
 {
     enum { MORE = 65536 + 3 };
     (void)state;
@@ -287,7 +287,7 @@ static void a_large_entry(void **state)
 }
 
 /* A copy in blocks fills the last one. */
-static void bytes_behind_the_end(void **state)
+static void bytes_after_the_end(void **state)
 {
     (void)state;
     bytes b = {.n = 0};
@@ -306,13 +306,10 @@ static void bytes_behind_the_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cut_anywhere),
-        cmocka_unit_test(declared_sizes_are_checked),
-        cmocka_unit_test(check_sum_and_limit),
-        cmocka_unit_test(number_of_entries),
-        cmocka_unit_test(more_than_the_number_holds),
-        cmocka_unit_test(a_large_entry),
-        cmocka_unit_test(bytes_behind_the_end),
+        cmocka_unit_test(truncated_anywhere),   cmocka_unit_test(declared_sizes_are_checked),
+        cmocka_unit_test(check_sum_and_limit),  cmocka_unit_test(number_of_entries),
+        cmocka_unit_test(entry_count_overflow), cmocka_unit_test(a_large_entry),
+        cmocka_unit_test(bytes_after_the_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

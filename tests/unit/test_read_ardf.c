@@ -93,7 +93,7 @@ static void stopped(void **state)
     }
 }
 
-static void misunderstood(void **state)
+static void inconsistent_files(void **state)
 {
     (void)state;
     ardf_writer_file f = usual();
@@ -140,6 +140,7 @@ static void damaged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(all_curves), cmocka_unit_test(stopped),
-                                       cmocka_unit_test(misunderstood), cmocka_unit_test(damaged)};
+                                       cmocka_unit_test(inconsistent_files),
+                                       cmocka_unit_test(damaged)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -63,7 +63,7 @@ static void afmformats(void **state)
     }
 }
 
-static void odd_afmformats(void **state)
+static void unexpected_afmformats(void **state)
 {
     (void)state;
     static const unsigned char back[ROWS] = {0, 0, 1, 1, 0, 0}, one[ROWS] = {1, 1, 1, 1, 1, 1},
@@ -216,7 +216,7 @@ static void calibration_graph(void **state)
     close_all(&r);
 }
 
-static void odd_nanosurf(void **state)
+static void unexpected_nanosurf(void **state)
 {
     (void)state;
     nhf_writer_file f = nanosurf(2);
@@ -280,8 +280,8 @@ static void damaged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(afmformats),      cmocka_unit_test(odd_afmformats),
-        cmocka_unit_test(nanosurf_curves), cmocka_unit_test(calibration_graph),
-        cmocka_unit_test(odd_nanosurf),    cmocka_unit_test(damaged)};
+        cmocka_unit_test(afmformats),          cmocka_unit_test(unexpected_afmformats),
+        cmocka_unit_test(nanosurf_curves),     cmocka_unit_test(calibration_graph),
+        cmocka_unit_test(unexpected_nanosurf), cmocka_unit_test(damaged)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

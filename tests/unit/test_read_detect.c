@@ -37,7 +37,7 @@ static void restore_stdin(int saved)
 
 /* A second input of a large file gives the same parts, also after the file was renamed and the
  * first input closed; a small file has no second input. */
-static void file_beside(void **state)
+static void second_input_of_a_file(void **state)
 {
     (void)state;
     enum { LARGE = 5 << 20 };
@@ -121,7 +121,7 @@ static pid_t feed_stdin(size_t n, int *saved)
 }
 
 /* Discarded bytes of a pipe are not replaced with later ones. */
-static void a_pipe_that_cannot_be_kept(void **state)
+static void pipe_above_the_buffer_limit(void **state)
 {
     (void)state;
     const size_t size = (size_t)12 << 20;
@@ -245,7 +245,7 @@ static void unknown_files_are_described(void **state)
     }
 }
 
-static void nanosurf_answers(void **state)
+static void nanosurf_detection(void **state)
 {
     (void)state;
     wt_error err = WT_ERROR_INIT;
@@ -263,7 +263,7 @@ static void nanosurf_answers(void **state)
 }
 
 /* A long header on a pipe: the detector requests more until it suffices. */
-static void more_is_shown(void **state)
+static void detector_requests_more(void **state)
 {
     (void)state;
     size_t n = 40000;
@@ -287,7 +287,7 @@ static void more_is_shown(void **state)
 }
 
 /* A description and its copy with another name match equally well. */
-static void ties_name_both(void **state)
+static void tie_names_both_formats(void **state)
 {
     (void)state;
     static const char sample[] = "Force-Distance Curve\nFile Format:\t3\n\n"
@@ -390,14 +390,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pipe_file_and_memory),
-        cmocka_unit_test(file_beside),
-        cmocka_unit_test(a_pipe_that_cannot_be_kept),
+        cmocka_unit_test(second_input_of_a_file),
+        cmocka_unit_test(pipe_above_the_buffer_limit),
         cmocka_unit_test(files_that_cannot_be_read),
         cmocka_unit_test(binary_readers_are_complete),
         cmocka_unit_test(unknown_files_are_described),
-        cmocka_unit_test(nanosurf_answers),
-        cmocka_unit_test(more_is_shown),
-        cmocka_unit_test(ties_name_both),
+        cmocka_unit_test(nanosurf_detection),
+        cmocka_unit_test(detector_requests_more),
+        cmocka_unit_test(tie_names_both_formats),
         cmocka_unit_test(a_signature_comes_first),
         cmocka_unit_test(chosen_format),
     };

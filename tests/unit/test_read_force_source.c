@@ -115,7 +115,7 @@ static void done(made_up *m, wt_force_curve *curve)
 
 /* ---- what the file says ------------------------------------------------------------------- */
 
-static void as_the_file_says(void **state)
+static void calibration_of_the_file(void **state)
 {
     made_up m = make(known);
     wt_force_curve curve = {0};
@@ -188,7 +188,7 @@ static void infinite_samples(void **state)
 }
 
 /* Only requested and available quantities. */
-static void as_asked_for(void **state)
+static void requested_quantities(void **state)
 {
     made_up m = make(known);
     wt_force_curve curve = {0};
@@ -214,7 +214,7 @@ static void as_asked_for(void **state)
 /* ---- what the user says ------------------------------------------------------------------- */
 
 /* A stated value replaces a step of the conversion; later quantities follow from earlier ones. */
-static void given_to_a_chain(void **state)
+static void stated_calibration(void **state)
 {
     (void)state;
     for (int given = 1; given < 4; given++) {
@@ -244,7 +244,7 @@ static void given_to_a_chain(void **state)
 }
 
 /* Separately exported columns are each converted by stated over original calibration. */
-static void given_to_columns(void **state)
+static void stated_calibration_of_columns(void **state)
 {
     made_up m = make(known);
     wt_force_curve curve = {0};
@@ -281,7 +281,7 @@ static void given_to_columns(void **state)
 
 /* Separately stored force and deflection imply a spring constant; heights are as long as each
  * other. Each has one warning. */
-static void contradictions(void **state)
+static void inconsistencies(void **state)
 {
     static const struct {
         double force; /* N for each metre of deflection */
@@ -450,7 +450,7 @@ static void places(void **state)
     assert_int_equal(curve.grid_x, -1);
 }
 
-static void described(void **state)
+static void reader_metadata(void **state)
 {
     made_up m = make(unknown);
     wt_read_options *o = &m.base.options;
@@ -487,12 +487,18 @@ static void described(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_the_file_says), cmocka_unit_test(infinite_samples),
-        cmocka_unit_test(as_asked_for),     cmocka_unit_test(given_to_a_chain),
-        cmocka_unit_test(given_to_columns), cmocka_unit_test(contradictions),
-        cmocka_unit_test(from_one_signal),  cmocka_unit_test(missing_calibration),
-        cmocka_unit_test(missing_channels), cmocka_unit_test(calibration_of_the_curve),
-        cmocka_unit_test(places),           cmocka_unit_test(described),
+        cmocka_unit_test(calibration_of_the_file),
+        cmocka_unit_test(infinite_samples),
+        cmocka_unit_test(requested_quantities),
+        cmocka_unit_test(stated_calibration),
+        cmocka_unit_test(stated_calibration_of_columns),
+        cmocka_unit_test(inconsistencies),
+        cmocka_unit_test(from_one_signal),
+        cmocka_unit_test(missing_calibration),
+        cmocka_unit_test(missing_channels),
+        cmocka_unit_test(calibration_of_the_curve),
+        cmocka_unit_test(places),
+        cmocka_unit_test(reader_metadata),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

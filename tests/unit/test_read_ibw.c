@@ -172,7 +172,7 @@ static void test_damaged(void **state)
         unsigned char copy[sizeof bytes];
         memcpy(copy, bytes, n);
         memset(copy + sizes[i], 0xff, 4);
-        ibw_writer_mend(copy, n);
+        ibw_writer_fix_checksums(copy, n);
         assert_int_not_equal(open_bytes(copy, n), WT_OK);
         copy[3] ^= 1; /* the check sum */
         assert_int_not_equal(open_bytes(copy, n), WT_OK);
@@ -216,7 +216,7 @@ static void test_old(void **state)
 }
 
 /* The common parser of header numbers reads a number of the note. */
-static void test_contradictions(void **state)
+static void test_inconsistencies(void **state)
 {
     (void)state;
     static const struct {
@@ -261,9 +261,9 @@ static void test_contradictions(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_contradictions), cmocka_unit_test(test_curve),
-        cmocka_unit_test(test_turning_point),  cmocka_unit_test(test_trigger),
-        cmocka_unit_test(test_refused),        cmocka_unit_test(test_shifted),
-        cmocka_unit_test(test_damaged),        cmocka_unit_test(test_old)};
+        cmocka_unit_test(test_inconsistencies), cmocka_unit_test(test_curve),
+        cmocka_unit_test(test_turning_point),   cmocka_unit_test(test_trigger),
+        cmocka_unit_test(test_refused),         cmocka_unit_test(test_shifted),
+        cmocka_unit_test(test_damaged),         cmocka_unit_test(test_old)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -45,7 +45,7 @@ static const char *warning_of(double *values, size_t columns, size_t rows, const
     return said;
 }
 
-static void alone(void **state)
+static void isolated_heights(void **state)
 {
     (void)state;
     double values[N];
@@ -67,7 +67,7 @@ static void alone(void **state)
 }
 
 /* A height within the roughness, and one that causes less than half of the slopes. */
-static void not_far(void **state)
+static void heights_within_roughness(void **state)
 {
     (void)state;
     double values[N];
@@ -129,8 +129,8 @@ static void profile(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(alone), cmocka_unit_test(not_far),
-                                       cmocka_unit_test(edges), cmocka_unit_test(missing),
-                                       cmocka_unit_test(profile)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(isolated_heights), cmocka_unit_test(heights_within_roughness),
+        cmocka_unit_test(edges), cmocka_unit_test(missing), cmocka_unit_test(profile)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -176,7 +176,7 @@ static void missing_indices(void **state)
     close_all(&r);
 }
 
-static void only_what_is_wanted(void **state)
+static void only_requested_channels(void **state)
 {
     (void)state;
     jpk_writer_file f = make_file();
@@ -349,7 +349,7 @@ static void many_channels(void **state)
 }
 
 /* Truncated at many positions: complete data are read and equal the written ones. */
-static void cut_off(void **state)
+static void truncated_file(void **state)
 {
     (void)state;
     static unsigned char bytes[65536];
@@ -378,7 +378,7 @@ static void cut_off(void **state)
     assert_int_equal(most, 3);
 }
 
-static void described(void **state)
+static void metadata(void **state)
 {
     (void)state;
     static const char *const expected[][2] = {{"format", "jpk"},
@@ -458,7 +458,7 @@ static void lost_position(void **state)
     }
 }
 
-static void cut_header(void **state)
+static void truncated_header(void **state)
 {
     (void)state;
     jpk_writer_file f = make_file();
@@ -482,7 +482,7 @@ static void cut_header(void **state)
 
 /* An entry that unpacks to far more than its points need is refused before unpacking, because it
  * would fill the memory. */
-static void swollen_entry(void **state)
+static void oversized_entry(void **state)
 {
     (void)state;
     enum { SWOLLEN = 8 << 20 };
@@ -514,19 +514,19 @@ int main(void)
         cmocka_unit_test(every_encoding_and_layout),
         cmocka_unit_test(single_curve),
         cmocka_unit_test(missing_indices),
-        cmocka_unit_test(only_what_is_wanted),
+        cmocka_unit_test(only_requested_channels),
         cmocka_unit_test(indirect_spring_constant),
         cmocka_unit_test(user_calibration),
         cmocka_unit_test(missing_calibration),
         cmocka_unit_test(height_without_conversion),
         cmocka_unit_test(height_of_unknown_type),
         cmocka_unit_test(many_channels),
-        cmocka_unit_test(cut_off),
-        cmocka_unit_test(described),
+        cmocka_unit_test(truncated_file),
+        cmocka_unit_test(metadata),
         cmocka_unit_test(lost_segments),
         cmocka_unit_test(lost_position),
-        cmocka_unit_test(cut_header),
-        cmocka_unit_test(swollen_entry),
+        cmocka_unit_test(truncated_header),
+        cmocka_unit_test(oversized_entry),
     };
     return cmocka_run_group_tests(tests, set_up, clean);
 }

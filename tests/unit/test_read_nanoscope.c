@@ -134,7 +134,7 @@ static void large(void **state)
 }
 
 /* Truncated: the curves before the end are read. */
-static void cut(void **state)
+static void truncated(void **state)
 {
     (void)state;
     nanoscope_writer_file f = usual(0, true);
@@ -154,7 +154,7 @@ static void cut(void **state)
 }
 
 /* Only the mark of the format: detected, and corrupted. */
-static void mark_alone(void **state)
+static void header_only(void **state)
 {
     (void)state;
     static const char *const marks[] = {"\\*Force file list", "\\*File list"};
@@ -317,7 +317,7 @@ static void damaged(void **state)
 }
 
 /* A header number is complete, or named with its line. */
-static void contradictions(void **state)
+static void inconsistencies(void **state)
 {
     (void)state;
     static unsigned char bytes[65536];
@@ -362,10 +362,11 @@ static void contradictions(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(contradictions), cmocka_unit_test(curves),
-                                       cmocka_unit_test(large),          cmocka_unit_test(cut),
-                                       cmocka_unit_test(mark_alone),     cmocka_unit_test(oddities),
-                                       cmocka_unit_test(peakforce),      cmocka_unit_test(damaged),
-                                       cmocka_unit_test(stopped_ramp)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(inconsistencies), cmocka_unit_test(curves),
+        cmocka_unit_test(large),           cmocka_unit_test(truncated),
+        cmocka_unit_test(header_only),     cmocka_unit_test(oddities),
+        cmocka_unit_test(peakforce),       cmocka_unit_test(damaged),
+        cmocka_unit_test(stopped_ramp)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

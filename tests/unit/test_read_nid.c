@@ -276,7 +276,7 @@ static void listed_positions(void **state)
     close_all(&r);
 }
 
-static void described(void **state)
+static void metadata(void **state)
 {
     (void)state;
     static const char *const expected[][4] = {
@@ -559,7 +559,7 @@ int main(void)
         cmocka_unit_test(force_without_spring_constant),
         cmocka_unit_test(serpentine_map),
         cmocka_unit_test(listed_positions),
-        cmocka_unit_test(described),
+        cmocka_unit_test(metadata),
         cmocka_unit_test(image_with_known_rows),
         cmocka_unit_test(stopped_scans),
         cmocka_unit_test(sizes_must_add_up),

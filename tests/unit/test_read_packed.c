@@ -207,7 +207,7 @@ static void test_sheets(void **state)
 }
 
 /* The row number is that in the sheet. */
-static void test_place(void **state)
+static void test_row_and_sheet_numbers(void **state)
 {
     (void)state;
     const book_writer_sheet sheet = {"One", "\n\n" TABLE "0.1\t20\t10\t1\n1\t20\tten\t1\n", false};
@@ -256,7 +256,7 @@ static void write_parts(const char *sheet, const char *strings)
     assert_int_equal(zip_close(zip), 0);
 }
 
-static void test_hostile(void **state)
+static void test_malicious(void **state)
 {
     (void)state;
     static const struct {
@@ -391,7 +391,7 @@ static size_t find_record(const unsigned char *bytes, size_t n, size_t from, uns
 }
 
 /* Positions of a sound file that are changed one by one. */
-static void test_hostile_xls(void **state)
+static void test_malicious_xls(void **state)
 {
     (void)state;
     enum { STREAM = 5 * 512, OF_HEADER = 0, OF_RECORD = 1 };
@@ -485,11 +485,14 @@ static void test_measured(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_gzip),      cmocka_unit_test(test_sheets),
-        cmocka_unit_test(test_place),     cmocka_unit_test(test_hostile),
-        cmocka_unit_test(test_damaged),   cmocka_unit_test(test_long_and_short),
-        cmocka_unit_test(test_code_page), cmocka_unit_test(test_hostile_xls),
-        cmocka_unit_test(test_measured)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gzip),
+                                       cmocka_unit_test(test_sheets),
+                                       cmocka_unit_test(test_row_and_sheet_numbers),
+                                       cmocka_unit_test(test_malicious),
+                                       cmocka_unit_test(test_damaged),
+                                       cmocka_unit_test(test_long_and_short),
+                                       cmocka_unit_test(test_code_page),
+                                       cmocka_unit_test(test_malicious_xls),
+                                       cmocka_unit_test(test_measured)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

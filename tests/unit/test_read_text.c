@@ -313,7 +313,7 @@ static void missing_values(void **state)
     description_free(d);
 }
 
-static void odd_moduli_are_handed_on(void **state)
+static void unusual_moduli_are_returned(void **state)
 {
     text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
     wt_sweep sweep = {.n_isotherms = 0};
@@ -348,7 +348,7 @@ static void check_split(text_description *d, const char *rows, size_t expected, 
     wt_log_free(log);
 }
 
-static void splits(void **state)
+static void split_into_isotherms(void **state)
 {
     text_description *plain = describe_as("separator=\"tab\"", "", "", "", "");
     text_description *jump =
@@ -665,8 +665,8 @@ int main(void)
         cmocka_unit_test(damaged_rows),
         cmocka_unit_test(text_after_the_table),
         cmocka_unit_test(missing_values),
-        cmocka_unit_test(odd_moduli_are_handed_on),
-        cmocka_unit_test(splits),
+        cmocka_unit_test(unusual_moduli_are_returned),
+        cmocka_unit_test(split_into_isotherms),
         cmocka_unit_test(temperature_of_points),
         cmocka_unit_test(tension_and_shear),
         cmocka_unit_test(nothing_is_guessed),

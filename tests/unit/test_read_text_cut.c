@@ -93,7 +93,7 @@ static bool warned(const wt_log *log, const char *words)
     return found;
 }
 
-static void each_case(void **state)
+static void truncated_texts(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -134,6 +134,6 @@ static int teardown(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(each_case)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(truncated_texts)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -156,7 +156,7 @@ static void test_gwyddion(void **state)
     }
 }
 
-static void test_gwyddion_lies(void **state)
+static void test_gwyddion_wrong_sizes(void **state)
 {
     (void)state;
     const made wide = gwy_of(COLUMNS + 1, ROWS, COLUMNS * ROWS),
@@ -654,7 +654,7 @@ static void test_measured_spectra(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_gwyddion),      cmocka_unit_test(test_gwyddion_lies),
+        cmocka_unit_test(test_gwyddion),      cmocka_unit_test(test_gwyddion_wrong_sizes),
         cmocka_unit_test(test_x3p_types),     cmocka_unit_test(test_x3p_missing),
         cmocka_unit_test(test_x3p_profile),   cmocka_unit_test(test_x3p_checksum),
         cmocka_unit_test(test_x3p_refused),   cmocka_unit_test(test_measured),

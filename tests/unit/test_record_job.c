@@ -446,7 +446,7 @@ static void test_depth_by_archard(void **state)
     assert_int_equal(remove(path), 0);
 }
 
-static void test_what_is_lacking(void **state)
+static void test_missing_data(void **state)
 {
     (void)state;
     wt_record_job job = wt_record_job_defaults();
@@ -470,7 +470,7 @@ static void test_what_is_lacking(void **state)
 }
 
 /* A coefficient that differs from the ratio of its forces is reported. */
-static void test_a_contradiction(void **state)
+static void test_inconsistency(void **state)
 {
     (void)state;
     static const char path[] = "test_record_job.csv";
@@ -510,8 +510,8 @@ int main(void)
         cmocka_unit_test(test_uneven_laps),
         cmocka_unit_test(test_unknown_velocity),
         cmocka_unit_test(test_depth_by_archard),
-        cmocka_unit_test(test_what_is_lacking),
-        cmocka_unit_test(test_a_contradiction),
+        cmocka_unit_test(test_missing_data),
+        cmocka_unit_test(test_inconsistency),
     };
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

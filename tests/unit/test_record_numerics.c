@@ -108,7 +108,7 @@ static void check_reference(const char *file, const char *quantity, wt_cycle_kin
     wt_record_clear(&record);
 }
 
-static void test_of_the_reference(void **state)
+static void test_reference_values(void **state)
 {
     (void)state;
     if (access(FRICTION "friction-steady.csv", R_OK) != 0)
@@ -119,7 +119,7 @@ static void test_of_the_reference(void **state)
 }
 
 /* 3 N in every row, 7.6 samples per lap, and a running-in that ends by the rules, too. */
-static void test_of_a_measured_disc(void **state)
+static void test_measured_disc(void **state)
 {
     (void)state;
     if (access(FRICTION "trib-c1.csv", R_OK) != 0)
@@ -147,7 +147,7 @@ static void test_of_a_measured_disc(void **state)
 /* ---- scatter --------------------------------------------------------------------------------- */
 
 /* The filter against the full covariance, inverted by elimination. */
-static void test_of_the_likelihood(void **state)
+static void test_likelihood(void **state)
 {
     (void)state;
     enum { N = 9 };
@@ -182,7 +182,7 @@ static void test_of_the_likelihood(void **state)
         assert_near(s.product[c], expected_product[c], 1e-12);
 }
 
-static void test_of_the_mean_of_a_law(void **state)
+static void test_mean_of_a_law(void **state)
 {
     (void)state;
     enum { N = 37 };
@@ -198,7 +198,7 @@ static void test_of_the_mean_of_a_law(void **state)
 
 /* White scatter: an interval hardly wider than Student's. Slow scatter: wider as the law
  * predicts. */
-static void test_of_the_error_of_a_mean(void **state)
+static void test_error_of_a_mean(void **state)
 {
     (void)state;
     enum { N = 600, DRAWS = 40 };
@@ -227,7 +227,7 @@ static void test_of_the_error_of_a_mean(void **state)
 
 /* Slow scatter with a correlation time of a third of the record, i.e. three independent parts. Laws
  * up to a quarter of it, with equal shares, cover 45 of these. */
-static void test_of_scatter_as_long_as_the_record(void **state)
+static void test_scatter_as_long_as_the_record(void **state)
 {
     (void)state;
     enum { N = 60, DRAWS = 60 };
@@ -252,7 +252,7 @@ static void test_of_scatter_as_long_as_the_record(void **state)
 
 /* White scatter with a drift of three standard deviations over the record, which is not slow
  * scatter; treated as such, the error is six times as large. */
-static void test_of_the_error_beside_a_drift(void **state)
+static void test_error_with_a_drift(void **state)
 {
     (void)state;
     enum { N = 150, DRAWS = 20 };
@@ -269,7 +269,7 @@ static void test_of_the_error_beside_a_drift(void **state)
     assert_true(wide > 0.95 && wide < 3);
 }
 
-static void test_of_few_points(void **state)
+static void test_few_points(void **state)
 {
     (void)state;
     const double y[3] = {1, 2, 3}, same[50] = {0};
@@ -288,7 +288,7 @@ static void test_of_few_points(void **state)
 }
 
 /* A running-in without an end, none, and a jump without scatter. */
-static void test_of_the_end_of_a_running_in(void **state)
+static void test_end_of_a_running_in(void **state)
 {
     (void)state;
     enum { N = 300 };
@@ -315,7 +315,7 @@ static void test_of_the_end_of_a_running_in(void **state)
 
 /* ---- stick-slip ------------------------------------------------------------------------------ */
 
-static void test_of_stick_slip(void **state)
+static void test_stick_slip(void **state)
 {
     (void)state;
     enum { N = 2000, PERIOD = 20 };
@@ -405,7 +405,7 @@ static double *with(wt_record *record, wt_record_channel c)
 }
 
 /* A zero of 0.7 N does not affect the coefficient, and neither does a reversal. */
-static void test_of_strokes(void **state)
+static void test_strokes(void **state)
 {
     (void)state;
     for (int by_position = 0; by_position < 2; by_position++) {
@@ -438,7 +438,7 @@ static void test_of_strokes(void **state)
 
 /* Strokes with one sign: friction of 4 N with a larger zero of either sign, and the magnitude of
  * friction without one, which falls to 0 at the reversal. The coefficient is 0.4. */
-static void test_of_one_sign(void **state)
+static void test_strokes_with_one_sign(void **state)
 {
     static const double zeros[] = {6.3, -6.3, 4.5, 40, 0};
     (void)state;
@@ -472,7 +472,7 @@ static void test_of_one_sign(void **state)
 }
 
 /* Laps by a column, and by distance and radius; complete ones only. */
-static void test_of_laps(void **state)
+static void test_laps(void **state)
 {
     (void)state;
     for (int by_distance = 0; by_distance < 2; by_distance++) {
@@ -503,7 +503,7 @@ static void test_of_laps(void **state)
 }
 
 /* A span is as long as nearly all steps, also in a record of milliseconds. */
-static void test_of_short_spans(void **state)
+static void test_short_spans(void **state)
 {
     (void)state;
     enum { DENSE = 10, ALL = 100 };
@@ -526,7 +526,7 @@ static void test_of_short_spans(void **state)
 
 /* A sampling rate that is a hundred times higher in the second half gives it no more weight, and a
  * step is not a cycle of two. */
-static void test_of_spans_of_time(void **state)
+static void test_spans_of_time(void **state)
 {
     (void)state;
     wt_record record = empty_record();
@@ -573,7 +573,7 @@ static double shown(const pause_case *c, double value, uint64_t *seed)
 
 /* The pause ends where the speed exceeds the fourth of three decades; a slider stops in
  * mid-stroke. */
-static void test_of_a_pause(void **state)
+static void test_pause(void **state)
 {
     (void)state;
     enum { ALL = 3600, AT = 1500, LAST = AT + 600, STROKE = 300 };
@@ -629,7 +629,7 @@ static void test_of_a_pause(void **state)
 
 /* Not pauses: speeds over four decades with few displayed digits, strokes that turn, a recorder
  * that is repeatedly off for a minute, and rest before and after the sliding. */
-static void test_of_no_pause(void **state)
+static void test_no_pause(void **state)
 {
     (void)state;
     static const double speed[] = {0.1, 1e-5, 1e-3, 0.1};
@@ -663,7 +663,7 @@ static void test_of_no_pause(void **state)
     }
 }
 
-static void test_of_a_force_without_a_load(void **state)
+static void test_force_without_a_load(void **state)
 {
     (void)state;
     wt_record record = empty_record();
@@ -696,7 +696,7 @@ static void test_of_a_force_without_a_load(void **state)
 
 /* ---- wear ------------------------------------------------------------------------------------ */
 
-static void test_of_a_made_track(void **state)
+static void test_synthetic_track(void **state)
 {
     (void)state;
     enum { N = 1000 };
@@ -762,7 +762,7 @@ static void test_error_of_a_track(void **state)
 }
 
 /* The profile by its two columns, in mm and um; the reference uses the same rule. */
-static void test_of_a_measured_track(void **state)
+static void test_measured_track(void **state)
 {
     (void)state;
     enum { MOST = 10000 };
@@ -806,7 +806,7 @@ static void test_of_a_measured_track(void **state)
 }
 
 /* Hertz: the load of a sphere at the depth a^2 / R, and from the pressure back to the load. */
-static void test_of_a_ball(void **state)
+static void test_ball(void **state)
 {
     (void)state;
     const double radius = 3e-3, modulus = 20e6, nu = 0.49, load = 2;
@@ -820,29 +820,29 @@ static void test_of_a_ball(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_of_the_reference),
-        cmocka_unit_test(test_of_a_measured_disc),
-        cmocka_unit_test(test_of_the_likelihood),
-        cmocka_unit_test(test_of_the_mean_of_a_law),
-        cmocka_unit_test(test_of_the_error_of_a_mean),
-        cmocka_unit_test(test_of_scatter_as_long_as_the_record),
-        cmocka_unit_test(test_of_the_error_beside_a_drift),
-        cmocka_unit_test(test_of_few_points),
-        cmocka_unit_test(test_of_the_end_of_a_running_in),
-        cmocka_unit_test(test_of_stick_slip),
+        cmocka_unit_test(test_reference_values),
+        cmocka_unit_test(test_measured_disc),
+        cmocka_unit_test(test_likelihood),
+        cmocka_unit_test(test_mean_of_a_law),
+        cmocka_unit_test(test_error_of_a_mean),
+        cmocka_unit_test(test_scatter_as_long_as_the_record),
+        cmocka_unit_test(test_error_with_a_drift),
+        cmocka_unit_test(test_few_points),
+        cmocka_unit_test(test_end_of_a_running_in),
+        cmocka_unit_test(test_stick_slip),
         cmocka_unit_test(test_decay),
-        cmocka_unit_test(test_of_strokes),
-        cmocka_unit_test(test_of_one_sign),
-        cmocka_unit_test(test_of_laps),
-        cmocka_unit_test(test_of_short_spans),
-        cmocka_unit_test(test_of_spans_of_time),
-        cmocka_unit_test(test_of_a_pause),
-        cmocka_unit_test(test_of_no_pause),
-        cmocka_unit_test(test_of_a_force_without_a_load),
-        cmocka_unit_test(test_of_a_made_track),
+        cmocka_unit_test(test_strokes),
+        cmocka_unit_test(test_strokes_with_one_sign),
+        cmocka_unit_test(test_laps),
+        cmocka_unit_test(test_short_spans),
+        cmocka_unit_test(test_spans_of_time),
+        cmocka_unit_test(test_pause),
+        cmocka_unit_test(test_no_pause),
+        cmocka_unit_test(test_force_without_a_load),
+        cmocka_unit_test(test_synthetic_track),
         cmocka_unit_test(test_error_of_a_track),
-        cmocka_unit_test(test_of_a_measured_track),
-        cmocka_unit_test(test_of_a_ball),
+        cmocka_unit_test(test_measured_track),
+        cmocka_unit_test(test_ball),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -222,7 +222,7 @@ static void test_share_of_variance(void **state)
     check_not(other.settled_by, "nan");
 }
 
-static void test_change_untold(void **state)
+static void test_change_without_a_time(void **state)
 {
     (void)state;
     begin();
@@ -308,7 +308,7 @@ static void records_end(void)
 
 /* One of three determines a time, a quarter of the true one, because its scatter was large at the
  * start: the combination covers the truth. */
-static void test_not_alone(void **state)
+static void test_combined_only(void **state)
 {
     (void)state;
     add_records((double[]){1, 1, 1}, 0.06, 190);
@@ -322,7 +322,7 @@ static void test_not_alone(void **state)
 }
 
 /* One determines a time, and with the others there is none. */
-static void test_not_together(void **state)
+static void test_single_only(void **state)
 {
     (void)state;
     add_records((double[]){1, 1, 1}, 0.1, 20);
@@ -336,7 +336,7 @@ static void test_not_together(void **state)
 }
 
 /* None determines a time, and all three together do. */
-static void test_together(void **state)
+static void test_combined_time(void **state)
 {
     (void)state;
     add_records((double[]){1, 1, 1}, 0.1, 6);
@@ -576,7 +576,7 @@ static void test_without_draws(void **state)
 }
 
 /* Values of the case replace missing ones of the record; agreement with the wear rate. */
-static void test_taken_for_granted(void **state)
+static void test_values_of_the_case(void **state)
 {
     (void)state;
     change_case(energy, energy);
@@ -624,16 +624,16 @@ int main(void)
         cmocka_unit_test(test_open_agrees),
         cmocka_unit_test(test_bare),
         cmocka_unit_test(test_share_of_variance),
-        cmocka_unit_test(test_change_untold),
+        cmocka_unit_test(test_change_without_a_time),
         cmocka_unit_test(test_short_change),
         cmocka_unit_test(test_without_draws),
-        cmocka_unit_test(test_taken_for_granted),
+        cmocka_unit_test(test_values_of_the_case),
         cmocka_unit_test(test_before_the_first_friction),
         cmocka_unit_test(test_steady_by_itself),
         cmocka_unit_test(test_sentence_and_table),
-        cmocka_unit_test(test_not_alone),
-        cmocka_unit_test(test_not_together),
-        cmocka_unit_test(test_together),
+        cmocka_unit_test(test_combined_only),
+        cmocka_unit_test(test_single_only),
+        cmocka_unit_test(test_combined_time),
         cmocka_unit_test(test_differ),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -59,7 +59,7 @@ static running_in_curve_fit fitted(const scene *s, double height, uint64_t *seed
 }
 
 /* e^-3 = 0.05. */
-static void test_course(void **state)
+static void test_running_in_curve(void **state)
 {
     (void)state;
     const running_in_curve c = exponential(-0.2);
@@ -86,7 +86,7 @@ static void test_exact(void **state)
 }
 
 /* Result of one law for a running-in that is twice as slow: half the factor. */
-static void test_another_course(void **state)
+static void test_slower_running_in(void **state)
 {
     (void)state;
     const scene s = {2, 1, 0.1, 1e-5, 0};
@@ -137,7 +137,7 @@ static void test_first_cycle(void **state)
     running_in_series_clear(&made);
 }
 
-static void test_ends(void **state)
+static void test_short_records(void **state)
 {
     (void)state;
     uint64_t seed = 3;
@@ -289,10 +289,10 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_course),         cmocka_unit_test(test_exact),
-        cmocka_unit_test(test_another_course), cmocka_unit_test(test_first_cycle),
-        cmocka_unit_test(test_within_margin),  cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_coverage),       cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_running_in_curve),  cmocka_unit_test(test_exact),
+        cmocka_unit_test(test_slower_running_in), cmocka_unit_test(test_first_cycle),
+        cmocka_unit_test(test_within_margin),     cmocka_unit_test(test_short_records),
+        cmocka_unit_test(test_coverage),          cmocka_unit_test(test_rows),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests_name("fit course", tests, NULL, NULL);

@@ -135,7 +135,7 @@ static void check_ends(const wt_table *table, const char *range)
 }
 
 /* The true shear stress is required, with and without the layer. */
-static void test_needed(void **state)
+static void test_required_shear(void **state)
 {
     (void)state;
     for (int layered = 0; layered < 2; layered++) {
@@ -252,7 +252,7 @@ static void test_few_replicates(void **state)
 
 /* A constant ratio needs no message. A slope that requires a negative loss modulus is reported
  * once. */
-static void test_layer_said(void **state)
+static void test_layer_report(void **state)
 {
     (void)state;
     set_up();
@@ -526,14 +526,14 @@ static int tear_down(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_needed),       cmocka_unit_test(test_endless_layer),
-        cmocka_unit_test(test_layer_shear),  cmocka_unit_test(test_slope),
-        cmocka_unit_test(test_layer_said),   cmocka_unit_test(test_few_replicates),
-        cmocka_unit_test(test_cutoff),       cmocka_unit_test(test_cutoff_of_spectrum),
-        cmocka_unit_test(test_verdicts),     cmocka_unit_test(test_sources),
-        cmocka_unit_test(test_no_shear),     cmocka_unit_test(test_below_hysteresis),
-        cmocka_unit_test(test_threads),      cmocka_unit_test(test_rest),
-        cmocka_unit_test(test_temperatures), cmocka_unit_test(test_no_replicates),
+        cmocka_unit_test(test_required_shear), cmocka_unit_test(test_endless_layer),
+        cmocka_unit_test(test_layer_shear),    cmocka_unit_test(test_slope),
+        cmocka_unit_test(test_layer_report),   cmocka_unit_test(test_few_replicates),
+        cmocka_unit_test(test_cutoff),         cmocka_unit_test(test_cutoff_of_spectrum),
+        cmocka_unit_test(test_verdicts),       cmocka_unit_test(test_sources),
+        cmocka_unit_test(test_no_shear),       cmocka_unit_test(test_below_hysteresis),
+        cmocka_unit_test(test_threads),        cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_temperatures),   cmocka_unit_test(test_no_replicates),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, tear_down);

@@ -519,7 +519,7 @@ static void test_no_gnuplot(void **state)
     wt_result_free(result);
 }
 
-static void test_words_of_gnuplot(void **state)
+static void test_messages_of_gnuplot(void **state)
 {
     (void)state;
     NEED_GNUPLOT();
@@ -592,7 +592,7 @@ static void half_area(wt_table *copy, size_t row)
 
 /* A case of one velocity is a point, not a line. Long names keep their distinguishing end. The
  * isotropic rubber is dashed in the colour of its velocity. */
-static void test_cases_beside_one_another(void **state)
+static void test_cases_side_by_side(void **state)
 {
     static const struct {
         const char *table, *script, *holds;
@@ -844,7 +844,7 @@ static void test_too_many_groups(void **state)
 }
 
 /* The permissions, also of the folder, are those of the older report. */
-static void test_modes_stay(void **state)
+static void test_permissions_are_kept(void **state)
 {
     (void)state;
     static const struct {
@@ -980,18 +980,19 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_an_empty_result_needs_no_gnuplot, create_work_folder,
                                         remove_work_folder),
         cmocka_unit_test_setup_teardown(test_no_gnuplot, create_work_folder, remove_work_folder),
-        cmocka_unit_test_setup_teardown(test_words_of_gnuplot, create_work_folder,
+        cmocka_unit_test_setup_teardown(test_messages_of_gnuplot, create_work_folder,
                                         remove_work_folder),
         cmocka_unit_test_setup_teardown(test_only_reports_are_replaced, create_work_folder,
                                         remove_work_folder),
         cmocka_unit_test_setup_teardown(test_few_numbers_on_a_narrow_axis, create_work_folder,
                                         remove_work_folder),
-        cmocka_unit_test_setup_teardown(test_cases_beside_one_another, create_work_folder,
+        cmocka_unit_test_setup_teardown(test_cases_side_by_side, create_work_folder,
                                         remove_work_folder),
         cmocka_unit_test_setup_teardown(test_digits_of_intervals, create_work_folder,
                                         remove_work_folder),
         cmocka_unit_test_setup_teardown(test_a_page_alone, create_work_folder, remove_work_folder),
-        cmocka_unit_test_setup_teardown(test_modes_stay, create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_permissions_are_kept, create_work_folder,
+                                        remove_work_folder),
         cmocka_unit_test_setup_teardown(test_leftovers, create_work_folder, remove_work_folder),
         cmocka_unit_test_setup_teardown(test_cancelled, create_work_folder, remove_work_folder),
     };

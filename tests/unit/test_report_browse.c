@@ -154,7 +154,7 @@ static void test_residuals(void **state)
 }
 
 /* Foreign names and reasons cannot end their element or string. */
-static void test_words(void **state)
+static void test_foreign_texts(void **state)
 {
     (void)state;
     static const char text[] = "# file[text]\tcurve[1]\tverdict[text]\treason[text]\tmodulus[Pa]\n"
@@ -193,7 +193,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_samples), cmocka_unit_test(test_residuals),
-        cmocka_unit_test(test_words), cmocka_unit_test(test_nothing)};
+        cmocka_unit_test(test_foreign_texts), cmocka_unit_test(test_nothing)};
     if (wt_formats_new(NULL, &formats, NULL, NULL) != WT_OK)
         return 1;
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -41,7 +41,7 @@ static void test_data_have_the_described_columns(void **state)
 }
 
 /* The table of a figure is one of the tables that a report reads (FIGURE_TABLES). */
-static void test_tables_are_bound(void **state)
+static void test_tables_are_read(void **state)
 {
     (void)state;
     figure_tables tables = {.n_indentation = 0};
@@ -655,7 +655,7 @@ static void add_ragged(wt_table *map)
 }
 
 /* Every n-th point is drawn, and the caption states it; it also states what cannot be drawn. */
-static void test_crowds_are_thinned(void **state)
+static void test_many_points_are_thinned(void **state)
 {
     (void)state;
     NEED_REPORT();
@@ -707,7 +707,7 @@ static void check_refused(const char *table, const char *column, const fixture_c
 
 /* A missing required column or key, or one of the wrong type, is an error that names table and
  * column; nothing is written. */
-static void test_what_is_missing_is_an_error(void **state)
+static void test_missing_column_is_an_error(void **state)
 {
     (void)state;
     size_t checked = 0;
@@ -740,7 +740,7 @@ static void test_what_is_missing_is_an_error(void **state)
 }
 
 /* The part of a missing optional column is omitted. */
-static void test_what_may_be_missing(void **state)
+static void test_optional_columns(void **state)
 {
     (void)state;
     NEED_REPORT();
@@ -759,7 +759,7 @@ static void test_what_may_be_missing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tables_are_bound),
+        cmocka_unit_test(test_tables_are_read),
         cmocka_unit_test(test_descriptions_fit_their_tables),
         cmocka_unit_test(test_data_have_the_described_columns),
         cmocka_unit_test(test_curves_are_drawn_from_their_columns),
@@ -774,9 +774,9 @@ int main(void)
         cmocka_unit_test(test_range_of_a_plane),
         cmocka_unit_test(test_no_vertical_shift_no_figure),
         cmocka_unit_test(test_numbers_of_captions),
-        cmocka_unit_test(test_crowds_are_thinned),
-        cmocka_unit_test(test_what_is_missing_is_an_error),
-        cmocka_unit_test(test_what_may_be_missing),
+        cmocka_unit_test(test_many_points_are_thinned),
+        cmocka_unit_test(test_missing_column_is_an_error),
+        cmocka_unit_test(test_optional_columns),
     };
     return cmocka_run_group_tests(tests, create_shared_report, remove_shared_report);
 }

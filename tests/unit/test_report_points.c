@@ -400,7 +400,7 @@ static void test_what_if(void **state)
 }
 
 /* Names at the positions of their rows: "'name' 3". */
-static void test_names_at_their_places(void **state)
+static void test_names_at_their_positions(void **state)
 {
     (void)state;
     NEED_REPORT();
@@ -651,7 +651,7 @@ static void repeat(wt_table *copy)
 
 /* If there are too many points, every n-th is drawn with the least n, and the caption states it;
  * the line of a fit is complete. */
-static void test_crowds(void **state)
+static void test_thinned_points(void **state)
 {
     (void)state;
     NEED_REPORT();
@@ -724,11 +724,11 @@ int main(void)
         cmocka_unit_test(test_error_budget),
         cmocka_unit_test(test_work_precision),
         cmocka_unit_test(test_what_if),
-        cmocka_unit_test(test_names_at_their_places),
+        cmocka_unit_test(test_names_at_their_positions),
         cmocka_unit_test(test_index_finds_every_section),
         cmocka_unit_test(test_gnuplot_draws_every_point),
         cmocka_unit_test(test_panels),
-        cmocka_unit_test(test_crowds),
+        cmocka_unit_test(test_thinned_points),
         cmocka_unit_test(test_every),
     };
     return cmocka_run_group_tests_name("points of the figures", tests, create_shared_report,

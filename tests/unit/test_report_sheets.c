@@ -140,7 +140,7 @@ static void test_long_reason(void **state)
     wt_result_free(result);
 }
 
-static void test_words(void **state)
+static void test_texts(void **state)
 {
     (void)state;
     wt_result *result = curves_by_hand(MANY);
@@ -243,7 +243,7 @@ static void test_refusals(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_order), cmocka_unit_test(test_words),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_order), cmocka_unit_test(test_texts),
                                        cmocka_unit_test(test_long_reason),
                                        cmocka_unit_test(test_sheets),
                                        cmocka_unit_test(test_refusals)};

@@ -218,7 +218,7 @@ static void test_left_out(void **state)
 
 /* Two values with errors of 20 %: the intervals reach 0.317 to either side. It is divided by the
  * remainder of ln 1.5 or by the distance from the mean, whichever is less. */
-static void test_settled(void **state)
+static void test_advice(void **state)
 {
     (void)state;
     told one = wear, other = wear;
@@ -468,7 +468,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_shared_file), cmocka_unit_test(test_partly_known),
         cmocka_unit_test(test_counts_once), cmocka_unit_test(test_left_out),
-        cmocka_unit_test(test_settled),     cmocka_unit_test(test_pairs),
+        cmocka_unit_test(test_advice),      cmocka_unit_test(test_pairs),
         cmocka_unit_test(test_spectrum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -290,7 +290,7 @@ static void test_verdict(void **state)
 
 /* No temperature is stated, and there is no DMA: by the slope against the rate and the WLF law 70 K
  * above the glass transition, 0.14 per kelvin, 20 K in either direction. */
-static void test_unsaid_temperature(void **state)
+static void test_unstated_temperature(void **state)
 {
     (void)state;
     const double ratio = 0.85;
@@ -501,7 +501,7 @@ static void test_warmer(void **state)
 }
 
 /* A temperature below the pole of the law, or without a law, makes the result inconclusive. */
-static void test_out_of_reach(void **state)
+static void test_temperature_out_of_range(void **state)
 {
     (void)state;
     static double tau = 1e-3, term = 6e6;
@@ -562,7 +562,7 @@ static void set_radius(wt_table *table, double error, double gain)
 
 /* A tip that both groups share leaves the difference of their gains; two tips add both errors. Each
  * group has the whole error. */
-static void test_common(void **state)
+static void test_shared_tip(void **state)
 {
     (void)state;
     const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
@@ -668,7 +668,7 @@ static void set_lever(wt_table *table, double value, double error)
 
 /* Two cantilevers of 0.5 +- 0.05 and 2 +- 0.06 N/m: 10 % and 3 %, for any option for those without
  * an error. Unless both are stated, the option applies to both. */
-static void test_stated_levers(void **state)
+static void test_stated_cantilevers(void **state)
 {
     (void)state;
     const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
@@ -708,7 +708,7 @@ static void set_shown(wt_table *table, double loss, double bend)
 
 /* Hysteresis loss and curvature: one piezo distorts both groups equally, each group has its own
  * spectrum. If that dominates the interval, no more positions are advised. */
-static void test_shown(void **state)
+static void test_shown_loss_and_curvature(void **state)
 {
     (void)state;
     const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
@@ -942,7 +942,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_comparison),
         cmocka_unit_test(test_verdict),
-        cmocka_unit_test(test_unsaid_temperature),
+        cmocka_unit_test(test_unstated_temperature),
         cmocka_unit_test(test_two_spots),
         cmocka_unit_test(test_none_accepted),
         cmocka_unit_test(test_groups),
@@ -950,13 +950,13 @@ int main(void)
         cmocka_unit_test(test_dma),
         cmocka_unit_test(test_warmer),
         cmocka_unit_test(test_not_known),
-        cmocka_unit_test(test_out_of_reach),
-        cmocka_unit_test(test_common),
+        cmocka_unit_test(test_temperature_out_of_range),
+        cmocka_unit_test(test_shared_tip),
         cmocka_unit_test(test_assumed),
         cmocka_unit_test(test_half_angle),
-        cmocka_unit_test(test_stated_levers),
+        cmocka_unit_test(test_stated_cantilevers),
         cmocka_unit_test(test_not_given),
-        cmocka_unit_test(test_shown),
+        cmocka_unit_test(test_shown_loss_and_curvature),
         cmocka_unit_test(test_model_choices),
         cmocka_unit_test(test_loss_not_known),
         cmocka_unit_test(test_temperature_error),

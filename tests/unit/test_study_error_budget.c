@@ -142,7 +142,7 @@ static void test_measured_surface(void **state)
 
 /* With times every row of the budget has its own, also those of model choices, and everything else
  * is the same. */
-static void test_seconds(void **state)
+static void test_times(void **state)
 {
     (void)state;
     sliding_set_up_uncertain();
@@ -282,7 +282,7 @@ int main(void)
         cmocka_unit_test(test_seeds),
         cmocka_unit_test(test_one_source_at_a_time),
         cmocka_unit_test(test_measured_surface),
-        cmocka_unit_test(test_seconds),
+        cmocka_unit_test(test_times),
         cmocka_unit_test(test_nothing_stated),
         cmocka_unit_test(test_exact_ratio),
         cmocka_unit_test(test_calibration),

@@ -29,7 +29,7 @@ static void test_two(void **state)
 
 /* A possible shared error may widen the error of the mean, but makes neither the test nor the
  * distances sharper. */
-static void test_common(void **state)
+static void test_shared_errors(void **state)
 {
     (void)state;
     const double shared[] = {0, 0.09, 0.09, 0};
@@ -204,7 +204,7 @@ static void test_axes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_two),     cmocka_unit_test(test_common),
+        cmocka_unit_test(test_two),     cmocka_unit_test(test_shared_errors),
         cmocka_unit_test(test_third),   cmocka_unit_test(test_freedom),
         cmocka_unit_test(test_refused), cmocka_unit_test(test_few_degrees),
         cmocka_unit_test(test_pair),    cmocka_unit_test(test_axes),

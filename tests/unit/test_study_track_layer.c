@@ -75,7 +75,7 @@ static const fixture_change as_it_is = {.table = "indentation/track"},
                             old = {.table = "indentation/track", .without = "misfit_wave_1"};
 
 /* The truth is 3.16 um. */
-static void test_bound(void **state)
+static void test_one_limit(void **state)
 {
     (void)state;
     wt_table *t = track_layer(&as_it_is, 3e-6, 0.3e-6);
@@ -96,7 +96,7 @@ static void test_bound(void **state)
     wt_table_free(t);
 }
 
-static void test_both_ends(void **state)
+static void test_both_limits(void **state)
 {
     (void)state;
     wt_table *t = track_layer(&layered, 250e-9, 20e-9);
@@ -117,7 +117,7 @@ static void test_both_ends(void **state)
     wt_table_free(t);
 }
 
-static void test_silence(void **state)
+static void test_no_result(void **state)
 {
     (void)state;
     wt_table *t = track_layer(&few, 3e-6, 0.3e-6);
@@ -234,8 +234,8 @@ static int set_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bound),          cmocka_unit_test(test_both_ends),
-        cmocka_unit_test(test_silence),        cmocka_unit_test(test_agreement),
+        cmocka_unit_test(test_one_limit),      cmocka_unit_test(test_both_limits),
+        cmocka_unit_test(test_no_result),      cmocka_unit_test(test_agreement),
         cmocka_unit_test(test_beyond_the_law), cmocka_unit_test(test_below_the_law)};
     return cmocka_run_group_tests_name("track layer", tests, set_up, tear_down);
 }

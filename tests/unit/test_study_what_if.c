@@ -142,7 +142,7 @@ static void test_heat(void **state)
 }
 
 /* Each choice in the reverse direction. */
-static void test_what_is_used_is_not_tried(void **state)
+static void test_reverse_direction(void **state)
 {
     (void)state;
     set_up();
@@ -160,7 +160,7 @@ static void test_what_is_used_is_not_tried(void **state)
 }
 
 /* A choice that does not apply has no row, and is named. */
-static void test_what_does_not_apply(void **state)
+static void test_choices_that_do_not_apply(void **state)
 {
     (void)state;
     set_up();
@@ -233,7 +233,7 @@ static void test_range(void **state)
 
 /* A row that cannot be computed states the reason, and the others remain: here the roughness of one
  * row overflows. */
-static void test_what_cannot_be_computed(void **state)
+static void test_failed_rows(void **state)
 {
     (void)state;
     set_up();
@@ -273,11 +273,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_single_runs),
         cmocka_unit_test(test_heat),
-        cmocka_unit_test(test_what_is_used_is_not_tried),
-        cmocka_unit_test(test_what_does_not_apply),
+        cmocka_unit_test(test_reverse_direction),
+        cmocka_unit_test(test_choices_that_do_not_apply),
         cmocka_unit_test(test_limits),
         cmocka_unit_test(test_range),
-        cmocka_unit_test(test_what_cannot_be_computed),
+        cmocka_unit_test(test_failed_rows),
         cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests_name("what if", tests, NULL, NULL);

@@ -92,7 +92,7 @@ static double error_of(const wt_table *t, const char *name)
 
 /* Three scans of two sizes: the densities cover the truth, and so do the law and its sums over the
  * range. */
-static void test_whole(void **state)
+static void test_density_law_and_sums(void **state)
 {
     (void)state;
     making m = {.job = wt_topography_job_defaults()};
@@ -132,7 +132,7 @@ static void test_whole(void **state)
 }
 
 /* The upper limit: stated within the range, beyond it, and by the slope. */
-static void test_ends(void **state)
+static void test_upper_limit(void **state)
 {
     (void)state;
     making m = {.job = wt_topography_job_defaults()};
@@ -332,7 +332,7 @@ static void test_crossing_grooves_give_no_option(void **state)
 }
 
 /* One scan states what it cannot determine. */
-static void test_alone(void **state)
+static void test_single_scan(void **state)
 {
     (void)state;
     making m = {.job = wt_topography_job_defaults()};
@@ -412,7 +412,7 @@ static void test_replicates(void **state)
 
 /* A window correlates neighbouring points, which are drawn together as stated, and with no
  * others. */
-static void test_ties_of_points(void **state)
+static void test_correlated_points(void **state)
 {
     (void)state;
     enum { DRAWS = 4000, POINTS = 4 };
@@ -693,7 +693,7 @@ static void write_long_profile(const char *to)
 
 /* Profiles with height maps: of the same surface; of one with three times its roughness, which does
  * not count as scatter of positions; of other waves; and with positions that differ. */
-static void test_profiles_beside(void **state)
+static void test_profiles_with_maps(void **state)
 {
     (void)state;
     char low[] = "/tmp/weartrack-place-XXXXXX", twice[] = "/tmp/weartrack-place-XXXXXX";
@@ -936,20 +936,20 @@ static void test_failures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_whole),
-        cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_density_law_and_sums),
+        cmocka_unit_test(test_upper_limit),
         cmocka_unit_test(test_heights),
         cmocka_unit_test(test_directions),
         cmocka_unit_test(test_crossing_grooves_give_no_option),
-        cmocka_unit_test(test_alone),
+        cmocka_unit_test(test_single_scan),
         cmocka_unit_test(test_numerical_errors),
         cmocka_unit_test(test_replicates),
-        cmocka_unit_test(test_ties_of_points),
+        cmocka_unit_test(test_correlated_points),
         cmocka_unit_test(test_places_of_sizes),
         cmocka_unit_test(test_scatter_of_places),
         cmocka_unit_test(test_bad_places),
         cmocka_unit_test(test_errors_of_numbers),
-        cmocka_unit_test(test_profiles_beside),
+        cmocka_unit_test(test_profiles_with_maps),
         cmocka_unit_test(test_failures),
         cmocka_unit_test(test_map_as_roughness),
         cmocka_unit_test(test_map_in_a_case),

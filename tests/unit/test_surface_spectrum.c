@@ -466,7 +466,7 @@ static void test_scatter(void **state)
 /* The leakage of longer waves through a window is subtracted, for every window. For a steep law
  * that continues beyond the map the first bins of two or more waves would be too high by a fifth to
  * a third. */
-static void test_leak(void **state)
+static void test_leakage(void **state)
 {
     (void)state;
     enum { SURFACES = 100, N = 128, CUT = 56, BINS = 4 };
@@ -751,7 +751,7 @@ int main(void)
         cmocka_unit_test(test_missing),      cmocka_unit_test(test_lines),
         cmocka_unit_test(test_inversion),    cmocka_unit_test(test_stitch),
         cmocka_unit_test(errors_of_the_law), cmocka_unit_test(test_slope_end),
-        cmocka_unit_test(test_scatter),      cmocka_unit_test(test_leak),
+        cmocka_unit_test(test_scatter),      cmocka_unit_test(test_leakage),
         cmocka_unit_test(test_directions),   cmocka_unit_test(test_orders),
         cmocka_unit_test(test_places),       cmocka_unit_test(test_few_places),
         cmocka_unit_test(test_refused),      cmocka_unit_test(test_tip),

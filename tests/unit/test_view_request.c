@@ -69,7 +69,7 @@ static void refuses_others(void **state)
     assert_int_equal(parse("GET", page, own, NULL, "none"), 200);
 }
 
-static void refuses_what_is_malformed(void **state)
+static void refuses_malformed_requests(void **state)
 {
     (void)state;
     assert_int_equal(get("/" TOKEN "/../state"), 404);
@@ -155,6 +155,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(admits_its_page), cmocka_unit_test(refuses_others),
-        cmocka_unit_test(refuses_what_is_malformed), cmocka_unit_test(stays_in_its_folder)};
+        cmocka_unit_test(refuses_malformed_requests), cmocka_unit_test(stays_in_its_folder)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

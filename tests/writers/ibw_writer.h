@@ -20,6 +20,6 @@ typedef struct ibw_writer_file {
 /* Returns 0 or -1. */
 int ibw_write(const ibw_writer_file *file);
 /* Corrects the checksum of a wave, if its headers are complete. */
-void ibw_writer_mend(unsigned char *bytes, size_t length);
+void ibw_writer_fix_checksums(unsigned char *bytes, size_t length);
 
 #endif
