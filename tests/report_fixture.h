@@ -550,7 +550,7 @@ static inline wt_result *fixture_only(const char *const *names, size_t n,
     return result;
 }
 
-/* ---- everything ------------------------------------------------------------------------------ */
+/* ---- all tables ------------------------------------------------------------------------------ */
 
 /* One file of each group, so that its curves are a map. */
 static inline bool fixture_first_file(const wt_table *table, size_t row)

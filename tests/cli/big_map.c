@@ -28,7 +28,7 @@ extern char **environ;
 static size_t n_bad;
 
 /* Starts a process that writes a file into a pipe and returns the other end of the pipe. */
-static int feed(const char *path, pid_t *writer)
+static int start_feeder(const char *path, pid_t *writer)
 {
     int ends[2];
     if (pipe(ends) != 0 || (*writer = fork()) < 0)
@@ -62,7 +62,7 @@ static double peak(const char *program, const char *const *arguments)
         line[i + 1] = arguments[i];
         if (strcmp(arguments[i], "-") != 0)
             continue;
-        input = feed("map.tsv", &writer);
+        input = start_feeder("map.tsv", &writer);
         (void)posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
         (void)posix_spawn_file_actions_addclose(&actions, input);
     }

@@ -24,7 +24,7 @@ static const char *program;
 static size_t n_good, n_refused, n_crashed, n_wrong;
 
 /* Returns true if the file contains the word. Sets *empty if the file is empty. */
-static bool holds(const char *path, const char *word, bool *empty)
+static bool file_contains(const char *path, const char *word, bool *empty)
 {
     char text[4096];
     FILE *const in = fopen(path, "r");
@@ -50,7 +50,7 @@ static void call(const char *what, char *const arguments[], const char *result)
         abort();
     (void)posix_spawn_file_actions_destroy(&actions);
     const int status = WIFEXITED(state) ? WEXITSTATUS(state) : -1;
-    n_crashed += holds("words", "fails on this file", &silent);
+    n_crashed += file_contains("words", "fails on this file", &silent);
     n_good += status == 0;
     n_refused += status == 1;
     const bool left = access(result, F_OK) == 0;

@@ -62,7 +62,7 @@ static pid_t wait_for_gnuplot(pid_t report)
     return (pid_t)number;
 }
 
-static bool is_gone(pid_t pid)
+static bool has_ended(pid_t pid)
 {
     for (int i = 0; i < 200; i++) {
         char path[64], state = 'Z';
@@ -89,8 +89,8 @@ static bool try_signal(char *const report[], int number)
     const double took = now() - begin;
     struct stat info;
     const bool left = number != SIGKILL && system("ls -d .weartrack-* >left 2>/dev/null") == 0;
-    const bool good = gnuplot > 0 && end == 128 + number && took < 3 && is_gone(gnuplot) && !left &&
-                      stat("report", &info) != 0;
+    const bool good = gnuplot > 0 && end == 128 + number && took < 3 && has_ended(gnuplot) &&
+                      !left && stat("report", &info) != 0;
     printf("%s signal %d: ended with %d after %.2f s%s\n", good ? "ok  " : "FAIL", number, end,
            took, left ? ", something is left" : "");
     return good;

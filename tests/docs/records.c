@@ -89,7 +89,7 @@ static void put_option(const option *o)
 }
 
 /* Names of the options that another page describes, as one entry; `head` is their subject. */
-static void put_told(FILE *help, const char *head, size_t length)
+static void put_other_options(FILE *help, const char *head, size_t length)
 {
     char line[LINE], text[LINE];
     const char *parted = ".TP\n";
@@ -127,7 +127,7 @@ static bool put_options(const char *program, const char *subcommand)
         if (told != NULL) {
             put_option(&o);
             o = (option){.letter = '\0'};
-            put_told(help, line, (size_t)(told - line));
+            put_other_options(help, line, (size_t)(told - line));
             break;
         }
         if (!in_list || *rest == '\0') {
@@ -241,7 +241,7 @@ static bool put_section(const char *what, const char *indent)
 }
 
 /* A parameter that an earlier section also has gets the same type. */
-static bool stands_before(size_t s, const char *name)
+static bool is_in_earlier_section(size_t s, const char *name)
 {
     for (size_t i = 0; i < s; i++)
         for (size_t t = 0; t < SECTION_TABLES && case_sections[i].params[t] != NULL; t++)
@@ -261,7 +261,7 @@ static void put_choices(const char *indent)
             for (size_t i = 0; i < wt_params_count(case_sections[s].params[t]()); i++) {
                 const wt_param *param = wt_params_get(case_sections[s].params[t](), i);
                 if (param->kind != PARAM_CHOICE || (param->flags & PARAM_NO_CASE) != 0 ||
-                    stands_before(s, case_param_name(case_sections[s].name, param->name)))
+                    is_in_earlier_section(s, case_param_name(case_sections[s].name, param->name)))
                     continue;
                 printf("%s<xs:simpleType name=\"%s\">\n", indent,
                        case_param_name(case_sections[s].name, param->name));

@@ -270,9 +270,9 @@ static outcome run(const job *j, const char *folder, const fault *f, const char 
     return o;
 }
 
-/* ---- what lies in a folder ------------------------------------------------------------------- */
+/* ---- contents of a folder -------------------------------------------------------------------- */
 
-static uint64_t mix(uint64_t hash, const void *bytes, size_t n)
+static uint64_t mix_hash(uint64_t hash, const void *bytes, size_t n)
 {
     for (size_t i = 0; i < n; i++)
         hash = (hash ^ ((const unsigned char *)bytes)[i]) * UINT64_C(0x100000001b3);
@@ -288,7 +288,7 @@ static uint64_t content(const char *path)
     if (in == NULL)
         return 0;
     while ((n = fread(bytes, 1, sizeof bytes, in)) > 0)
-        hash = mix(hash, bytes, n);
+        hash = mix_hash(hash, bytes, n);
     fclose(in);
     return hash;
 }
@@ -306,7 +306,7 @@ static uint64_t look(const char *folder, size_t *n_files)
         if (lstat(path, &info) != 0)
             memset(&info, 0, sizeof info);
         const uint64_t inner = S_ISDIR(info.st_mode) ? look(path, n_files) : content(path);
-        all += mix(inner, e->d_name, strlen(e->d_name));
+        all += mix_hash(inner, e->d_name, strlen(e->d_name));
         *n_files += 1;
         free(path);
     }
@@ -323,7 +323,7 @@ static void empty(const char *folder)
     free(line);
 }
 
-/* ---- judgement ------------------------------------------------------------------------------- */
+/* ---- assessment ------------------------------------------------------------------------------ */
 
 /* Result of a run without a failure. */
 typedef struct truth {
@@ -346,7 +346,7 @@ static uint64_t of_output(const char *folder)
     return hash;
 }
 
-static truth look_at(const char *folder)
+static truth hash_folder(const char *folder)
 {
     truth t = {0};
     char *printed = print("%s/standard-output", folder);
@@ -397,14 +397,14 @@ static void add_cleared(uint64_t all)
     cleared[n_cleared++] = all;
 }
 
-static void judge(const job *j, const char *folder, const fault *f, const truth *good)
+static void assess_outcome(const job *j, const char *folder, const fault *f, const truth *good)
 {
     empty(folder);
     outcome o = run(j, folder, f, NULL, f->call > 0);
     if (!o.injected)
         return;
     n_injected++;
-    const truth now = look_at(folder);
+    const truth now = hash_folder(folder);
     if (WIFEXITED(o.state) && WEXITSTATUS(o.state) == 99) {
         give_up("the command could not be started");
     } else if (WIFSIGNALED(o.state)) {
@@ -431,13 +431,13 @@ static void judge(const job *j, const char *folder, const fault *f, const truth 
     const outcome again = run(j, folder, &none, NULL, false);
     if (again.state != 0)
         survivor(j, f, &again, "the next run fails");
-    else if (look_at(folder).all != good->all)
+    else if (hash_folder(folder).all != good->all)
         survivor(j, f, &o, "left something that the next run does not clear");
     else
         add_cleared(now.all);
 }
 
-/* ---- the sweep ------------------------------------------------------------------------------- */
+/* ---- all failures ---------------------------------------------------------------------------- */
 
 /* Selects one in N, with an offset. */
 typedef struct sampling {
@@ -459,9 +459,9 @@ static void sweep_allocations(const job *j, const char *folder, const truth *goo
     for (; fscanf(in, "%zu", &number) == 1; n++)
         if (n % how->allocations == how->start % how->allocations) {
             fault f = {.allocation = number};
-            judge(j, folder, &f, good);
+            assess_outcome(j, folder, &f, good);
             f.for_good = true;
-            judge(j, folder, &f, good);
+            assess_outcome(j, folder, &f, good);
         }
     fclose(in);
     printf("%s: allocations: %zu in all, at %zu places\n", j->name, number, n - 1);
@@ -480,7 +480,7 @@ static void sweep_calls(const job *j, const char *folder, const truth *good, con
             if ((4 * i + k) % how->calls == how->start % how->calls) {
                 fault f = kinds[k];
                 f.call = i;
-                judge(j, folder, &f, good);
+                assess_outcome(j, folder, &f, good);
             }
     printf("%s: %zu calls that write\n", j->name, n);
 }
@@ -495,7 +495,7 @@ static void sweep(const job *j, const sampling *how, bool wanted)
         fprintf(stderr, "fault: %s fails as it is: %s\n", j->name, o.messages);
         exit(2);
     }
-    const truth good = look_at(folder);
+    const truth good = hash_folder(folder);
     n_cleared = 0;
     if (wanted) {
         const size_t injected = n_injected, survivors = n_survivors;

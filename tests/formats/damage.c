@@ -262,7 +262,7 @@ static void exchange_value(byte_block *b, uint64_t *seed)
     free(old.at);
 }
 
-static void spoil(byte_block *b, damage d, uint64_t *seed)
+static void damage_block(byte_block *b, damage d, uint64_t *seed)
 {
     const bool text = is_text(*b);
     size_t from = 0, to = 0;
@@ -309,7 +309,7 @@ static void spoil(byte_block *b, damage d, uint64_t *seed)
 static byte_block damage_whole(byte_block whole, damage d, uint64_t *seed)
 {
     byte_block b = copy(whole);
-    spoil(&b, d, seed);
+    damage_block(&b, d, seed);
     return b;
 }
 
@@ -326,7 +326,7 @@ static byte_block damage_entry(const damageable *f, damage d, uint64_t *seed)
         memmove(entries + which, entries + which + 1, (n - which - 1) * sizeof *entries);
         n--;
     } else {
-        spoil(&changed, d, seed);
+        damage_block(&changed, d, seed);
         entries[which].content = changed;
     }
     const byte_block packed = pack(entries, n);

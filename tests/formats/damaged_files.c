@@ -42,7 +42,7 @@ static bool same_numbers(const numbers *a, const numbers *b)
 }
 
 /* Returns true if the damaged file has a warning that the whole one lacks. */
-static bool has_news(const wt_log *log, const wt_log *before)
+static bool has_new_warning(const wt_log *log, const wt_log *before)
 {
     for (size_t i = 0; i < wt_log_count(log); i++) {
         const wt_log_entry e = wt_log_get(log, i);
@@ -64,9 +64,9 @@ static outcome read_damaged(const wt_formats *formats, const file *f, byte_block
     const wt_status status = read_any(formats, b.at, b.n, log, &values);
     outcome o = REFUSED;
     if (status == WT_OK)
-        o = has_news(log, f->log) || values.n_failed > f->values.n_failed ? WARNED
-            : same_numbers(&values, &f->values)                           ? SAME
-                                                                          : CHANGED;
+        o = has_new_warning(log, f->log) || values.n_failed > f->values.n_failed ? WARNED
+            : same_numbers(&values, &f->values)                                  ? SAME
+                                                                                 : CHANGED;
     free(values.values);
     wt_log_free(log);
     return o;
@@ -111,7 +111,7 @@ static bool load(const wt_formats *formats, const char *path, file *f)
            read_any(formats, f->bytes.whole.at, f->bytes.whole.n, f->log, &f->values) == WT_OK;
 }
 
-static void release(file *f)
+static void free_file(file *f)
 {
     damageable_free(&f->bytes);
     free(f->values.values);
@@ -142,7 +142,7 @@ static void write_damaged(call *c, const char *path)
     (void)snprintf(name, sizeof name, "%s/whole-%s", c->folder, own);
     write_file(name, f.bytes.whole);
     c->failures += !read;
-    release(&f);
+    free_file(&f);
 }
 
 static void try_file(call *c, const char *path)
@@ -172,7 +172,7 @@ static void try_file(call *c, const char *path)
     for (size_t o = 0; o < N_OUTCOMES; o++)
         printf(" %4zu %s", counts[o], outcome_names[o]);
     printf("%s\n", !read ? " (not read at all)" : "");
-    release(&f);
+    free_file(&f);
 }
 
 int main(int argc, char **argv)

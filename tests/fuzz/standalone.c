@@ -90,7 +90,7 @@ static void change(run *r, uint8_t *bytes, size_t n)
     }
 }
 
-static bool in_time(const run *r)
+static bool has_time_left(const run *r)
 {
     return now() - r->start < SECONDS_PER_PROGRAM;
 }
@@ -101,9 +101,9 @@ static void try_seed(run *r, const uint8_t *seed, size_t n)
     if (copy == NULL)
         abort();
     try_bytes(r, seed, n);
-    for (size_t i = 0; i < TRUNCATIONS && i < n && in_time(r); i++)
+    for (size_t i = 0; i < TRUNCATIONS && i < n && has_time_left(r); i++)
         try_bytes(r, seed, n * i / TRUNCATIONS);
-    for (size_t i = 0; i < CHANGES && n > 0 && in_time(r); i++) {
+    for (size_t i = 0; i < CHANGES && n > 0 && has_time_left(r); i++) {
         memcpy(copy, seed, n);
         change(r, copy, n);
         try_bytes(r, copy, n);
@@ -127,7 +127,7 @@ static int try_file(run *r, const char *path)
     return bad != 0;
 }
 
-static int not_hidden(const struct dirent *entry)
+static int is_visible(const struct dirent *entry)
 {
     return entry->d_name[0] != '.';
 }
@@ -135,7 +135,7 @@ static int not_hidden(const struct dirent *entry)
 static int try_path(run *r, const char *path)
 {
     struct dirent **entries = NULL;
-    int n = scandir(path, &entries, not_hidden, alphasort);
+    int n = scandir(path, &entries, is_visible, alphasort);
     if (n < 0)
         return try_file(r, path);
     int bad = 0;

@@ -31,7 +31,7 @@ typedef struct buffers {
     jpk_writer_curve curve[CURVES];
 } buffers;
 
-static wt_tip the_tip(void)
+static wt_tip case_tip(void)
 {
     wt_tip tip = {.shape = WT_TIP_BLUNTED_PYRAMID, .sides = 4};
     tip.half_angle = 20 * 3.14159265358979323846 / 180;
@@ -90,7 +90,7 @@ int generate_curves(const wt_rubber *rubber, const char *folder, uint64_t varian
     static const char *const zone[2] = {"bulk", "track"};
     int result = -1;
     uint64_t seed = 65 + (variant << 32); /* with 64 the ratio depends on the rate by chance */
-    wt_tip tip = the_tip();
+    wt_tip tip = case_tip();
     wt_material *material = NULL;
     buffers *b = calloc(1, sizeof *b);
     if (b == NULL ||

@@ -95,8 +95,8 @@ static double integral(const double *e, const double *x, int from, int to, int t
 
 /* Force on retraction: that of the contact at t1, from which on the integral of E ddepth is zero.
  * *t1, which decreases, is the end of the last step where it is not negative; -1: no contact. */
-static double way_out(const truth_press *p, const double *e, const double *f, double *depth,
-                      double travel, int i, int *t1)
+static double retraction_force(const truth_press *p, const double *e, const double *f,
+                               double *depth, double travel, int i, int *t1)
 {
     double later = 0, force_later = 0;
     for (; *t1 >= 0; --*t1) {
@@ -136,7 +136,7 @@ void truth_indent(const truth_press *p, const wt_rubber *rubber, double force[2 
                 continue;
             t1 = top = i - 1;
         }
-        force[i] = way_out(p, e, f, depth, travel, i, &t1);
+        force[i] = retraction_force(p, e, f, depth, travel, i, &t1);
         t1 = t1 < 0 || t1 == top ? t1 : t1 + 1; /* start of the next search */
     }
 }

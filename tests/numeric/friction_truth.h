@@ -127,7 +127,7 @@ static real series_at(const real *coefficient, real x)
 /* Table of the current scene, from knot to knot: logarithms of frequencies and moduli. */
 static real log_width[SCENE_MOST], log_storage[SCENE_MOST], log_loss[SCENE_MOST];
 
-static void take_logarithms(const scene *s)
+static void compute_logarithms(const scene *s)
 {
     for (size_t k = 0; s->law == TABLE && k + 1 < s->n; k++) {
         log_width[k] = FN(log)((real)s->tau[k + 1] / s->tau[k]);
@@ -356,7 +356,7 @@ static real strain_at(const scene *s, real t)
 }
 
 /* Finds by bisection where the strain is reached; a negative number if it is not. */
-static real strain_met(const scene *s, real strain, real length)
+static real find_strain(const scene *s, real strain, real length)
 {
     real low = 0, high = length;
     if (!(strain_at(s, length) > strain))
@@ -495,7 +495,7 @@ static truth truth_of(const scene *s)
     truth sum = {0, 0};
     if (cut == NULL)
         return sum;
-    take_logarithms(s);
+    compute_logarithms(s);
     size_t n = 0, knot = 0;
     cut[n++] = length;
     if (s->n_density == 0 && s->qr > s->q0 && s->qr < s->q1)
@@ -506,7 +506,7 @@ static truth truth_of(const scene *s)
     for (size_t k = 0; k < n_knots; k++)
         cut[n++] = FN(log)(s->tau[k] / ((real)s->velocity * s->q0));
     for (size_t k = 0; k < s->n_strain; k++)
-        cut[n++] = strain_met(s, s->strain[k], length);
+        cut[n++] = find_strain(s, s->strain[k], length);
     qsort(cut, n, sizeof *cut, rising);
     real from = 0;
     for (size_t i = 0; i < n; i++)

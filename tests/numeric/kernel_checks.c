@@ -297,7 +297,7 @@ static void draw_scene(drawn *d, size_t number)
         d->tolerance[k] = decades(-3 * (double)(k - 2), -3 * (double)(k - 3) - 1);
 }
 
-/* ---- truths ---------------------------------------------------------------------------------- */
+/* ---- true values ----------------------------------------------------------------------------- */
 
 static FILE *truths;
 

@@ -15,7 +15,7 @@
 
 enum { TEXT = 8192 };
 
-/* ---- how far a parameter is moved ------------------------------------------------------------ */
+/* ---- changed values -------------------------------------------------------------------------- */
 
 static const struct {
     const char *name, *text;
@@ -310,7 +310,8 @@ static bool is_of_base(kept *k, const char *base)
 }
 
 /* The output of a call: result, standard output, exit status. */
-static char *give(const char *subcommand, const char *options, const char *files, size_t *length)
+static char *run_call(const char *subcommand, const char *options, const char *files,
+                      size_t *length)
 {
     char command[TEXT];
     const char *out = strcmp(subcommand, "run") == 0 ? "out.h5" : "out.tsv";
@@ -381,8 +382,8 @@ static size_t try_option(size_t s, const char *option, const char *text, const c
              text != NULL ? "'" : "", text != NULL ? text : "", text != NULL ? "'" : "");
     snprintf(call, sizeof call, "%s %s", subcommands[s].name, base);
     if (!is_of_base(&before, call))
-        before.bytes = give(subcommands[s].name, base, subcommands[s].files, &before.length);
-    char *after = give(subcommands[s].name, options, subcommands[s].files, &n);
+        before.bytes = run_call(subcommands[s].name, base, subcommands[s].files, &before.length);
+    char *after = run_call(subcommands[s].name, options, subcommands[s].files, &n);
     const bool wrong_call = n >= 2 && after[n - 2] == '2' && n < 4;
     const bool alive = !wrong_call && (n != before.length || memcmp(before.bytes, after, n) != 0);
     if (!alive)
@@ -626,7 +627,7 @@ static void test_cases(void **state)
     free(after);
 }
 
-/* ---- what the subcommands read --------------------------------------------------------------- */
+/* ---- inputs of the subcommands --------------------------------------------------------------- */
 
 static int make_inputs(void **state)
 {

@@ -390,7 +390,7 @@ static bool is_refused_call(size_t k, const wt_param *p, double value)
            (status == WT_E_RANGE || status == WT_E_MISSING);
 }
 
-/* ---- the same everywhere --------------------------------------------------------------------- */
+/* ---- comparison of the interfaces ------------------------------------------------------------ */
 
 static bool is_number(const wt_param *p)
 {

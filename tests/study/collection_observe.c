@@ -39,7 +39,7 @@ static bool find_case(const stream *found, const char *table, int row, study_pla
 }
 
 /* "Yes" is right if the ratio is not 1, "no" if it is within the margin. */
-static void take_verdict(trial *t, quantity q, double ratio, const stream *found, const char *table,
+static void read_verdict(trial *t, quantity q, double ratio, const stream *found, const char *table,
                          const char *column, int row)
 {
     const bool yes = stream_is(found, table, column, row, PLACE_YES) != 0,
@@ -53,7 +53,7 @@ static void take_verdict(trial *t, quantity q, double ratio, const stream *found
         t->draw->verdict = NO;
 }
 
-/* ---- what collect says ----------------------------------------------------------------------- */
+/* ---- output of collect ----------------------------------------------------------------------- */
 
 static int read_cases(const collection_scene *s, const study_truth *truth, const stream *found,
                       trial *t)
@@ -74,7 +74,7 @@ static int read_cases(const collection_scene *s, const study_truth *truth, const
             t, Q_CHANGE,
             truth->with_layer[at.compound][at.severity][REFERENCE] / bare->friction[REFERENCE] - 1,
             place_row(found, &place_collected_change, row));
-        take_verdict(t, Q_SAID_DIFFERS, ratio, found, table, PLACE_DIFFERS, row);
+        read_verdict(t, Q_SAID_DIFFERS, ratio, found, table, PLACE_DIFFERS, row);
     }
     return n == COMPOUNDS * SEVERITIES ? 0 : -1;
 }
@@ -150,14 +150,14 @@ static int read_translations(const collection_scene *s, const stream *found, tri
         const double ratio = c >= 0 ? s->cases[c][first].ratio / s->cases[c][second].ratio
                                     : s->cases[first][k].ratio / s->cases[second][k].ratio;
         trial_add(t, Q_RATIO_PAIR, ratio, place_row(found, &place_pair, row));
-        take_verdict(t, Q_SAID_PAIR, ratio, found, place_pair.table, PLACE_PAIR_DIFFER, row);
+        read_verdict(t, Q_SAID_PAIR, ratio, found, place_pair.table, PLACE_PAIR_DIFFER, row);
     }
     return n == 2 * COMPOUNDS ? 0 : -1;
 }
 
 /* If the true values are equal, "differs" is wrong. The two severities have so different wear rates
  * that "one" would be wrong for them. */
-static void take_shared(trial *t, quantity q, double truth, const stream *found, int row)
+static void read_shared_value(trial *t, quantity q, double truth, const stream *found, int row)
 {
     const char *table = place_shared.table;
     const bool is_one = stream_is(found, table, PLACE_SUFFICES, row, PLACE_ONE) != 0,
@@ -187,11 +187,12 @@ static int read_shared(const study_prepared *p, const study_truth *truth, const 
     for (int row = 0; row < n; row++) {
         const int k = place_of(study_severity, SEVERITIES, found, table, PLACE_PAIR_OF, row);
         if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_WEAR))
-            take_shared(t, Q_SHARED_WEAR, k >= 0 ? truth->wear_rate[k] : (double)NAN, found, row);
+            read_shared_value(t, Q_SHARED_WEAR, k >= 0 ? truth->wear_rate[k] : (double)NAN, found,
+                              row);
         else if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_SHEAR))
-            take_shared(t, Q_SHARED_SHEAR, truth->shear_stress, found, row);
+            read_shared_value(t, Q_SHARED_SHEAR, truth->shear_stress, found, row);
         else if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_RATE_FACTOR))
-            take_shared(t, Q_SHARED_RATE, rate_factor(p), found, row);
+            read_shared_value(t, Q_SHARED_RATE, rate_factor(p), found, row);
         else
             return -1;
     }
@@ -215,17 +216,17 @@ static void read_collected(const collection_scene *s, const study_prepared *p,
     stream_free(found);
 }
 
-/* ---- what a case says ------------------------------------------------------------------------ */
+/* ---- results of a case ----------------------------------------------------------------------- */
 
 /* Table of a result; free it. NULL if there is none. */
-static stream *take_table(const char *result, const char *name, const char *path, trial *t)
+static stream *read_result_table(const char *result, const char *name, const char *path, trial *t)
 {
     const char *const arguments[] = {"table", result, name, "--format", "stream", "-o", path, NULL};
     return trial_run(t, arguments) ? stream_read(path) : NULL;
 }
 
 /* "Does not" and "contradicts" are wrong, because the layer of the record follows the theory. */
-static void take_certain(trial *t, quantity q, bool wrong, bool is_certain)
+static void read_certain(trial *t, quantity q, bool wrong, bool is_certain)
 {
     const double stated = is_certain ? 0 : (double)NAN;
     trial_add(t, q, wrong ? 1 : 0, (estimate){0, stated, stated});
@@ -237,11 +238,11 @@ static void take_certain(trial *t, quantity q, bool wrong, bool is_certain)
 static bool read_validation(const study_truth *truth, const char *result, const char *path,
                             trial *t)
 {
-    stream *found = take_table(result, PLACE_VALIDATION, path, t);
+    stream *found = read_result_table(result, PLACE_VALIDATION, path, t);
     const verdict said =
         found != NULL ? place_friction_verdict(found, PLACE_VALIDATION) : NO_VERDICT;
     if (said != NO_VERDICT) {
-        take_certain(t, Q_SAID_RECORD, said == NO, said != INCONCLUSIVE);
+        read_certain(t, Q_SAID_RECORD, said == NO, said != INCONCLUSIVE);
         trial_add(t, Q_FRICTION_RATIO, 1, place_key(found, &place_friction_ratio));
         trial_add(t, Q_NEEDED_SHEAR, truth->shear_stress, place_key(found, &place_needed_shear));
     }
@@ -253,16 +254,16 @@ static bool read_validation(const study_truth *truth, const char *result, const 
 static bool read_running_in(const study_truth *truth, bool soft, int c, int k, const char *result,
                             const char *path, trial *t)
 {
-    stream *found = take_table(result, PLACE_VALIDATION_RUNNING_IN, path, t);
+    stream *found = read_result_table(result, PLACE_VALIDATION_RUNNING_IN, path, t);
     const verdict said =
         found != NULL ? place_friction_verdict(found, PLACE_VALIDATION_RUNNING_IN) : NO_VERDICT;
     const char *wear =
         found != NULL ? stream_key(found, PLACE_VALIDATION_RUNNING_IN, PLACE_WEAR_AGREES) : NULL;
     if (said != NO_VERDICT)
-        take_certain(t, Q_SAID_RUNNING_IN, said == NO, said != INCONCLUSIVE);
+        read_certain(t, Q_SAID_RUNNING_IN, said == NO, said != INCONCLUSIVE);
     if (said != NO_VERDICT && wear != NULL && soft) {
         const bool wrong = strncmp(wear, PLACE_CONTRADICTS, strlen(PLACE_CONTRADICTS)) == 0;
-        take_certain(t, Q_SAID_WEAR, wrong,
+        read_certain(t, Q_SAID_WEAR, wrong,
                      strncmp(wear, PLACE_INCONCLUSIVE, strlen(PLACE_INCONCLUSIVE)) != 0);
     }
     if (said != NO_VERDICT && soft) {
@@ -281,13 +282,13 @@ static bool read_running_in(const study_truth *truth, bool soft, int c, int k, c
 static bool read_record(const collection_scene *s, const study_truth *truth, int c, int k,
                         const char *result, const char *path, trial *t)
 {
-    stream *found = take_table(result, place_steady.table, path, t);
+    stream *found = read_result_table(result, place_steady.table, path, t);
     const bool whole = found != NULL && stream_rows(found, place_steady.table) == STUDY_VELOCITIES;
     for (int v = 0; whole && v < STUDY_VELOCITIES; v++)
         trial_add(t, Q_STEADY, truth->with_layer[c][k][study_step(s, v)],
                   place_row(found, &place_steady, v));
     stream_free(found);
-    found = whole ? take_table(result, place_wear_rate.table, path, t) : NULL;
+    found = whole ? read_result_table(result, place_wear_rate.table, path, t) : NULL;
     const bool worn = found != NULL && stream_rows(found, place_wear_rate.table) > 0;
     if (worn)
         trial_add(t, Q_WEAR_RATE, truth->wear_rate[k], place_row(found, &place_wear_rate, 0));
@@ -299,7 +300,7 @@ static bool read_record(const collection_scene *s, const study_truth *truth, int
 static bool is_surface(const char *result, const char *path, trial *t)
 {
     const double near = 1e-3;
-    stream *found = take_table(result, PLACE_ROUGHNESS, path, t);
+    stream *found = read_result_table(result, PLACE_ROUGHNESS, path, t);
     const int n = found != NULL ? stream_rows(found, PLACE_ROUGHNESS) : 0;
     const bool is =
         n > 1 &&

@@ -36,7 +36,7 @@ static void angular(const contact *c, const rubber_state *state, double omega, d
 
 /* Modulus of a bonded layer on rubber for a wave, relative to the rubber; both incompressible
  * (Burmister 1943). */
-static double seen(const contact *c, double q)
+static double layer_modulus_ratio(const contact *c, double q)
 {
     if (!(c->layer_ratio > 0) || !(c->layer_thickness > 0))
         return 1;
@@ -120,7 +120,7 @@ static void load(const contact *c, double v, int steps, wave *waves, double *are
 {
     const int n = 2 * steps + 1;
     for (int k = 0; k < 2 * n; k++) {
-        const double softer = seen(c, waves[k].q);
+        const double softer = layer_modulus_ratio(c, waves[k].q);
         waves[k].variance_density = waves[k].bare_density * softer * softer;
         waves[k].loss_angle = waves[k].bare_loss * softer;
     }

@@ -247,7 +247,7 @@ typedef struct line {
     int n_numbers;
 } line;
 
-static void say(line *l, const char *option, const char *value)
+static void append_argument(line *l, const char *option, const char *value)
 {
     if (value == NULL)
         return;
@@ -255,11 +255,11 @@ static void say(line *l, const char *option, const char *value)
     l->words[l->n++] = value;
 }
 
-static void say_number(line *l, const char *option, double value, const char *unit)
+static void append_number(line *l, const char *option, double value, const char *unit)
 {
     char *text = l->numbers[l->n_numbers++];
     snprintf(text, sizeof l->numbers[0], "%.15g%s", value, unit);
-    say(l, option, text);
+    append_argument(l, option, text);
 }
 
 /* " +- 7%" after a unit, or "". */
@@ -275,46 +275,47 @@ static share stated_error(double error)
     return s;
 }
 
-static void say_uncertain(line *l, const char *option, double value, const char *unit, double error)
+static void append_uncertain(line *l, const char *option, double value, const char *unit,
+                             double error)
 {
     char words[48];
     snprintf(words, sizeof words, "%s%s", unit, stated_error(error).words);
-    say_number(l, option, value, words);
+    append_number(l, option, value, words);
 }
 
-static void say_contact(line *l, const contact *c)
+static void append_contact(line *l, const contact *c)
 {
     char *roughness = l->numbers[l->n_numbers++];
     snprintf(roughness, sizeof l->numbers[0],
              "self-affine:q0=%.15grad/m,qr=%.15grad/m,q1=%.15grad/m,hurst=%.15g,c0=%.15gm^4%s",
              c->q0, c->qr, c->q1, c->hurst, c->c0, stated_error(c->error).words);
-    say(l, "--roughness", roughness);
-    say_uncertain(l, "--pressure", c->pressure, "Pa", c->error);
-    say_number(l, "--sliding-temperature", c->temperature, "degC");
-    say_number(l, "--poisson-ratio", c->poisson, "");
-    say(l, "--threads", "1");
+    append_argument(l, "--roughness", roughness);
+    append_uncertain(l, "--pressure", c->pressure, "Pa", c->error);
+    append_number(l, "--sliding-temperature", c->temperature, "degC");
+    append_number(l, "--poisson-ratio", c->poisson, "");
+    append_argument(l, "--threads", "1");
 }
 
-static void say_velocities(line *l, const contact *c)
+static void append_velocities(line *l, const contact *c)
 {
     char *text = l->numbers[l->n_numbers++];
     size_t used = 0;
     for (int i = 0; i < c->velocities && used < sizeof l->numbers[0]; i++)
         used += (size_t)snprintf(text + used, sizeof l->numbers[0] - used, "%s%.15gm/s",
                                  i > 0 ? "," : "", c->velocity[i]);
-    say(l, "--velocity", text);
+    append_argument(l, "--velocity", text);
 }
 
-static void say_isotherms(line *l, const dma_scene *s, const char *sweep)
+static void append_isotherms(line *l, const dma_scene *s, const char *sweep)
 {
-    say(l, "--dma", sweep);
-    say_number(l, "--reference-temperature", s->reference, "degC");
-    say(l, "--vertical-shift", s->vertical);
+    append_argument(l, "--dma", sweep);
+    append_number(l, "--reference-temperature", s->reference, "degC");
+    append_argument(l, "--vertical-shift", s->vertical);
 }
 
 static bool run(line *l, const char *output, trial *t)
 {
-    say(l, "-o", output);
+    append_argument(l, "-o", output);
     l->words[l->n++] = "--no-provenance";
     l->words[l->n] = NULL;
     return trial_run(t, l->words);
@@ -328,24 +329,24 @@ static void observe_contact(const dma_scene *s, const contact_truth *truth, cons
     const char *friction = trial_file(t, "friction.tsv"), *kept = trial_file(t, "kept.tsv");
     const char *layer = trial_file(t, "layer.tsv");
     line from_sweep = {.words = {"friction"}, .n = 1}, from_master = from_sweep;
-    say_contact(&from_sweep, c);
-    say_uncertain(&from_sweep, "--shear-stress", c->shear_stress, "Pa", c->error);
-    say_velocities(&from_sweep, c);
-    say_isotherms(&from_sweep, s, sweep);
+    append_contact(&from_sweep, c);
+    append_uncertain(&from_sweep, "--shear-stress", c->shear_stress, "Pa", c->error);
+    append_velocities(&from_sweep, c);
+    append_isotherms(&from_sweep, s, sweep);
     if (run(&from_sweep, friction, t))
         compare_friction(friction, c, truth, false, t);
-    say_contact(&from_master, c);
-    say_uncertain(&from_master, "--shear-stress", c->shear_stress, "Pa", c->error);
-    say_velocities(&from_master, c);
-    say(&from_master, "--material", master);
+    append_contact(&from_master, c);
+    append_uncertain(&from_master, "--shear-stress", c->shear_stress, "Pa", c->error);
+    append_velocities(&from_master, c);
+    append_argument(&from_master, "--material", master);
     if (run(&from_master, kept, t))
         compare_friction(kept, c, truth, true, t);
     line wear = {.words = {"layer"}, .n = 1};
-    say_contact(&wear, c);
-    say_isotherms(&wear, s, sweep);
-    say_number(&wear, "--velocity", c->velocity[c->layer_compute_energy], "m/s");
-    say_uncertain(&wear, "--specific-wear-rate", c->wear_rate, "m^2/N", c->error);
-    say_uncertain(&wear, "--critical-energy", c->critical_energy, "J/m^3", c->error);
+    append_contact(&wear, c);
+    append_isotherms(&wear, s, sweep);
+    append_number(&wear, "--velocity", c->velocity[c->layer_compute_energy], "m/s");
+    append_uncertain(&wear, "--specific-wear-rate", c->wear_rate, "m^2/N", c->error);
+    append_uncertain(&wear, "--critical-energy", c->critical_energy, "J/m^3", c->error);
     if (run(&wear, layer, t))
         compare_layer(layer, truth, t);
 }
@@ -396,9 +397,9 @@ static void observe(int scene, const void *what, random_source *random, trial *t
     if (measured == NULL)
         abort();
     sample_draw(s, &p->rubber, random, measured);
-    say_number(&l, "--reference-temperature", s->reference, "degC");
-    say(&l, "--vertical-shift", s->vertical);
-    say(&l, "--shift-by", s->by);
+    append_number(&l, "--reference-temperature", s->reference, "degC");
+    append_argument(&l, "--vertical-shift", s->vertical);
+    append_argument(&l, "--shift-by", s->by);
     if (sample_write(s, measured, sweep) != 0) {
         trial_broke(t, "the isotherms cannot be written");
     } else if (run(&l, master, t)) {

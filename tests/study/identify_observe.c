@@ -97,7 +97,7 @@ static bool write_case(const identify_scene *s, const char *sweep, const contact
 }
 
 /* "Differs" is wrong for equal values, and "one" for different ones. */
-static void take_said(trial *t, bool is_one, const stream *found, const char *column)
+static void read_verdict(trial *t, bool is_one, const stream *found, const char *column)
 {
     const char *table = place_common_energy.table;
     const bool one = stream_is(found, table, column, 0, PLACE_ONE) != 0,
@@ -115,9 +115,9 @@ static void read_collected(const identify_scene *s, const contact *truth, const 
     if (found == NULL || stream_rows(found, place_common_energy.table) != 1) {
         trial_broke(t, "another number of pairs");
     } else {
-        take_said(t, one_energy, found, PLACE_ONE_ENERGY);
-        take_said(t, one_wear, found, PLACE_ONE_WEAR);
-        take_said(t, one_energy && one_wear, found, PLACE_ONE_PAIR);
+        read_verdict(t, one_energy, found, PLACE_ONE_ENERGY);
+        read_verdict(t, one_wear, found, PLACE_ONE_WEAR);
+        read_verdict(t, one_energy && one_wear, found, PLACE_ONE_PAIR);
         if (one_energy && one_wear) {
             trial_add(t, Q_CRITICAL_ENERGY, truth->critical_energy,
                       place_row(found, &place_common_energy, 0));

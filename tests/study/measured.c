@@ -32,7 +32,7 @@ static const set sets[] = {
 };
 
 /* rms of the shifts against the published law, without the reference isotherm. */
-static double misfit(const stream *s, const set *from)
+static double lack_of_fit(const stream *s, const set *from)
 {
     const double reference =
         stream_number(s, place_shift.table, PLACE_REFERENCE, NULL) - 273.15 - from->t_inf;
@@ -62,7 +62,7 @@ static void print_set(const char *path, const set *from)
     for (int row = 0; row < n; row++)
         determined += !isnan(place_row(s, &place_shift, row).value);
     printf("\t%d\t%d\t%.4g\t%.2g\t%.4g\t%.2g\t%.3g\t%s", n, determined, c1.value,
-           c1.high - c1.value, c2.value, c2.high - c2.value, misfit(s, from),
+           c1.high - c1.value, c2.value, c2.high - c2.value, lack_of_fit(s, from),
            said != NULL ? said : "-");
     stream_free(s);
 }

@@ -50,7 +50,7 @@ typedef struct work {
     atomic_int next; /* index of a draw over all jobs */
 } work;
 
-static void *labour(void *argument)
+static void *run_worker(void *argument)
 {
     work *w = argument;
     const int draws = w->options->draws;
@@ -62,13 +62,13 @@ static void *labour(void *argument)
     return NULL;
 }
 
-static void labour_together(work *w)
+static void run_workers(work *w)
 {
     pthread_t threads[THREADS_MAX];
     int started = 0;
     for (int i = 1; i < w->options->threads && started < THREADS_MAX; i++)
-        started += pthread_create(&threads[started], NULL, labour, w) == 0;
-    labour(w);
+        started += pthread_create(&threads[started], NULL, run_worker, w) == 0;
+    run_worker(w);
     for (int i = 0; i < started; i++)
         pthread_join(threads[i], NULL);
 }
@@ -237,7 +237,7 @@ int main(int argc, char **argv)
     job *jobs = NULL;
     const int n = make_jobs(&o, families, sizeof families / sizeof families[0], &jobs);
     work w = {.options = &o, .jobs = jobs, .n_jobs = n};
-    labour_together(&w);
+    run_workers(&w);
     const int complaints = w.n_jobs > 0 ? print(&w) : usage("no scene has such a name");
     for (int i = 0; i < w.n_jobs; i++) {
         free(jobs[i].draws);

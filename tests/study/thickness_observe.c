@@ -67,7 +67,7 @@ static const char *indent_zone(const thickness_scene *s, const thin_sample *laye
     return trial_run(t, arguments) ? made : NULL;
 }
 
-/* ---- what it says ---------------------------------------------------------------------------- */
+/* ---- output ---------------------------------------------------------------------------------- */
 
 static bool begins(const char *said, const char *word)
 {
@@ -118,7 +118,7 @@ static void read_layer(const char *path, const thickness_scene *s, trial *t)
     stream_free(found);
 }
 
-/* ---- a draw ---------------------------------------------------------------------------------- */
+/* ---- one draw -------------------------------------------------------------------------------- */
 
 static const facts *scene_facts(int scene)
 {

@@ -42,7 +42,7 @@ static double scatter(const track_scene *s, random_source *random)
     return z / sqrt(3 * square);
 }
 
-static bool is_unsaid_warmer(warmth w)
+static bool is_unstated_warmer(warmth w)
 {
     return w == WARMER_UNSAID || w == WARMER_UNSAID_ALONE;
 }
@@ -56,7 +56,7 @@ static void draw_offsets(const track_scene *s, random_source *random, double *of
         spring[zone] = s->lever_error[zone] * random_normal(random);
         offset[zone] = spring[from] + sensitivity_gain[zone] * sensitivity[from];
     }
-    if (is_unsaid_warmer(s->warmth))
+    if (is_unstated_warmer(s->warmth))
         offset[1] -= s->rate_slope * M_LN10 * wlf_c1 * unsaid / (wlf_c2 + unsaid);
     else if (s->warmth == WARMER || s->warmth == WARMER_SLOPE_KNOWN)
         offset[1] += (warmer + warmer_error * random_normal(random)) *
@@ -107,9 +107,9 @@ static void draw_sample(const track_scene *s, random_source *random, sample *to)
         copy_spot(to, 0, 1, 1, s->spots[1] + 1);
 }
 
-/* ---- as the command is told ------------------------------------------------------------------ */
+/* ---- arguments of the command ---------------------------------------------------------------- */
 
-static const char *spots_words(const track_scene *s)
+static const char *format_spots(const track_scene *s)
 {
     return s->maps ? "file: each file is a spot, none were named" : "named";
 }
@@ -126,7 +126,7 @@ static int write_zone(const track_scene *s, const sample *drawn, int zone, const
     fprintf(file,
             "## spring_constant: %.9g standard_error=%.9g numerical_error=0 unit=N/m\n"
             "## spots: %s\n",
-            k, k * s->lever_error[zone], spots_words(s));
+            k, k * s->lever_error[zone], format_spots(s));
     fputs("# file[text]\tcurve[1]\tspot[text]\tverdict[text]\treason[text]\tmodulus[Pa]\t"
           "contact_point[m]\tnoise[N]\tpiezo_rate[m/s]\tindentation_rate[m/s]\tload_time[s]\t"
           "sensitivity_gain[1]\tequivalent_frequency[rad/s]\n",
@@ -152,7 +152,7 @@ typedef struct words {
     int n;
 } words;
 
-static void say(words *w, const char *option, const char *value)
+static void append_argument(words *w, const char *option, const char *value)
 {
     w->word[w->n++] = option;
     if (value != NULL)
@@ -161,8 +161,8 @@ static void say(words *w, const char *option, const char *value)
 
 static bool run(words *w, const char *output, trial *t)
 {
-    say(w, "-o", output);
-    say(w, "--no-provenance", NULL);
+    append_argument(w, "-o", output);
+    append_argument(w, "--no-provenance", NULL);
     w->word[w->n] = NULL;
     return trial_run(t, w->word);
 }
@@ -226,27 +226,27 @@ static bool run_compare(const track_scene *s, const char *const *files, const ch
     char sensitivity[32];
     snprintf(sensitivity, sizeof sensitivity, "%g", s->sensitivity_error);
     if (s->sensitivity_error > 0)
-        say(&w, "--sensitivity-error", sensitivity);
+        append_argument(&w, "--sensitivity-error", sensitivity);
     char scatter[32];
     snprintf(scatter, sizeof scatter, "%g", s->spot_scatter[0]);
     if (s->scatter_is_stated)
-        say(&w, "--between-spot-sd", scatter);
+        append_argument(&w, "--between-spot-sd", scatter);
     if (s->warmth == WARMER_UNSAID) {
         const char *rubber = trial_file(t, "rubber.tsv");
         if (write_rubber(s, rubber) != 0)
             trial_broke(t, "the rubber cannot be written");
-        say(&w, "--master", rubber);
+        append_argument(&w, "--master", rubber);
     } else if (s->warmth != WARMER_UNSAID_ALONE && s->warmth != NOT_WARMER_UNSAID) {
-        say(&w, "--indentation-temperature", "20degC");
+        append_argument(&w, "--indentation-temperature", "20degC");
         if (s->warmth != NOT_WARMER)
-            say(&w, "--track-temperature", "30degC +- 1K");
+            append_argument(&w, "--track-temperature", "30degC +- 1K");
     }
     if (s->warmth == WARMER_SLOPE_KNOWN)
-        say(&w, "--temperature-slope", "-0.012 +- 0.002");
+        append_argument(&w, "--temperature-slope", "-0.012 +- 0.002");
     return run(&w, made, t);
 }
 
-/* ---- on to friction -------------------------------------------------------------------------- */
+/* ---- effect on friction ---------------------------------------------------------------------- */
 
 /* A rubber without errors, so that only those of the ratio count. */
 static int write_material(const char *path)
@@ -279,9 +279,9 @@ static estimate layered_friction(const char *material, const char *ratio, const 
                         "--replicates", "200", "--threads", "1", "--roughness",
                         "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e6rad/m,hurst=0.8,c0=1e-17m^4"},
                .n = 17};
-    say(&w, "--modulus-ratio", ratio);
+    append_argument(&w, "--modulus-ratio", ratio);
     if (degrees != NULL)
-        say(&w, "--modulus-ratio-df", degrees);
+        append_argument(&w, "--modulus-ratio-df", degrees);
     estimate found = {(double)NAN, (double)NAN, (double)NAN};
     if (!run(&w, made, t))
         return found;
@@ -310,7 +310,7 @@ static void compare_friction(const track_scene *s, const stream *comparison, tri
     trial_add(t, Q_LAYERED_FRICTION, is.value, layered_friction(material, measured, df, t));
 }
 
-/* ---- what it says ---------------------------------------------------------------------------- */
+/* ---- output ---------------------------------------------------------------------------------- */
 
 static verdict read_verdict(const stream *found)
 {
@@ -332,7 +332,7 @@ static void compare_ratio(const char *path, const track_scene *s, trial *t)
     } else {
         t->draw->verdict = read_verdict(found);
         /* a ratio for each rate leaves no common ratio */
-        if (s->ratio_slope == 0 && !is_unsaid_warmer(s->warmth))
+        if (s->ratio_slope == 0 && !is_unstated_warmer(s->warmth))
             trial_add(t, Q_RATIO, s->ratio, place_row(found, &place_ratio, 0));
         if (s->through_friction)
             compare_friction(s, found, t);

@@ -255,7 +255,7 @@ static void test_inconsistencies(void **state)
     }
 }
 
-/* ---- told alike ------------------------------------------------------------------------------ */
+/* ---- same numbers everywhere ----------------------------------------------------------------- */
 
 /* A number, its interval and its range over the model choices. */
 typedef struct told {

@@ -115,7 +115,7 @@ typedef enum work {
     AGAIN,    /* curves fitted, those drawn anew among them */
     SPECTRA,  /* relaxation spectra with their intervals */
     FEW,      /* reductions to few terms */
-    LAWS,     /* fractional Zener laws beside them */
+    LAWS,     /* fractional Zener laws of the same curve */
     PEAKS,    /* of temperature sweeps */
     BETWEEN,  /* moduli at a temperature */
     SOFTENED, /* laws of strain sweeps */

@@ -170,7 +170,7 @@ static void test_all(void **state)
     assert_true(good[0] && good[1]);
 }
 
-/* ---- what is measured ------------------------------------------------------------------------ */
+/* ---- measured values ------------------------------------------------------------------------- */
 
 /* The bundled case, and cases with less information: a material without draws, stated vertical
  * shifts, a spring constant without an error. */

@@ -111,7 +111,7 @@ static wt_status see_and_free(void *user, wt_table *table, wt_error *err)
     return WT_OK;
 }
 
-/* ---- where tables come from ------------------------------------------------------------------ */
+/* ---- sources of tables ----------------------------------------------------------------------- */
 
 /* Expensive tables, of a case that has them. */
 static void run_errors(wt_case *c, wt_run_options options)
@@ -530,7 +530,7 @@ static void test_spring_constants(void **state)
     job.tip.half_angle_error = 0.02;
     job.sensitivity = (wt_estimate){60e-9, 2e-9, 0, "m/V"};
     job.lever_error = 0.1;
-    sets[1].read.spring_constant = (double)NAN; /* two spots then */
+    sets[1].read.spring_constant = (double)NAN; /* two positions then */
     if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s", err.message);
     see(tables.indentation);
@@ -1271,7 +1271,7 @@ static void test_data_quality(void **state)
     wt_log_free(log);
 }
 
-/* ---- what was not put ------------------------------------------------------------------------ */
+/* ---- tables that were not written ------------------------------------------------------------ */
 
 /* Every fit of isotherms converges; a key warns of one that does not. The moduli of this program
  * have the same ratio at all rates; unit_study_ratio_pairs has others. */

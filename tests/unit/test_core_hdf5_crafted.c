@@ -30,7 +30,7 @@ typedef struct tally {
     const char *good; /* text of the tables of the undamaged file; NULL: no tables expected */
 } tally;
 
-/* ---- making ---------------------------------------------------------------------------------- */
+/* ---- creation -------------------------------------------------------------------------------- */
 
 static wt_result *make_result(void)
 {
@@ -76,7 +76,7 @@ static uint8_t *bytes_of(size_t *size)
     return bytes;
 }
 
-/* ---- trying ---------------------------------------------------------------------------------- */
+/* ---- reading in the sandbox ------------------------------------------------------------------ */
 
 static void try(void *user, const char *what, const uint8_t *bytes, size_t size)
 {
@@ -129,7 +129,7 @@ static void damaged_results(void **state)
     wt_result_free(result);
 }
 
-/* ---- what a file can hold -------------------------------------------------------------------- */
+/* ---- possible contents ----------------------------------------------------------------------- */
 
 /* Opens the group of the table, without its column "modulus". */
 static hid_t open_table(hid_t *file)
@@ -276,7 +276,7 @@ static void special_files(void **state)
     wt_result_free(result);
 }
 
-/* ---- all that HDF5 reads --------------------------------------------------------------------- */
+/* ---- all layouts ----------------------------------------------------------------------------- */
 
 /* Reads everything as readers of instrument files may: chunks, filters, links of groups. */
 static herr_t visit(hid_t file, const char *name, const H5O_info_t *info, void *out)

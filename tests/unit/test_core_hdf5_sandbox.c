@@ -67,7 +67,7 @@ static void refused(hdf5_read_function *reading, sandbox_limits limits, wt_statu
     assert_null(answer);
 }
 
-/* ---- what may happen ------------------------------------------------------------------------- */
+/* ---- possible failures ----------------------------------------------------------------------- */
 
 static wt_status says(hid_t file, size_t n, FILE *out, wt_error *err)
 {
@@ -241,7 +241,7 @@ static void not_hdf5(void **state)
         WT_E_CORRUPT);
 }
 
-/* ---- the program around it ------------------------------------------------------------------- */
+/* ---- effects on the program ------------------------------------------------------------------ */
 
 static volatile sig_atomic_t handled;
 

@@ -45,7 +45,7 @@ static int clean(void **state)
     return unlink(victim);
 }
 
-/* ---- what must not be ------------------------------------------------------------------------ */
+/* ---- forbidden calls ------------------------------------------------------------------------- */
 
 static long forks(void)
 {
@@ -192,17 +192,17 @@ static const struct {
     {takes_another_filter, {"seccomp"}},
 };
 
-static wt_status does(const sandbox_call *door, FILE *answer, wt_error *err)
+static wt_status attempts(const sandbox_call *call, FILE *answer, wt_error *err)
 {
-    long (*const *deed)(void) = door->with;
+    long (*const *deed)(void) = call->with;
     (void)err;
     (void)fprintf(answer, "%ld", (*deed)());
     return WT_OK;
 }
 
 /* A sandbox with a writable file, as an error might leave it. */
-static sandbox_call door_to(wt_status (*reading)(const sandbox_call *, FILE *, wt_error *),
-                            const void *with, int file)
+static sandbox_call sandbox_call_for(wt_status (*reading)(const sandbox_call *, FILE *, wt_error *),
+                                     const void *with, int file)
 {
     return (sandbox_call){.what = "made", .reading = reading, .with = with, .file = file};
 }
@@ -233,8 +233,8 @@ static void other_system_calls_are_stopped(void **state)
         struct stat after;
         wt_error err = WT_ERROR_INIT;
         const int fd = open(victim, O_RDWR | O_CLOEXEC);
-        const sandbox_call door = door_to(does, &forbidden[which].deed, fd);
-        const wt_status status = sandbox_read(&door, &usual, &answer, &length, &err);
+        const sandbox_call call = sandbox_call_for(attempts, &forbidden[which].deed, fd);
+        const wt_status status = sandbox_read(&call, &usual, &answer, &length, &err);
         if (status != WT_E_CORRUPT || !names_one(err.message, forbidden[which].calls))
             fail_msg("%s: %d, \"%s\", answer \"%.*s\"", forbidden[which].calls[0], (int)status,
                      err.message, (int)length, answer != NULL ? answer : "");
@@ -249,12 +249,12 @@ static void other_system_calls_are_stopped(void **state)
     (void)signal(SIGUSR1, SIG_DFL);
 }
 
-/* ---- what may be ----------------------------------------------------------------------------- */
+/* ---- permitted calls ------------------------------------------------------------------------- */
 
-static wt_status looks(const sandbox_call *door, FILE *answer, wt_error *err)
+static wt_status reads_only(const sandbox_call *call, FILE *answer, wt_error *err)
 {
     struct stat there;
-    (void)door;
+    (void)call;
     (void)err;
     const int got = open("/etc/passwd", O_RDONLY), number = errno;
     (void)fprintf(answer, "%d %d %d %d %d.", got < 0, number == EACCES, access(victim, F_OK) < 0,
@@ -263,27 +263,27 @@ static wt_status looks(const sandbox_call *door, FILE *answer, wt_error *err)
     return WT_OK;
 }
 
-static wt_status ends_itself(const sandbox_call *door, FILE *answer, wt_error *err)
+static wt_status aborts(const sandbox_call *call, FILE *answer, wt_error *err)
 {
-    (void)door;
+    (void)call;
     (void)answer;
     (void)err;
     abort();
 }
 
 /* Like the scanner of UDUNITS when an allocation fails. */
-static wt_status exits(const sandbox_call *door, FILE *answer, wt_error *err)
+static wt_status exits(const sandbox_call *call, FILE *answer, wt_error *err)
 {
-    (void)door;
+    (void)call;
     (void)answer;
     (void)err;
     _exit(2);
 }
 
 /* For lack of memory a unit is treated as unknown, and the reading continues without it. */
-static wt_status goes_without(const sandbox_call *door, FILE *answer, wt_error *err)
+static wt_status continues_without_memory(const sandbox_call *call, FILE *answer, wt_error *err)
 {
-    (void)door;
+    (void)call;
     (void)answer;
     (void)err;
     resource_error_note(ENOMEM);
@@ -294,13 +294,14 @@ static wt_status goes_without(const sandbox_call *door, FILE *answer, wt_error *
 static void memory_runs_out(void **state)
 {
     (void)state;
-    wt_status (*const readings[])(const sandbox_call *, FILE *, wt_error *) = {exits, goes_without};
+    wt_status (*const readings[])(const sandbox_call *, FILE *,
+                                  wt_error *) = {exits, continues_without_memory};
     for (size_t i = 0; i < sizeof readings / sizeof *readings; i++) {
         char *answer = NULL;
         size_t length = 0;
         wt_error err = WT_ERROR_INIT;
-        const sandbox_call door = door_to(readings[i], NULL, -1);
-        assert_int_equal(sandbox_read(&door, &usual, &answer, &length, &err), WT_E_MEMORY);
+        const sandbox_call call = sandbox_call_for(readings[i], NULL, -1);
+        assert_int_equal(sandbox_read(&call, &usual, &answer, &length, &err), WT_E_MEMORY);
         assert_string_equal(err.message, "reading the made file takes more than 64 MiB of memory");
         assert_null(answer);
     }
@@ -313,19 +314,19 @@ static void reading_continues(void **state)
     size_t length = 0;
     wt_error err = WT_ERROR_INIT;
     const int fd = open(victim, O_RDONLY | O_CLOEXEC);
-    sandbox_call door = door_to(looks, NULL, fd);
-    assert_int_equal(sandbox_read(&door, &usual, &answer, &length, &err), WT_OK);
+    sandbox_call call = sandbox_call_for(reads_only, NULL, fd);
+    assert_int_equal(sandbox_read(&call, &usual, &answer, &length, &err), WT_OK);
     assert_memory_equal(answer, "1 1 1 1 1.", length);
     free(answer);
     answer = NULL;
-    door = door_to(ends_itself, NULL, fd);
-    assert_int_equal(sandbox_read(&door, &usual, &answer, &length, &err), WT_E_CORRUPT);
+    call = sandbox_call_for(aborts, NULL, fd);
+    assert_int_equal(sandbox_read(&call, &usual, &answer, &length, &err), WT_E_CORRUPT);
     assert_non_null(strstr(err.message, "SIGABRT"));
     assert_int_equal(close(fd), 0);
     assert_null(wt_sandbox_limitations());
 }
 
-/* ---- systems that do not let it -------------------------------------------------------------- */
+/* ---- systems without filters ----------------------------------------------------------------- */
 
 /* Like a container that refuses filters: errno of every attempt is EPERM. */
 static bool refuse_filters(void)
@@ -360,8 +361,8 @@ static bool without_filter(int file)
 {
     char *answer = NULL;
     size_t length = 0;
-    const sandbox_call door = door_to(looks, NULL, file);
-    return refuse_filters() && sandbox_read(&door, &usual, &answer, &length, NULL) == WT_OK &&
+    const sandbox_call call = sandbox_call_for(reads_only, NULL, file);
+    return refuse_filters() && sandbox_read(&call, &usual, &answer, &length, NULL) == WT_OK &&
            answer[0] == '1' && wt_sandbox_limitations() != NULL &&
            strstr(wt_sandbox_limitations(), "seccomp") != NULL;
 }
@@ -376,9 +377,9 @@ static bool with_few_files(int file)
         char *answer = NULL;
         size_t length = 0;
         wt_error err = WT_ERROR_INIT;
-        const sandbox_call door = door_to(looks, NULL, file);
+        const sandbox_call call = sandbox_call_for(reads_only, NULL, file);
         good = setrlimit(RLIMIT_NOFILE, &few) == 0;
-        const wt_status status = sandbox_read(&door, &usual, &answer, &length, &err);
+        const wt_status status = sandbox_read(&call, &usual, &answer, &length, &err);
         read_once |= status == WT_OK;
         refused_once |= status == WT_E_IO;
         good = good &&

@@ -22,7 +22,7 @@ struct whole {
     gsl_matrix *matrix, *factor, *inverse, *scratch;
 };
 
-/* Of as many unknowns: border, then blocks. */
+/* Creates the matrices of n unknowns: border, then blocks. */
 static void make_whole(struct whole *w, size_t n)
 {
     w->matrix = arena_matrix(&w->memory, n, n);

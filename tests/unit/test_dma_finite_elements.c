@@ -409,7 +409,7 @@ static void (*const readers[])(char *, solid *) = {[WT_FEM_ABAQUS] = read_abaqus
                                                    [WT_FEM_CODE_ASTER] = read_code_aster,
                                                    [WT_FEM_TABLE] = read_table};
 
-/* ---- a bar that is stretched at once --------------------------------------------------------- */
+/* ---- step strain of a bar -------------------------------------------------------------------- */
 
 static double at_level(const solid *s, const double *value, double t)
 {
@@ -477,7 +477,7 @@ static double relaxed(const solid *s, double t, double time)
     return stress;
 }
 
-/* ---- what it was made from ------------------------------------------------------------------- */
+/* ---- origin of the file ---------------------------------------------------------------------- */
 
 static wt_master_tables tables;
 

@@ -238,7 +238,7 @@ static void intervals_hold_the_truth(void **state)
     }
 }
 
-/* ---- what cannot be -------------------------------------------------------------------------- */
+/* ---- impossible input ------------------------------------------------------------------------ */
 
 static void steps_have_their_limits(void **state)
 {

@@ -32,7 +32,7 @@ static wt_table *friction_of(const wt_rubber *rubber, wt_estimate pressure)
 
 static const wt_estimate exact_pressure = {0.8e6, 0, 0, "Pa"};
 
-/* ---- as in memory ---------------------------------------------------------------------------- */
+/* ---- same as in memory ----------------------------------------------------------------------- */
 
 static wt_rubber of_isotherms(void)
 {
@@ -118,7 +118,7 @@ static void test_without_draws(void **state)
     wt_result_free(old);
 }
 
-/* ---- from strangers -------------------------------------------------------------------------- */
+/* ---- foreign files --------------------------------------------------------------------------- */
 
 static bool not_the_last(const wt_table *table, size_t row)
 {

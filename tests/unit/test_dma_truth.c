@@ -211,7 +211,7 @@ static void test_prony(void **state)
     assert_string_equal(wt_table_key(t, "deformation"), "tension");
 }
 
-/* ---- what the tables say of one another ------------------------------------------------------ */
+/* ---- relations of the tables ----------------------------------------------------------------- */
 
 /* Points, shifts, law and series are from one fit: each follows from the others. */
 static void test_relations(void **state)

@@ -144,7 +144,7 @@ static void collinear_knots_change_nothing(void **state)
     assert_same(few.area_ratio, many.area_ratio);
 }
 
-/* ---- what stands beside -----------------------------------------------------------------------*/
+/* ---- independence of velocities -------------------------------------------------------------- */
 
 /* The digits of a velocity are independent of the other velocities and their number; 0 is among
  * them. */

@@ -285,7 +285,7 @@ static void truth_of_reference(void **ignored)
     fclose(in);
 }
 
-/* ---- the edges of the domain ----------------------------------------------------------------- */
+/* ---- limits of validity ---------------------------------------------------------------------- */
 
 static double seconds(void)
 {

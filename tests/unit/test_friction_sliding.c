@@ -146,7 +146,7 @@ static void test_extrapolated(void **state)
     wt_table_free(t);
 }
 
-/* ---- the layer on top ------------------------------------------------------------------------ */
+/* ---- layer on the surface -------------------------------------------------------------------- */
 
 /* All moduli times a ratio: the same contact at the pressure divided by it. */
 static void scale_rubber(double ratio)
@@ -268,7 +268,7 @@ static void test_errors(void **state)
     }
 }
 
-/* ---- the layer in time ----------------------------------------------------------------------- */
+/* ---- layer against time ---------------------------------------------------------------------- */
 
 static wt_table *layer_of(const wt_layer_job *job)
 {

@@ -381,7 +381,7 @@ static void points_for_plots(void **state)
     }
 }
 
-/* ---- as it was read -------------------------------------------------------------------------- */
+/* ---- curves from files ----------------------------------------------------------------------- */
 
 static void add_segment(wt_force_curve *curve, wt_segment_kind kind, wt_quantity quantity,
                         double factor, const curve_truth *t)

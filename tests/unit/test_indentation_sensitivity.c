@@ -91,7 +91,7 @@ static const char *words(const wt_table *table, size_t row, const char *column)
     return wt_table_text(table, row, (size_t)c);
 }
 
-/* ---- the rows of all curves, worked out from those of the curves ----------------------------- */
+/* ---- rows of all curves, computed from those of single curves -------------------------------- */
 
 enum { MOST_ROWS = 2 * MOST_CURVES * MOST_FILES };
 

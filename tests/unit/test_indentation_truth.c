@@ -207,7 +207,7 @@ static void test_budget(void **state)
     wt_table_free(budget);
 }
 
-/* ---- rubber with memory -----------------------------------------------------------------------
+/* ---- viscoelastic rubber ----------------------------------------------------------------------
  */
 
 enum { MEMORY_N = 800 };

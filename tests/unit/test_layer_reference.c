@@ -15,7 +15,7 @@
 
 enum { WORD = 64, DEPTH = 16 };
 
-/* ---- what no numeric case expects ------------------------------------------------------------ */
+/* ---- numbers without a numeric case ---------------------------------------------------------- */
 
 typedef struct left_out {
     const char *id, *key, *why; /* a NULL key means the whole case */
@@ -104,7 +104,7 @@ static bool is_left_out(const char *id, const char *key)
     return false;
 }
 
-/* ---- what numeric cases expect --------------------------------------------------------------- */
+/* ---- numbers of numeric cases ---------------------------------------------------------------- */
 
 typedef struct expectation {
     char id[WORD];

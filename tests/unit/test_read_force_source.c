@@ -113,7 +113,7 @@ static void done(made_up *m, wt_force_curve *curve)
     wt_log_free(m->base.log);
 }
 
-/* ---- what the file says ------------------------------------------------------------------- */
+/* ---- values of the file ------------------------------------------------------------------- */
 
 static void calibration_of_the_file(void **state)
 {
@@ -211,7 +211,7 @@ static void requested_quantities(void **state)
     done(&m, &curve);
 }
 
-/* ---- what the user says ------------------------------------------------------------------- */
+/* ---- stated values ------------------------------------------------------------------------ */
 
 /* A stated value replaces a step of the conversion; later quantities follow from earlier ones. */
 static void stated_calibration(void **state)
@@ -277,7 +277,7 @@ static void stated_calibration_of_columns(void **state)
     done(&m, &curve);
 }
 
-/* ---- contradictions ----------------------------------------------------------------------- */
+/* ---- inconsistencies ---------------------------------------------------------------------- */
 
 /* Separately stored force and deflection imply a spring constant; heights are as long as each
  * other. Each has one warning. */
@@ -328,7 +328,7 @@ static void inconsistencies(void **state)
     }
 }
 
-/* ---- what is missing ---------------------------------------------------------------------- */
+/* ---- missing values ----------------------------------------------------------------------- */
 
 /* For a single signal, the quantities that the calibration permits. */
 static void from_one_signal(void **state)
@@ -431,7 +431,7 @@ static void calibration_of_the_curve(void **state)
     done(&m, &curve);
 }
 
-/* ---- places and facts --------------------------------------------------------------------- */
+/* ---- positions and metadata --------------------------------------------------------------- */
 
 static void places(void **state)
 {

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <time.h>
 
-/* ---- what stands for the program ------------------------------------------------------------- */
+/* ---- replacement of the program -------------------------------------------------------------- */
 
 /* Files that the program finds in its folder. */
 #define OWN_DATA "share/gwyddion"
@@ -56,7 +56,7 @@ static void stand_in(const char *script)
 
 static const char surf[512] = "DIGITAL SURF";
 
-/* ---- what goes wrong ------------------------------------------------------------------------- */
+/* ---- failures -------------------------------------------------------------------------------- */
 
 static void fails_with(const char *script, wt_status expected, const char *words)
 {
@@ -181,7 +181,7 @@ static void test_not_installed(void **state)
     assert_int_equal(count_files("tmp"), 0);
 }
 
-/* ---- what goes well -------------------------------------------------------------------------- */
+/* ---- success --------------------------------------------------------------------------------- */
 
 enum { COLUMNS = 3, ROWS = 2, POINTS = COLUMNS * ROWS };
 static const double heights[POINTS] = {3e-9, 1e-9, 4e-9, 1e-9, 5e-9, 9e-9}; /* uppermost first */
@@ -189,7 +189,7 @@ static const double heights[POINTS] = {3e-9, 1e-9, 4e-9, 1e-9, 5e-9, 9e-9}; /* u
 /* "GwyDataField" with these values, as bytes in native order, which is that of the file. */
 static size_t field_of(char *to, const double *values)
 {
-    char *p = to + 17; /* behind the name and the size */
+    char *p = to + 17; /* after the name and the size */
     const uint32_t columns = COLUMNS, rows = ROWS, n = POINTS;
     const double x = 3e-6, y = 2e-6;
 #define PUT(bytes, n) p = (char *)memcpy(p, bytes, n) + (n)

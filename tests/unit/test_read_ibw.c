@@ -130,7 +130,7 @@ static void test_refused(void **state)
     (void)state;
     static const char *const parts[] = {
         "Indexes: 0,4,6\r",                      /* no Direction */
-        "Indexes: 0,4,7\rDirection: NaN,1,-1\r", /* behind the last sample */
+        "Indexes: 0,4,7\rDirection: NaN,1,-1\r", /* after the last sample */
         "Indexes: 0,4,4\rDirection: NaN,1,-1\r",
         "Indexes: 0,4,2\rDirection: NaN,1,-1\r",
         "Indexes: 0,4,6\rDirection: NaN,1\r",

@@ -433,7 +433,7 @@ static void test_missing(void **state)
     static const struct {
         size_t columns, rows, missing;
         double width, height;
-        const char *words; /* the last of the log; NULL: nothing */
+        const char *words; /* text of the last log entry; NULL: none */
     } cases[] = {
         {4, 3, 0, 1, 1, NULL},
         {4, 3, 1, 1, 1, "1 of 12 pixels are not finite numbers and left out"},

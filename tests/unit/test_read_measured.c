@@ -184,7 +184,7 @@ static void close_file(open_file *f)
     *f = (open_file){.n = 0};
 }
 
-/* ---- what each file is ------------------------------------------------------------------------
+/* ---- properties of each file ------------------------------------------------------------------
  */
 
 static void check_file(const known_file *k)

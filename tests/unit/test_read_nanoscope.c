@@ -149,7 +149,8 @@ static void truncated(void **state)
     assert_int_equal(nanoscope_write(&f), 0);
     assert_refused(WT_E_CORRUPT, "the file is cut off");
     assert_int_equal(open_force(&r, path, NULL), WT_E_CORRUPT);
-    assert_string_equal(r.err.place, "\\*Ciao force image list"); /* where it says how many */
+    /* its statement of the number of curves */
+    assert_string_equal(r.err.place, "\\*Ciao force image list");
     close_all(&r);
 }
 

@@ -316,7 +316,7 @@ static void metadata(void **state)
 
 /* ---- images ------------------------------------------------------------------------------- */
 
-/* Of 4 lines with 8 points, 8 um wide and 4 um high. */
+/* 4 lines with 8 points, 8 um wide and 4 um high. */
 static void write_scan(const nid_writer_channel *of_scan, size_t n, size_t missed)
 {
     const nid_writer_group scan = {.name = "Scan forward",
@@ -385,7 +385,7 @@ static void sizes_must_add_up(void **state)
     assert_int_equal(nid_write(&f), 0);
     const size_t whole = read_bytes(bytes, sizeof bytes);
     wt_read_options o = wt_read_defaults();
-    o.format = "nid"; /* the question is what the reader says */
+    o.format = "nid"; /* the message of the reader is tested */
     for (size_t n = whole - 1500; n < whole + 3; n++) {
         reading r = {.log = NULL};
         assert_int_equal(wt_input_open_memory(bytes, n, "cut", &r.input, NULL), WT_OK);

@@ -230,7 +230,7 @@ static void test_row_and_sheet_numbers(void **state)
     }
 }
 
-/* ---- made to harm ---------------------------------------------------------------------------- */
+/* ---- malicious files ------------------------------------------------------------------------- */
 
 #define SHEET(cells) "<worksheet><sheetData>" cells "</sheetData></worksheet>"
 #define ROW(n, cells) "<row r=\"" n "\">" cells "</row>"

@@ -84,7 +84,7 @@ static void test_scatter(void **state)
     agreement_clear(&a);
 }
 
-static agreement_verdict judged(double level, double slope, double error)
+static agreement_verdict verdict_for(double level, double slope, double error)
 {
     set_up(level, slope, error, 0);
     agreement a = fitted(N, 0);
@@ -99,12 +99,12 @@ static agreement_verdict judged(double level, double slope, double error)
 static void test_verdicts(void **state)
 {
     (void)state;
-    assert_int_equal(judged(0, 0, 0.01), AGREEMENT_YES);
-    assert_int_equal(judged(0.19, 0, 0.01), AGREEMENT_INCONCLUSIVE);
-    assert_int_equal(judged(0.21, 0, 0.01), AGREEMENT_INCONCLUSIVE);
-    assert_int_equal(judged(-0.3, 0, 0.01), AGREEMENT_NO);
-    assert_int_equal(judged(0, 0, 0.5), AGREEMENT_INCONCLUSIVE);
-    assert_int_equal(judged(0, -0.2, 0.001), AGREEMENT_NO); /* 0.6 at the slowest velocity */
+    assert_int_equal(verdict_for(0, 0, 0.01), AGREEMENT_YES);
+    assert_int_equal(verdict_for(0.19, 0, 0.01), AGREEMENT_INCONCLUSIVE);
+    assert_int_equal(verdict_for(0.21, 0, 0.01), AGREEMENT_INCONCLUSIVE);
+    assert_int_equal(verdict_for(-0.3, 0, 0.01), AGREEMENT_NO);
+    assert_int_equal(verdict_for(0, 0, 0.5), AGREEMENT_INCONCLUSIVE);
+    assert_int_equal(verdict_for(0, -0.2, 0.001), AGREEMENT_NO); /* 0.6 at the slowest velocity */
 }
 
 /* One velocity: a level, for any measured value; the interval of all steps is that of one. */

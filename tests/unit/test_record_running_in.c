@@ -263,7 +263,7 @@ static void test_short_change(void **state)
     run_fit_clear(&r);
 }
 
-/* ---- records together ------------------------------------------------------------------------ */
+/* ---- combined records ------------------------------------------------------------------------ */
 
 enum { LAPS = 120 };
 static double lap_end[LAPS], lapped[MOST][LAPS];
@@ -471,7 +471,7 @@ static void case_end(void)
 
 static const char energy[] = "<critical-energy>2e+10J/m^3 +- 5%</critical-energy>";
 
-/* ---- what is said, against the table --------------------------------------------------------- */
+/* ---- text against the table ------------------------------------------------------------------ */
 
 /* The text and the number agree to the digits of the text. */
 static void check_number(const char *text, double value)

@@ -173,7 +173,7 @@ static void test_coverage(void **state)
     assert_in_range(ratio, LEAST, DRAWS);
 }
 
-/* ---- growth behind an incubation, in rows of every kind -------------------------------------- */
+/* ---- growth after an incubation, in rows of every kind --------------------------------------- */
 
 /* Kind of a row: the mean of the time after its label, about it or before it, or an instant. */
 typedef enum row_kind { ROW_FROM, ROW_ABOUT, ROW_UNTIL, ROW_AT, ROW_KINDS } row_kind;

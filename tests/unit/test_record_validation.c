@@ -17,7 +17,7 @@ static double velocity[STEPS];
 static wt_layer_observation observation;
 static wt_table *record;
 static size_t at_rest = SIZE_MAX; /* row of the record */
-static bool by_rotation;          /* which alone says so */
+static bool by_rotation;          /* which alone states it */
 static double warm; /* temperature of every second row, the others have none; 0: of no row */
 
 static void set_up(void)

@@ -10,7 +10,7 @@
 #include <signal.h>
 #include <sys/wait.h>
 
-/* ---- the whole ------------------------------------------------------------------------------- */
+/* ---- complete report ------------------------------------------------------------------------- */
 
 static void test_every_figure_is_listed_once(void **state)
 {
@@ -57,7 +57,7 @@ static void test_everything(void **state)
             size_t length = 0;
             char *bytes = read_all(path, &length);
             assert_true(length > 200);
-            if (k == 1) { // relative names only, and nothing that runs a program
+            if (k == 1) { /* Only relative names, and nothing that runs a program. */
                 assert_null(strstr(bytes, "/tmp"));
                 assert_null(strstr(bytes, "`"));
                 assert_null(strstr(bytes, "system"));
@@ -65,7 +65,7 @@ static void test_everything(void **state)
             free(bytes);
         }
     }
-    assert_int_equal(count_files("."), 1); // nothing temporary is left beside it
+    assert_int_equal(count_files("."), 1); /* No temporary file is left. */
     wt_result_free(result);
 }
 
@@ -162,7 +162,7 @@ static void test_page(void **state)
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
         if (strstr(page, expected[i]) == NULL)
             fail_msg("the page lacks: %s", expected[i]);
-    // No error tells its digits: three.
+    /* A value without an error has three digits. */
     static const char correlation[] =
         "Correlation of C₁ and C₂</th><td data-label=\"Value\" colspan=\"3\">";
     const char *shown = strstr(page, correlation);
@@ -424,7 +424,7 @@ static void test_missing_tables(void **state)
 {
     (void)state;
     NEED_GNUPLOT();
-    // Friction only: its figures, its tables, nothing else.
+    /* Friction only: its figures and tables, nothing else. */
     static const char *const sliding[] = {"friction", "roughness", "contact_area"};
     const fixture_change none = {.table = NULL},
                          one = {.keep = keep_first, .edit = forget_shearing};
@@ -658,10 +658,10 @@ static void test_only_reports_are_replaced(void **state)
     (void)state;
     wt_result *result = wt_result_new();
     wt_error err;
-    // An empty folder may be taken; an older report may be replaced.
+    /* An empty folder may be used; an older report may be replaced. */
     assert_int_equal(mkdir("out", 0777), 0);
     write_report(result, "out/", NULL);
-    // What is not of a report stays, and stops nothing; a picture that is not drawn any more goes.
+    /* Foreign files stay and stop nothing; obsolete pictures are removed. */
     static const char *const strays[] = {"out/notes.txt",      "out/.DS_Store",
                                          "out/Thumbs.db",      "out/plots/figure.pdf",
                                          "out/plots/mine.svg", "out/plots/.DS_Store",
@@ -687,7 +687,7 @@ static void test_only_reports_are_replaced(void **state)
     write_report(result, "seen", NULL);
     assert_true(exists("seen/index.html") && exists("seen/.DS_Store") && exists("seen/Thumbs.db"));
     remove_all("seen");
-    // "plots" of the user's, who points elsewhere: nothing there is touched.
+    /* A foreign "plots" that points elsewhere is unchanged. */
     remove_all("out/plots");
     assert_int_equal(symlink("mine", "out/plots"), 0);
     assert_int_equal(try_report(result, "out", NULL, &err), WT_E_IO);
@@ -706,7 +706,7 @@ static void test_only_reports_are_replaced(void **state)
     assert_int_equal(try_report(result, "site", NULL, &err), WT_E_IO);
     assert_non_null(strstr(err.advice, "another name"));
     assert_true(exists("site/index.html"));
-    // A file, the folder itself, a place that cannot be.
+    /* A file, the folder itself, an impossible path. */
     write_all("file", "x");
     assert_int_equal(try_report(result, "file", NULL, &err), WT_E_IO);
     assert_int_equal(try_report(result, ".", NULL, &err), WT_E_ARG);

@@ -691,7 +691,7 @@ static void test_many_points_are_thinned(void **state)
     wt_result_free(result);
 }
 
-/* ---- what a result must hold ----------------------------------------------------------------- */
+/* ---- required tables ------------------------------------------------------------------------- */
 
 static void check_refused(const char *table, const char *column, const fixture_change *change,
                           wt_status expected)

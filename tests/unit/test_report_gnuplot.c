@@ -129,7 +129,7 @@ static void test_settings_of_the_user(void **state)
     wt_result_free(result);
 }
 
-/* ---- a gnuplot that does what it should not -------------------------------------------------- */
+/* ---- a gnuplot that fails -------------------------------------------------------------------- */
 
 static void write_program(const char *name, const char *script)
 {

@@ -117,7 +117,7 @@ static void test_widths_and_type(void **state)
         check_sizes(figures[i], column, units);
     // Every figure is there in every format.
     assert_int_equal(count_files("out/plots"), 5 * wt_figure_count() + 2);
-    // What is not asked for goes, as it would show old numbers.
+    /* Figures that are not requested are removed, because they would show old numbers. */
     options.figures = WT_FIGURE_PDF;
     options.width = (double)NAN;
     write_report(result, "out", &options);
@@ -203,7 +203,7 @@ static void test_refusals(void **state)
         options.width = widths[i];
         assert_int_not_equal(wt_report_check("out", &options, &err), WT_OK);
     }
-    // The page alone has no place for them.
+    /* The page alone has no folder for them. */
     options = wt_report_defaults();
     assert_int_equal(wt_report_check("page.html", &options, &err), WT_OK);
     options.figures = WT_FIGURE_PDF;

@@ -318,7 +318,7 @@ static void test_work_precision(void **state)
     end_sections(&s);
 }
 
-/* ---- what if: the range of each choice, the widest last, then what chance does --------------- */
+/* ---- sensitivity: range of each choice, the widest last, then that of chance ----------------- */
 
 typedef struct range {
     const char *choice;
@@ -448,7 +448,7 @@ static void test_names_at_their_positions(void **state)
     free(script);
 }
 
-/* ---- as gnuplot sees them -------------------------------------------------------------------- */
+/* ---- points in gnuplot ----------------------------------------------------------------------- */
 
 /* Number of rows in each data set of a file: two blank lines separate them, '#' begins a
  * comment. */
@@ -634,7 +634,7 @@ static void test_panels(void **state)
     }
 }
 
-/* ---- crowds ---------------------------------------------------------------------------------- */
+/* ---- many points ----------------------------------------------------------------------------- */
 
 static void repeat(wt_table *copy)
 {

@@ -254,7 +254,7 @@ static void test_logarithmic_tics_are_at_whole_decades(void **state)
     axis_log(&d, "y", "E", &modulus, (value_span){20.1e6, 20.3e6});
     assert_non_null(strstr(text_string(&d.script), "set ytics (19.5, 20.0, 20.5, 21.0)\n"));
     text_free(&d.script);
-    // Numbers of many digits stand as powers, and have room beside the axis.
+    /* Numbers with many digits are powers, and have a margin at the axis. */
     axis_log(&d, "y", "q", &wavenumber, (value_span){1.2e5, 8e6});
     assert_non_null(strstr(text_string(&d.script), ", '2·10^{5}' 200000.0, "));
     assert_non_null(strstr(text_string(&d.script), "set lmargin 12\n"));

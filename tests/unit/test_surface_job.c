@@ -496,7 +496,7 @@ static void test_places_of_sizes(void **state)
 /* A copy with scaled heights, and sides ten times as small if `near`. */
 static void write_changed(const char *from, float factor, bool near, const char *to)
 {
-    enum { VALUES = 112 * 112 }; /* behind the head */
+    enum { VALUES = 112 * 112 }; /* after the header */
     static const char *const sides[] = {"XReal = 8.75e-0", "YReal = 8.75e-0"};
     static char bytes[1 << 16];
     FILE *in = fopen(from, "rb"), *out = fopen(to, "wb");
