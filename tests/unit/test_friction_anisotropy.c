@@ -161,7 +161,7 @@ static void directions(void **state)
     assert_near(mirrored.hysteresis.value, p.hysteresis.value, 1e-12);
     assert_near(mirrored.lateral.value, -p.lateral.value, 1e-12);
     assert_true(p.lateral.value > 0.01);
-    /* less of it a quarter turn on is as much of it here */
+    /* a negative amplitude a quarter turn away is equivalent */
     const wt_friction_point less = solve(&s, texture(-0.6, 0, 90), 1e-10),
                             more = solve(&s, texture(0.6, 0, 0), 1e-10);
     assert_near(less.hysteresis.value, more.hysteresis.value, 1e-12);

@@ -259,7 +259,7 @@ static void test_tables_on_the_page(void **state)
             fail_msg("no row of the page reads %s", rows[i]);
     }
     assert_int_equal(count_words(page, "<caption>Main numbers at 300 mm/s</caption>"), 1);
-    // Friction next to the decades of 1e-4 to 10 m/s.
+    // The velocities are close to the decades of 1e-4 to 10 m/s.
     /* an error that does not apply is not a number */
     assert_non_null(strstr(page, "<th scope=\"row\">Reference temperature</th>"
                                  "<td class=\"n\" data-label=\"Value\">20 °C</td>"
@@ -318,7 +318,7 @@ static void test_nothing_from_a_file_is_run(void **state)
     assert_false(exists("out/plots/fixture_was_run"));
     wt_result_free(result);
 
-    // Also where a text becomes a title in a script: a group of that name.
+    // The group name is also a title in a script.
     const char *const groups = "modulus_groups";
     const fixture_change change = {groups, .edit = name_evil_group};
     result = fixture_only(&groups, 1, &change);
@@ -328,7 +328,7 @@ static void test_nothing_from_a_file_is_run(void **state)
     check_page("out/index.html", 1, 2);
     wt_result_free(result);
 
-    // Without an answer the page is called by what is in it.
+    // Without a result the title of the page describes its contents.
     size_t length = 0;
     char *page = read_all("out/index.html", &length);
     assert_non_null(strstr(page, "<title>Modulus of each group"));

@@ -39,7 +39,7 @@ static void pdf_size(const char *bytes, size_t length, double size[2])
     char *end = NULL;
     size[0] = strtod(found + sizeof box - 1, &end) / 72 * 25.4;
     size[1] = strtod(end, NULL) / 72 * 25.4;
-    // Text is text: there is a font, and no page is a picture.
+    // Text is stored as text with a font, not as a picture.
     assert_non_null(memmem(bytes, length, "/Font", 5));
     assert_null(memmem(bytes, length, "/Subtype /Image", 15));
 }
@@ -85,7 +85,7 @@ static void check_sizes(const char *figure, double width, double units)
             pdf_size(bytes, length, size);
         else
             png_size(bytes, length, size);
-        // A point is the grain of a page of PDF, a unit that of SVG.
+        // The resolution of a PDF page is a point, that of SVG a unit.
         if (fabs(size[0] - width) > 0.36)
             fail_msg("%s is %g mm wide, not %g", path, size[0], width);
         if (k == 0) {

@@ -550,7 +550,7 @@ static size_t list_items(const sections *s, item items[], size_t most)
             items[n].points = (wt_table_n_rows(s->of[section]) + step - 1) / step;
             if (strstr(line, " matrix ") != NULL)
                 items[n].points *= wt_table_n_columns(s->of[section]);
-            // A band that has no width in seven digits loses a point there.
+            // A band without a width in seven digits loses a point.
             items[n].fewer = strstr(line, "NaN") != NULL || strstr(line, "filledcurves") != NULL;
             items[n].outside =
                 strstr(line, "filledcurves") != NULL || strstr(line, "lines ls 11") != NULL;

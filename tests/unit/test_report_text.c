@@ -272,7 +272,7 @@ static void test_logarithmic_tics_are_at_whole_decades(void **state)
     axis_linear(&d, "x", "T", &temperature, (value_span){293.15, 293.15});
     assert_non_null(strstr(text_string(&d.script), "x_offset = -273.15"));
     text_free(&d.script);
-    // Numbers that no axis can show do not make one.
+    // There is no axis for numbers that it cannot show.
     value_span span = EMPTY_SPAN;
     span_add(&span, 1e300, true);
     span_add(&span, 1e-300, true);

@@ -105,7 +105,7 @@ static void test_both_limits(void **state)
     assert_true(low > 100e-9 && low < at && at < high && high < 3e-6);
     begins(t, "agree", "inconclusive: the curves allow");
     assert_true(key_of(t, "both_low") > 190e-9 && key_of(t, "both_high") < 310e-9);
-    /* on its way to the bulk, from the modulus of the layer itself */
+    /* transition to the bulk, from the modulus of the layer */
     assert_true(key_of(t, "layer_to_bulk") < 0.7 && key_of(t, "layer_to_bulk") > 0.5);
     wt_table_free(t);
     t = track_layer(&layered, 50e-9, 5e-9);

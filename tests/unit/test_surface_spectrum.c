@@ -577,7 +577,7 @@ static void check_grooved(wt_surface_window window)
         wt_surface_spectrum s = {.n = 0};
         wt_surface_heights h;
         options.window = window;
-        options.form = WT_FORM_MEAN; /* another ends the waves of a period at the edges */
+        options.form = WT_FORM_MEAN; /* another window suppresses the periodic waves at the edges */
         assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, NULL), WT_OK);
         for (size_t k = 0; k < 2; k++) {
             const wt_surface_anisotropy found = wt_surface_anisotropy_fit(&s, k == 0 ? 2 : 4);
