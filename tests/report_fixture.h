@@ -1,5 +1,5 @@
-/* Results for the tests of the report: what the bundled case gives, changed where a test needs it.
- *
+/* Results for the tests of the report: the output of the bundled case, changed where a test needs
+ * it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_REPORT_FIXTURE_H
 #define WT_TESTS_REPORT_FIXTURE_H
@@ -11,17 +11,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A path that means harm to HTML, to a shell and to gnuplot. */
+/* A path with special characters of HTML, the shell and gnuplot. */
 #define FIXTURE_EVIL "<b>'`touch fixture_was_run`\"&;$(rm -r x)\\"
 
-/* A fixture that cannot be made is a broken test, not a failed one. */
+/* A fixture that cannot be created is an error of the test. */
 static inline void fixture_check(wt_status status)
 {
     if (status != WT_OK)
         abort();
 }
 
-static wt_result *fixture_case; /* what the case gives */
+static wt_result *fixture_case; /* output of the case */
 
 static inline void fixture_free(void)
 {
@@ -30,16 +30,16 @@ static inline void fixture_free(void)
 
 /* ---- changes --------------------------------------------------------------------------------- */
 
-/* What is changed in a table of that name. */
+/* Changes of the table with that name. */
 typedef struct fixture_change {
     const char *table;
     bool leave_out;
     bool (*keep)(const wt_table *table, size_t row); /* NULL: all rows */
-    void (*begin)(wt_table *copy);                   /* more columns; NULL: nothing */
-    void (*edit)(wt_table *copy, size_t row);        /* the last row of a copy; NULL: nothing */
-    void (*finish)(wt_table *copy);                  /* more rows, keys; NULL: nothing */
-    const char *without;                             /* a column or key it has not */
-    const char *swapped; /* a column with text for numbers or numbers for text */
+    void (*begin)(wt_table *copy);                   /* adds columns, or NULL */
+    void (*edit)(wt_table *copy, size_t row);        /* edits the last row of a copy, or NULL */
+    void (*finish)(wt_table *copy);                  /* adds rows and keys, or NULL */
+    const char *without;                             /* column or key to remove */
+    const char *swapped; /* column with text in place of numbers or the reverse */
 } fixture_change;
 
 /* Cells of the last row. */
@@ -170,8 +170,8 @@ static inline wt_status fixture_rubber(const wt_result *result, wt_rubber *rubbe
     return wt_rubber_from_tables(&tables, 0.5, rubber, err);
 }
 
-/* Friction at three velocities with and without flash temperature; at the last two of them a
- * contact that was hot stays hot. */
+/* Friction at three velocities with and without flash temperature; at the last two a hot contact
+ * stays hot. */
 static inline void fixture_flash(void)
 {
     static const double velocity[] = {1e-3, 1e-1, 10}, with[] = {0.1, 0.3, 0.4},
@@ -237,7 +237,7 @@ static inline void fixture_softening(void)
     fixture_check(wt_result_add(fixture_case, table, NULL));
 }
 
-/* Two places of a surface, and what lies beyond their points. */
+/* Two positions of a surface, and extrapolated data. */
 static inline void fixture_surface(void)
 {
     static const char *const files[] = {WT_SOURCE_DIR "/fixtures/surface/place-*.gsf"};
@@ -280,7 +280,7 @@ static inline void fixture_payne(void)
     wt_formats_free(formats);
 }
 
-/* A disc at four velocities and temperatures, with what was worn. */
+/* A disc at four velocities and temperatures, with the worn mass. */
 static inline void fixture_record(void)
 {
     static const char *const file[] = {WT_SOURCE_DIR "/fixtures/record/steps.csv"};
@@ -302,7 +302,7 @@ static inline void fixture_record(void)
     wt_formats_free(formats);
 }
 
-/* All curves of the first bulk file of the case, to look at. */
+/* All curves of the first bulk file of the case, for viewing. */
 static inline void fixture_curves(void)
 {
     static const char *const file[] = {"bulk-1.jpk-force-map"}, *const all[] = {"all"};
@@ -328,7 +328,7 @@ static inline void fixture_curves(void)
     wt_formats_free(formats);
 }
 
-/* A case against a record: the tables of the names, parted by blanks. */
+/* A case against a record: the tables with these names, separated by blanks. */
 static inline void fixture_held(wt_case *read, const char *record, const char *names)
 {
     const fixture_change no_change = {.table = NULL};
@@ -349,7 +349,7 @@ static inline void fixture_held(wt_case *read, const char *record, const char *n
     wt_result_free(result);
 }
 
-/* The bundled case against the same disc, and a layer that grows against a running-in. */
+/* The bundled case against the same disc, and a growing layer against a running-in. */
 static inline void fixture_validation(wt_case *read)
 {
     wt_case *growing = NULL;
@@ -360,7 +360,7 @@ static inline void fixture_validation(wt_case *read)
     wt_case_free(growing);
 }
 
-/* Adds a table of one of the other cases. */
+/* Adds a table of another case. */
 static inline void fixture_of_case(const char *name, const char *asked)
 {
     char path[256];
@@ -380,7 +380,7 @@ static inline void fixture_of_case(const char *name, const char *asked)
     wt_case_free(other);
 }
 
-/* Tables that a case has only if they are requested by name. */
+/* Tables that a case has only on request. */
 static inline void fixture_accuracy(wt_case *read)
 {
     size_t failed = 0;
@@ -404,14 +404,14 @@ static inline void fixture_accuracy(wt_case *read)
     fixture_of_case("layer", "identification");
 }
 
-/* As without replicates. */
+/* The same without replicates. */
 static inline void fixture_no_pair(wt_table *copy, size_t row)
 {
     (void)row;
     fixture_put(copy, "correlation", (double)NAN);
 }
 
-/* What the case gives, as that of a sample and a condition. */
+/* Output of the case, as that of a sample and a condition. */
 static inline wt_result *fixture_labelled(const char *sample, const char *condition, double ratio,
                                           double error)
 {
@@ -427,7 +427,7 @@ static inline wt_result *fixture_labelled(const char *sample, const char *condit
         const bool vague = error > 0.1 && strcmp(names[i], "identification") == 0;
         wt_table *copy = table != NULL ? fixture_copy(table, vague ? &no_pair : &no_change) : NULL;
         if (copy == NULL)
-            continue; /* not all cases have an error of the lever */
+            continue; /* some cases state no error of the cantilever */
         if (i == 0) {
             fixture_check(wt_table_set_key(copy, "case_sample", sample, NULL));
             fixture_check(wt_table_set_key(copy, "case_condition", condition, NULL));
@@ -444,8 +444,8 @@ static inline wt_result *fixture_labelled(const char *sample, const char *condit
     return labelled;
 }
 
-/* Two samples at two conditions, side by side; one pair differs, one does not, of one it cannot be
- * said. One wear rate has no error. */
+/* Two samples at two conditions, side by side: one pair differs, one does not, one is inconclusive.
+ * One wear rate has no error. */
 static inline void fixture_collect(wt_collection_tables *tables)
 {
     static const struct {
@@ -509,7 +509,7 @@ static inline const wt_result *fixture_produced(void)
     return fixture_case;
 }
 
-/* A copy of a result with changes; freed with wt_result_free. */
+/* Copies a result with changes; free it with wt_result_free. */
 static inline wt_result *fixture_changed(const wt_result *result, const fixture_change *changes,
                                          size_t n_changes)
 {
@@ -532,13 +532,13 @@ static inline wt_result *fixture_changed(const wt_result *result, const fixture_
     return copy;
 }
 
-/* The produced result with one change. */
+/* The result with one change. */
 static inline wt_result *fixture_with(const fixture_change *change)
 {
     return fixture_changed(fixture_produced(), change, 1);
 }
 
-/* Some of the produced tables, all with the same change. */
+/* Some of the tables, all with the same change. */
 static inline wt_result *fixture_only(const char *const *names, size_t n,
                                       const fixture_change *change)
 {
@@ -550,7 +550,7 @@ static inline wt_result *fixture_only(const char *const *names, size_t n,
     return result;
 }
 
-/* ---- everything ------------------------------------------------------------------------------ */
+/* ---- all tables ------------------------------------------------------------------------------ */
 
 /* One file of each group, so that its curves are a map. */
 static inline bool fixture_first_file(const wt_table *table, size_t row)
@@ -575,7 +575,7 @@ static inline void fixture_name_curve(wt_table *table)
     fixture_words(table, "curve_track", FIXTURE_EVIL " curve 7");
 }
 
-/* The errors of friction are known exactly: 0.002 % of the hysteresis, 4 % extrapolated. */
+/* The errors of friction are set: 0.002 % of the hysteresis, 4 % extrapolated. */
 static inline void fixture_know_errors(wt_table *table, size_t row)
 {
     const size_t hysteresis = (size_t)wt_table_find(table, "hysteresis");
@@ -584,7 +584,7 @@ static inline void fixture_know_errors(wt_table *table, size_t row)
     fixture_put(table, "extrapolated_share", row == 3 ? 0.04 : 0.01);
 }
 
-/* As if the isotherms were of steps, too: 1 + 0.01 i of the storage modulus, and one over it. */
+/* As if the isotherms were of steps: 1 + 0.01 i of the storage modulus, and its inverse. */
 static const char *const fixture_relaxation[] = {"relaxation_modulus", "own_relaxation",
                                                  "fitted_relaxation", "fitted_relaxation_low",
                                                  "fitted_relaxation_high"};
@@ -673,7 +673,7 @@ static inline void fixture_leave_out_stage(wt_table *table, size_t row)
     fixture_text(table, "reason", "left out: nothing asked for it");
 }
 
-/* Every table, with something in it for every figure and every part of the page. */
+/* Every table, with data for every figure and every part of the page. */
 static inline wt_result *fixture_result(void)
 {
     static const fixture_change changes[] = {

@@ -1,4 +1,4 @@
-/* The name of a status, "WT_E_UNIT": for what tests say and expect.
+/* Returns the name of a status, such as "WT_E_UNIT", for messages and expectations of tests.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_STATUS_NAME_H
 #define WT_TESTS_STATUS_NAME_H

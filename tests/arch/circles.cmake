@@ -1,6 +1,9 @@
-# No circles of files: no object file of the library needs, by however many steps, one that needs
-# it, and no header includes itself by way of others.
-# Run: cmake -DSOURCE=<project folder> -DOBJECTS=<file with the paths, one a line> -DNM=.. -P circles.cmake
+# No circular dependencies: no object file of the library depends on itself through others, and no header
+# includes itself.
+#
+# Run: cmake -DSOURCE=<project folder> -DOBJECTS=<file with the paths, one a line> -DNM=.. -P
+# circles.cmake
+#
 # With -DPLANTED=ON a circle is added, which must be found.
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
@@ -24,7 +27,8 @@ if(n LESS 100)
   message(FATAL_ERROR "only ${n} files seen: wrong folder?")
 endif()
 
-# Takes away what needs nothing that is left, again and again; sets `left` to the rest.
+# Removes files that need none of the remaining ones, until none is left to remove; sets `left` to the
+# rest.
 function(unwind)
   set(left ${files})
   set(gone TRUE)
@@ -49,7 +53,7 @@ endfunction()
 
 unwind()
 if(left)
-  # Everything that is left needs something that is left: following it comes round.
+  # Every remaining file needs a remaining file, so following them leads back to a file.
   list(GET left 0 file)
   set(way "")
   while(NOT file IN_LIST way)

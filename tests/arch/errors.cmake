@@ -1,4 +1,4 @@
-# A function that fails comes to its one end like one that does not: there is no goto.
+# A function has one exit for success and failure: there is no goto.
 # Run: cmake -DSOURCE=<project folder> [-DPLANTED=ON] -P errors.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)

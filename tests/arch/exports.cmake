@@ -1,5 +1,5 @@
-# Every function that a public header marks WT_API is exported by the library, the library exports
-# nothing else, and nothing else in its objects bears the prefix of what is exported.
+# The library exports every function that a public header marks WT_API and nothing else. No other symbol
+# of its objects has the prefix of exported ones.
 # Run: cmake -DLIBRARY=.. -DOBJECTS=<file with their paths> -DINCLUDE=.. -DNM=.. -P exports.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
@@ -29,7 +29,7 @@ string(REGEX MATCHALL "[0-9a-f]+ [A-Za-z] [^\n]+" rows "${out}")
 set(exported "")
 foreach(row IN LISTS rows)
   string(REGEX REPLACE "^[0-9a-f]+ [A-Za-z] ([^@]+).*$" "\\1" name "${row}")
-  if(NOT name MATCHES "^_") # of sanitizers and the linker
+  if(NOT name MATCHES "^_") # symbols of sanitizers and the linker
     list(APPEND exported ${name})
   endif()
 endforeach()

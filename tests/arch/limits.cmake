@@ -1,5 +1,5 @@
-# A named number of the mathematics has its reason beside it: a comment in its line, above it, or
-# above the run of declarations that it stands in. That the reason is a good one is for readers.
+# A named numerical constant has a comment with its reason in its line, above it, or above its group of
+# declarations. Readers assess the reason.
 # Run: cmake -DSOURCE=<project folder> -P limits.cmake
 # With -DPLANTED=ON a number without one is added, which must be found.
 # SPDX-License-Identifier: GPL-3.0-or-later
@@ -18,7 +18,7 @@ function(look name text)
   string(REGEX REPLACE "[][]" "|" text "${text}")
   string(REPLACE "\\\n" "\n" text "${text}")
   string(REPLACE "\n" ";" lines "${text}")
-  set(said FALSE) # by a comment that ends in the line before, or of a run
+  set(said FALSE) # a comment that ends in the line before, or above the group
   set(within FALSE)
   set(number 0)
   foreach(line IN LISTS lines)
@@ -26,7 +26,7 @@ function(look name text)
     set(is FALSE)
     if(line MATCHES "${opened}")
       set(within TRUE)
-      set(is TRUE) # carries what stands above to its members
+      set(is TRUE) # applies the comment above to its members
     elseif((line MATCHES "${constant}" AND NOT line MATCHES " char ") OR line MATCHES "${define}" OR line MATCHES "${one_line}" OR
            (within AND line MATCHES "${member}"))
       set(is TRUE)
@@ -40,7 +40,7 @@ function(look name text)
     endif()
     if(line MATCHES "\\*/" OR (is AND said))
       set(said TRUE)
-    elseif(NOT line MATCHES "^ +[^ ]" OR line MATCHES "[,{}] *$") # the rest of a long line keeps it
+    elseif(NOT line MATCHES "^ +[^ ]" OR line MATCHES "[,{}] *$") # continuation of a long line
       set(said FALSE)
     endif()
   endforeach()
@@ -50,7 +50,7 @@ endfunction()
 
 foreach(folder IN ITEMS core/math job indentation dma surface friction layer record study case)
   file(GLOB_RECURSE files RELATIVE ${SOURCE}/src ${SOURCE}/src/${folder}/*.c ${SOURCE}/src/${folder}/*.h)
-  # sizes of drawings, and the width of a vector, are no numbers of the mathematics
+  # sizes of drawings and the width of a vector are not numerical constants
   list(FILTER files EXCLUDE REGEX "/figures[a-z_]*[.]c$|core/math/simd[.]h$")
   foreach(file IN LISTS files)
     file(READ ${SOURCE}/src/${file} text)

@@ -1,5 +1,5 @@
-# The command loads the library of this build, and in a sanitizer job one that is sanitized. A
-# library named by LD_LIBRARY_PATH is found before that of the build.
+# The command loads the library of its build, in a sanitizer job a sanitized one. LD_LIBRARY_PATH has
+# precedence over the build tree.
 # Run: cmake -DCOMMAND=.. -DLIBRARY=.. -DNM=.. -DSANITIZED=<ON or OFF> -P loaded_library.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)

@@ -31,7 +31,7 @@ foreach(row IN LISTS rows)
   if(target STREQUAL "weartrack_command" AND NOT file MATCHES "/")
     set(file cmd/${file})
   endif()
-  if(file STREQUAL "cmd/malloc_abort.c") # it replaces functions of the C library
+  if(file STREQUAL "cmd/malloc_abort.c") # replaces functions of the C library
     continue()
   endif()
   list(APPEND files ${file})

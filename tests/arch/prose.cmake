@@ -1,10 +1,10 @@
-# Private words have a standard term (the table below). They stand in no message, help text, comment or man
-# page. A phrase of two words is found across the end of a line and in a literal of two parts.
+# Private words have a standard term (table below). They occur in no message, help text, comment or man
+# page. A phrase of two words is found across a line end and in a literal of two parts.
 # Run: cmake -DSOURCE=<project folder> [-DPLANTED=ON] -P prose.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 
-# Lower case, with what ends or precedes the word; "|", then the standard term.
+# Lower case, with the character before or after the word; "|", then the standard term.
 set(words
   " it cannot be said|the verdict is inconclusive"
   " would settle |would decide"
@@ -45,7 +45,7 @@ set(found "")
 set(n 0)
 function(look file text)
   string(TOLOWER "${text}" text)
-  # blanks, ends of lines, quotes, stars of comments and markup separate words
+  # blanks, line ends, quotes, comment stars and markup separate words
   string(REGEX REPLACE "[ \n\t*\"#<>()]+|\\\\f[a-z]|\\\\&|[.,:](\\\\n)?[ \n\"]+" " " text "${text}")
   # terms of instruments
   string(REGEX REPLACE "(optical|light) lever|lever (degree|clock|/name)" "" text "${text}")

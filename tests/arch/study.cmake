@@ -1,5 +1,5 @@
-# The study of the intervals shares nothing with what it judges: it includes its own headers and those
-# of the system alone, and no symbol of the library is in its programs.
+# The study of the intervals is independent of the library: it includes only its own and system headers,
+# and its programs contain no symbol of the library.
 # Run: cmake -DFOLDER=<tests/study> -DPROGRAMS=<a;b> -DNM=<nm> -P study.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)

@@ -1,5 +1,5 @@
-# The top of the tree holds what is listed here and nothing else: what a test or a trial left lying
-# there must not be handed in.
+# The top folder contains only the files listed here, so that no file of a test or an experiment is
+# committed.
 # Run: cmake -DSOURCE=<project folder> [-DPLANTED=ON] -P top.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)

@@ -1,18 +1,18 @@
-# Code acts on types, never on text that the program itself wrote: whoever improves a sentence must not
-# change what the program does. Text of people, of files and of libraries is compared, and so are
-# identifiers (units, names of groups, tables and options), which are one word.
+# Code depends on types, never on text that the program itself wrote, so that a better sentence does not
+# change the behaviour. Text of users, files and libraries may be compared, and so may identifiers of one
+# word (units, names of groups, tables and options).
 # Run: cmake -DSOURCE=<project folder> [-DPLANTED=ON] -P typed.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 
 # A call with its arguments, which may contain calls.
 set(call "(strn?cmp|strstr|strn?casecmp|starts_with)\\(([^()]|\\([^()]*\\))*\\)")
-# A literal of two words or an option; a member or column that holds a sentence.
+# A literal of two words or an option; a member or column with a sentence.
 set(prose "\"[^\"]* [^\"]*\"|\"--[a-z]*\"")
 set(sentences "[>.](message|advice|reason|remedy|note|sentence|caption|title|statement|because|why)[,)]")
 set(columns "_text\\([^)]*_(REASON|WHY|NOTE|SENTENCE|REMEDY|SETTLED_BY|CAPTION)\\)")
 
-# Text that others wrote, and messages that are shown once if they are equal.
+# Text from other sources, and messages that are printed once if they are equal.
 set(allowed
   "read/"                                          # foreign files
   "case/case_parse.c: .*c->message"                # messages of libxml2

@@ -1,11 +1,11 @@
-# No file uses a symbol of a slice above its own, and no computation sees a file.
+# No file uses a symbol of a slice above its own, and no computation accesses a file.
 # Run: cmake -DOBJECTS=<file with the paths, one a line> -DNM=.. -P upward.cmake
-# With -DPLANTED=ON a use upwards and a computation that opens a file are added; both must be found.
+# With -DPLANTED=ON an upward use and a computation that opens a file are added; both must be found.
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 
-# The slices that each slice may use, without the core. layers.cmake holds the same order for #include
-# lines; a symbol can be used without one, through a public header.
+# Slices that each slice may use, without the core. layers.cmake has the same order for #include lines; a
+# public header permits the use of a symbol without one.
 set(below_core "")
 set(below_report "")
 set(below_read "")
@@ -21,7 +21,7 @@ set(below_case record study indentation layer friction dma surface job read repo
 set(below_view case record study indentation layer friction dma surface job read report)
 set(below_cmd view case record study indentation layer friction dma surface job read report)
 
-# The registries name what all slices offer.
+# The registries name the functions of all slices.
 set(registries core/table/registry.c report/figures.c)
 
 # Functions of the C library that open, read or write files.

@@ -1,4 +1,4 @@
-/* Benchmark of weartrack. Run by hand; the tests only build it and run it once for a short time.
+/* Benchmark of weartrack, run by hand. The tests only build it and run it briefly.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +17,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Processor time of this process and of those that it has waited for: the door's. */
+/* Processor time of this process and of its finished children, such as the sandbox. */
 static double processor_seconds(void)
 {
     struct rusage door;
@@ -26,7 +26,7 @@ static double processor_seconds(void)
            1e-6 * (double)(door.ru_utime.tv_usec + door.ru_stime.tv_usec);
 }
 
-/* So long by the clock, whatever is measured: on a busy machine no longer than on another. */
+/* The duration is by the clock, independent of the load of the machine. */
 static double median_of(void (*work)(void *), void *data, double (*seconds_now)(void))
 {
     double seconds[BENCH_RUNS];

@@ -1,5 +1,5 @@
-/* Reading a small text export. The textbook method: every reader is asked for itself, decoding the
- * beginning of the file as it needs it, by who lists the file and again by who reads it.
+/* Reading of a small text export. The textbook method asks every reader separately and decodes the
+ * start of the file each time, once for the list of files and once for the reading.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@ typedef struct small_file {
     char text[4096];
     size_t length;
     const char *ours, *textbook;
-    double storage_modulus; /* the last one, as read */
+    double storage_modulus; /* the last file read */
 } small_file;
 
 static void make_file(small_file *f)

@@ -1,5 +1,6 @@
-/* Hysteresis friction of several materials on a self-affine road, set-up included; the textbook
- * method is that of study/textbook_methods.h. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Hysteresis friction of several materials on a self-affine road, with set-up. The textbook method
+ * is that of study/textbook_methods.h.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
 
@@ -14,7 +15,7 @@ static const double moduli[TERMS] = {1e6, 1.2e6, 1.6e6, 2.4e6, 4e6, 8e6,
                                      2e7, 6e7,   2e8,   5e8,   7e8, 4e8};
 static const double equilibrium = 5e6;
 
-/* Of the surroundings and of the law, at which the moduli are. */
+/* Ambient temperature, at which the shift law gives the moduli. */
 static const double temperature = 293.15;
 
 typedef struct friction_case {
@@ -26,7 +27,7 @@ typedef struct friction_case {
     bool flash;
 } friction_case;
 
-/* With the range of frequencies that was measured; NaN: all are known. */
+/* With the measured frequency range; NaN: all frequencies are known. */
 static wt_material *prony_between(double lowest, double highest)
 {
     wt_error err = WT_ERROR_INIT;
@@ -52,7 +53,7 @@ static wt_material *prony(void)
     return prony_between((double)NAN, (double)NAN);
 }
 
-/* Points of the same over 14 decades. */
+/* Points of this series over 14 decades. */
 static wt_material *table(size_t knots)
 {
     static double omega[MOST_KNOTS], storage[MOST_KNOTS], loss[MOST_KNOTS];
@@ -86,7 +87,7 @@ static wt_material *transverse(void)
     return material;
 }
 
-/* With all that is prepared for it. */
+/* With all preparations. */
 static void friction_weartrack(void *data)
 {
     friction_case *c = data;
@@ -106,7 +107,7 @@ static void friction_weartrack(void *data)
     wt_friction_workspace_free(workspace);
 }
 
-/* At every tenth velocity: it takes its time. */
+/* At every tenth velocity, because the method is slow. */
 enum { EVERY = 10 };
 
 static void friction_plain(void *data)
@@ -121,7 +122,7 @@ static void friction_plain(void *data)
     }
 }
 
-/* Beside the textbook's seconds for all velocities. */
+/* Compared with the textbook time for all velocities. */
 static void bench_tolerance(friction_case *c, const char *name, double tolerance, double textbook)
 {
     char words[96];
@@ -138,7 +139,7 @@ static void bench_tolerance(friction_case *c, const char *name, double tolerance
     bench_row(name, ours, textbook, 1e-3 * VELOCITIES, "per millisecond", words);
 }
 
-/* Takes the material. `loose`: at a tolerance of 1e-2, too; NULL: not. */
+/* Takes ownership of the material. `loose`: also at a tolerance of 1e-2, unless NULL. */
 static void bench_material(const char *name, const char *loose, wt_material *material)
 {
     static friction_case c;
@@ -155,8 +156,8 @@ static void bench_material(const char *name, const char *loose, wt_material *mat
     wt_material_free(c.material);
 }
 
-/* Velocities from where nothing warms up to where 30 K do. The textbook has no such thing: beside
- * it stand the same velocities without. */
+/* Velocities from no heating to 30 K. The textbook method has no flash temperature; it computes the
+ * same velocities without it. */
 static void bench_flash(double tolerance)
 {
     static friction_case c;

@@ -1,7 +1,7 @@
-/* Maps of force curves from file to table, both ways of the piezo, every verdict on. Beside them:
- * the textbook fit alone, without reading anything; the same curves fitted with another tip, which
- * none of them fits; what libzip needs to unpack every entry of the same map; one thread instead of
- * two. What is left of the time: README.md.
+/* Maps of force curves from file to table, approach and retraction, with every verdict. They are
+ * compared with: the textbook fit alone, without reading; the same curves with a wrong tip, which
+ * fits none; the time of libzip to unpack the map; one thread instead of two. README.md lists the
+ * parts of the time.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +25,7 @@ typedef struct map {
 } map;
 
 static const double modulus = 4e6, contact = 1.2e-6, spring_constant = 0.5;
-/* On the way out: what makes a fit of another tip look for adhesion. */
+/* A pull-off on retraction: with a wrong tip it causes fits with adhesion. */
 static const double pull = 1e-9, let_go = 5e-9;
 
 static void write_map(const char *path, bool stored)

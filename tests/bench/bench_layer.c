@@ -21,7 +21,7 @@ static void layer_weartrack(void *data)
                 &err);
 }
 
-/* Damage over its limit: what a depth has gathered on its way up from z + k sigma0 v t. */
+/* Damage over its limit: accumulated on the way up from z + k sigma0 v t. */
 static double damage(const layer_case *c, double depth, double time)
 {
     const wt_layer_parameters *p = &c->parameters;

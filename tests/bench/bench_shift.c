@@ -1,5 +1,6 @@
-/* Shift factors of 20 isotherms, and of 154 with 2,000 points. The textbook method: neighbour by
- * neighbour, E' only, by linear interpolation of log10 E'; a coarse scan, then golden sections.
+/* Shift factors of 20 isotherms, and of 154 with 2,000 points. The textbook method shifts each
+ * isotherm onto its neighbour: E' only, linear interpolation of log10 E', a coarse scan, then
+ * golden section.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "bench/bench.h"
 
@@ -14,7 +15,8 @@ typedef struct shift_case {
     int n;
     double truth[MOST];
     double ours[MOST], textbook[MOST];
-    double x[MOST][POINTS], y[MOST][POINTS]; /* log10 of frequency and E', filled by the textbook */
+    /* log10 of frequency and E', set by the textbook method */
+    double x[MOST][POINTS], y[MOST][POINTS];
 } shift_case;
 
 static void moduli(double omega, double *storage, double *loss)

@@ -1,4 +1,4 @@
-/* A row of the summary. The textbook method: every file by HDF5, behind the door.
+/* Rows of the summary. The textbook method reads every file by HDF5 in the sandbox.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
@@ -6,12 +6,12 @@
 
 #include "bench/bench.h"
 
-/* The tables and sizes of a result of friction and of the isotherms behind it. */
+/* Tables of a friction result and of its isotherms, with their sizes. */
 enum { VELOCITIES = 31, ISOTHERMS = 12, COLUMNS = 14, KEYS = 20 };
 
 typedef struct kept_result {
     char path[32];
-    size_t n_keys; /* of the tables read last */
+    size_t n_keys; /* from the last tables read */
 } kept_result;
 
 static void add_table(wt_result *result, const char *name, size_t n_rows)

@@ -35,7 +35,7 @@ typedef struct precision_part {
     void (*end)(void *problem);                                  /* frees the problem */
     measured_method methods[PRECISION_METHODS + 1];              /* ends with a NULL name */
     bool is_bound; /* the stated error is a bound of the true one, not a standard error */
-    /* errors of the textbook method that are known from elsewhere, by the value of its setting */
+    /* known errors of the textbook method from another source, by the value of its setting */
     struct {
         double value, error;
     } known[PRECISION_KNOWN];

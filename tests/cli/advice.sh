@@ -1,9 +1,9 @@
 #!/bin/sh
-# Follows the advice of messages: each row causes a message, takes the advice of it literally, and
-# checks that it helps. Every message of the source that names an option, a subcommand or an element
-# of a case needs a row (advice.awk lists them).
-# Usage: advice.sh WEARTRACK SOURCE FIXTURES WORK NAME, for the rows of advice/NAME.sh; with the name
-# "pieces" only this: every message has a row, and every row a message.
+# Follows the advice of messages: each row causes a message, follows its advice literally, and checks that
+# it helps. Every message that names an option, a subcommand or an element of a case needs a row
+# (advice.awk lists them).
+# Usage: advice.sh WEARTRACK SOURCE FIXTURES WORK NAME, for the rows of advice/NAME.sh. The name "pieces"
+# checks that every message has a row and every row a message.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 source=$2 fixtures=$3 work=$4 rows=$5
@@ -13,7 +13,7 @@ rm -rf "$work"; mkdir -p "$work"; cd "$work"
 failed=0 followed=0
 fail() { printf '%s: %s\n    %s\n' "$message" "$*" "$(cat said)"; failed=$((failed + 1)); }
 
-# piece TEXT...: the row is of the messages of the source that contain these texts
+# piece TEXT...: the row tests the messages of the source that contain these texts
 piece() { message=$1; printf '%s\n' "$@" >> keys; }
 # not_advice TEXT REASON: the text only mentions an option, a subcommand or an element
 not_advice() { printf '%s\n' "$1" >> keys; printf '%s\n' "$1" >> mentions; }
@@ -23,7 +23,7 @@ no_input() { printf '%s\n' "$1" >> keys; printf '%s\n' "$1" >> unmade; }
 call() {
   status=0
   timeout 50 "$weartrack" "$@" > out 2> err < /dev/null || status=$?
-  # what is said is one line of text, whatever its breaks
+  # joins the output to one line of text
   cat err out | grep -vE '^## (command|input)' | tr -s ' \n' '  ' > said
   [ "$status" -lt 124 ] || fail "$*: ended with $status"
 }
@@ -39,7 +39,7 @@ helps() {
   case $status in 0 | 3) ;; *) fail "$*: exit status $status" ;; esac
   ! grep -qF -e "$advice" said || fail "$*: the same advice again"
 }
-# leads ARGUMENT...: the call is understood, and its message is another
+# leads ARGUMENT...: the call is accepted and has a different message
 leads() {
   followed=$((followed + 1)); call "$@"
   [ "$status" != 2 ] || fail "$*: is no call"
@@ -70,7 +70,7 @@ set +e
 weartrack=true
 call() { :; }; cause() { :; }; helps() { :; }; leads() { :; }; says() { :; }; number() { :; }; fail() { :; }
 for file in "$here"/advice/files.sh "$here"/advice/*.sh; do . "$file"; done 2> /dev/null
-# A message that is parted over lines is found; help and comments are none.
+# A message over several lines is found; help and comments are not messages.
 cat > planted.c <<'END'
 /* "give --comment 1" */ wt_error_advice(err, "give " ADVICE
                                          "the thing with --planted 1");

@@ -1,8 +1,9 @@
-/* What a map costs in memory: a small and a large one, told, fitted and converted in every
- * direction. Peak memory, carried on to 65,536 curves, must stay below 100 MB, and moduli and files
- * must be the same to the last digit whichever way they came.
- * Usage: big_map PROGRAM WORK NAME [CURVES [SAMPLES]]: the trial of this name; one map
- * of so many curves, of so many samples in each of two segments, instead, whose peaks are printed.
+/* Peak memory of a large map of force curves. A small and a large map are read, fitted and
+ * converted in every format. The peak, extrapolated to 65,536 curves, must be below 100 MB; moduli
+ * and files must be identical in all formats.
+ *
+ * Usage: big_map PROGRAM WORK NAME [CURVES [SAMPLES]]. NAME is the trial. With CURVES one map of
+ * this size, with SAMPLES in each of two segments, is used instead and its peaks are printed.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "big_map_files.h"
 
@@ -26,8 +27,8 @@ extern char **environ;
 
 static size_t n_bad;
 
-/* A process that writes what is in a file into a pipe, whose other end is returned. */
-static int feed(const char *path, pid_t *writer)
+/* Starts a process that writes a file into a pipe and returns the other end of the pipe. */
+static int start_feeder(const char *path, pid_t *writer)
 {
     int ends[2];
     if (pipe(ends) != 0 || (*writer = fork()) < 0)
@@ -40,13 +41,14 @@ static int feed(const char *path, pid_t *writer)
     const int from = open(path, O_RDONLY);
     (void)close(ends[0]);
     for (ssize_t got; (got = read(from, piece, sizeof piece)) > 0;)
-        if (write(ends[1], piece, (size_t)got) != got) /* a pipe takes all, or ends this process */
+        /* The pipe takes all bytes, or a signal ends this process. */
+        if (write(ends[1], piece, (size_t)got) != got)
             _exit(EXIT_FAILURE);
     _exit(EXIT_SUCCESS);
 }
 
-/* Peak memory of a call, which must succeed [MB]; that of processes which it waited for counts.
- * What it reads of standard input is map.tsv, through a pipe. */
+/* Returns the peak memory of a call [MB], with the processes that it waited for. The call must
+ * succeed. Its standard input is map.tsv through a pipe. */
 static double peak(const char *program, const char *const *arguments)
 {
     const char *line[20] = {"weartrack"};
@@ -60,7 +62,7 @@ static double peak(const char *program, const char *const *arguments)
         line[i + 1] = arguments[i];
         if (strcmp(arguments[i], "-") != 0)
             continue;
-        input = feed("map.tsv", &writer);
+        input = start_feeder("map.tsv", &writer);
         (void)posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
         (void)posix_spawn_file_actions_addclose(&actions, input);
     }
@@ -82,20 +84,20 @@ static double peak(const char *program, const char *const *arguments)
 
 #define INDENT "indent", BARE, "--tip", "paraboloid:radius=1um", "--threads", "1"
 #define CONVERT "convert", BARE
-/* Not every format holds a spring constant. */
+/* Some formats store no spring constant. */
 #define FIT INDENT, "--spring-constant", "2N/m"
-/* What is done one after the other, and which files must be alike afterwards. */
+/* Calls in their order, and the files that must be identical afterwards. */
 typedef struct trial {
     const char *name;
-    void (*write)(size_t n, size_t samples); /* the map or the maps */
+    void (*write)(size_t n, size_t samples); /* writes the map or maps */
     size_t small, large, samples;
     const char *calls[MOST_CALLS][14];
-    const char *moduli[4];   /* that are those of moduli.txt */
-    const char *only_moduli; /* of one that has other files and numbers of curves, or NULL */
-    const char *files[2][2]; /* byte for byte */
+    const char *moduli[4];   /* files with the moduli of moduli.txt */
+    const char *only_moduli; /* result with other files and numbers of curves, or NULL */
+    const char *files[2][2]; /* pairs of identical files */
 } trial;
 
-/* A file of one format, read and stored. What follows from text is that of the trial "text". */
+/* One file of a format, read and converted. The trial "text" covers the text format. */
 #define ONE_FILE(map, n)                                                                           \
     .small = 1536, .large = 4096, .samples = (n),                                                  \
     .calls = {{FIT, map, "-o", "moduli.txt"},                                                      \
@@ -178,7 +180,7 @@ static bool next_row(FILE *in, char *row, size_t size)
     return false;
 }
 
-/* The number of a column of the table, which must be there. */
+/* Returns the index of a column, which must exist. */
 static size_t find_column(FILE *in, const char *name)
 {
     static char line[4096];
@@ -194,8 +196,7 @@ static size_t find_column(FILE *in, const char *name)
     abort();
 }
 
-/* The rows of moduli agree, and are moduli, apart from the name of the file and what only one
- * format says. */
+/* Compares the moduli of two results. The file name and columns of one format only may differ. */
 static void compare(const char *name, bool only_moduli, size_t n)
 {
     static char a[4096], b[4096];
@@ -253,7 +254,7 @@ static void compare_bytes(const char *const names[2])
 
 static void run(const char *program, const trial *t, size_t n, double peaks[MOST_CALLS])
 {
-    /* In a process of its own: a program counts the peak of the one that started it as its own. */
+    /* Runs in its own process, because the peak of a program includes that of its parent. */
     const pid_t writer = fork();
     int state = 0;
     if (writer == 0) {
@@ -286,7 +287,7 @@ static void tell(const char *const *call)
             (void)printf("%s ", *call);
 }
 
-/* The number of calls that need more than they may. */
+/* Returns the number of calls that exceed the limit. */
 static size_t count_above(const trial *t, size_t only, const double *small, const double *large)
 {
     size_t n = 0;
@@ -318,8 +319,8 @@ int main(int argc, char **argv)
     if (samples > 1 && samples <= MOST_SAMPLES)
         t.samples = samples;
     make_kinds(t.samples);
-    /* What a process has at its peak differs by a megabyte from run to run, and here counts 24
-     * times: a program that keeps what it reads is above the limit in each. */
+    /* The peak differs by a megabyte between runs, and the extrapolation multiplies it by 24. A
+     * program that keeps its input exceeds the limit in every run. */
     for (size_t i = 0; i < RUNS && (i == 0 || n_above > 0); i++) {
         if (only == 0)
             run(argv[1], &t, t.small, small);

@@ -1,4 +1,5 @@
-/* Maps of force curves by independent writers, one for each way in which a file holds many curves.
+/* Writes maps of force curves, one for each way in which a file contains many curves. The writers
+ * are independent of the library.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "big_map_files.h"
 #include "writers/curve_hdf5_writer.h"
@@ -76,7 +77,8 @@ void write_map(size_t n, size_t samples)
     free(curves);
 }
 
-/* The values of all curves, way in and way out one behind the other, or `way` alone. */
+/* Returns the values of all curves: approach and retract one after the other, or only the segment
+ * `way`. */
 static double *all_values(size_t n, size_t samples, int way,
                           double value(size_t kind, size_t way, size_t i, size_t samples))
 {
@@ -103,8 +105,8 @@ static double force_of(size_t kind, size_t way, size_t i, size_t samples)
     return force[way][kind][i];
 }
 
-/* Where the piezo and not the tip moves evenly: the depth that balances the lever, by bisection,
- * and the noise of the kind. */
+/* The piezo moves at a constant rate, not the tip. Bisection finds the depth at which the
+ * cantilever is in equilibrium; noise is added. */
 static double volts_of(size_t kind, size_t way, size_t i, size_t samples)
 {
     const double at = (double)(way == 0 ? i + 1 : samples - i) / (double)samples;
@@ -119,7 +121,7 @@ static double volts_of(size_t kind, size_t way, size_t i, size_t samples)
     return (fmax(pressed, 0) - low + still / spring_constant) / 60e-9;
 }
 
-/* `lengths` of the lines: version 3. */
+/* Version 3 states the `lengths` of the lines. */
 static void write_nid(size_t n, size_t samples, const size_t *lengths)
 {
     static const char *const names[] = {"Spec forward", "Spec backward"};
@@ -268,7 +270,7 @@ void write_park(size_t n, size_t samples)
 
 /* ---- one file for each curve ---------------------------------------------------------------- */
 
-/* A folder of waves, and the same as an archive. */
+/* Writes a folder of waves, or an archive of them. */
 void write_waves(size_t n, size_t samples)
 {
     static const char *const labels[] = {"Raw", "Defl"};
@@ -280,7 +282,7 @@ void write_waves(size_t n, size_t samples)
         abort();
     for (size_t i = 0; i < 2 * samples * n; i++) {
         heights[i] = -heights[i]; /* towards the sample */
-        /* Files with the same samples count once: each has a baseline of its own. */
+        /* Files with the same samples count once, so each has a different baseline. */
         bent[i] = bent[i] / spring_constant + 1e-12 * (double)(i / (2 * samples));
     }
     for (size_t i = 0; i < n; i++) {

@@ -1,14 +1,15 @@
-/* Maps of force curves for big_map.c, in the folder where it is. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Maps of force curves for big_map.c, written into the current folder.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef TESTS_CLI_BIG_MAP_FILES_H
 #define TESTS_CLI_BIG_MAP_FILES_H
 
 #include <stddef.h>
 
-#define MAP_MODULUS 4e6 /* [Pa], about which the curves of a tip of 1 um scatter */
+#define MAP_MODULUS 4e6 /* mean modulus [Pa] of the curves; the tip radius is 1 um */
 enum { MOST_SAMPLES = 200 };
 
-/* Before any map: the curves, of so many samples in each of two segments. */
+/* Creates the curves, with this number of samples in each of two segments. Call it before the
+ * writers. */
 void make_kinds(size_t samples);
 
 void write_map(size_t n, size_t samples);      /* map.jpk-force-map */

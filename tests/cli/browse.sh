@@ -1,6 +1,6 @@
 #!/bin/sh
-# The page to go through curves, in a headless browser: it loads without an error, has all curves,
-# does what keys and clicks ask for, and the choices that it hands back are read by indent.
+# The page with all curves in a headless browser: it loads without an error, contains all curves, reacts
+# to keys and clicks, and indent reads its manual overrides.
 # Usage: browse.sh PROGRAM FIXTURES WORK
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
@@ -35,7 +35,7 @@ if [ -z "$chromium" ]; then
   exit 77
 fi
 
-# A copy of the page with a script behind it, which presses and clicks, and what comes of that.
+# A copy of the page with a script that sends keys and clicks and prints the outcome.
 cat >press.html <<'END'
 <script>
 const press = (key) => document.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true}));
@@ -106,7 +106,7 @@ has '"stiffest":"accepted: E = '
 has '"refused":"0 of 24 curves"'
 has '"byhand":"1 of 24 curves"'
 
-# What was downloaded, as the browser wrote it.
+# The downloaded file, as the browser wrote it.
 printf '%b' "$(printf '%s' "$told" | sed 's/.*"file":"\([^"]*\)".*/\1/')" >choices.tsv
 grep -q "contact-point" choices.tsv || fail "a contact point was moved: $(cat choices.tsv)"
 # shellcheck disable=SC2086
@@ -119,7 +119,7 @@ grep -q "1	exclude		\"\{0,1\}an edge" applied.txt || fail "with the note: $(cat 
 look again.html >again.dom
 head -3 again.dom | grep -q 'data-choices="2"' || fail "they are handed back: $(head -c 300 again.dom)"
 
-# A curve that never touches is drawn from its first sample, and says so.
+# A curve without contact is drawn from its first sample, with a note.
 # shellcheck disable=SC2086
 "$program" indent -q $fit --curves rejected --fixed-contact-point 1um "$case"/bulk-1.jpk-force-map -o far.h5 \
   2>words.txt || [ -s far.h5 ] || fail "no curve touches: $(cat words.txt)"

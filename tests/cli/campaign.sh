@@ -1,5 +1,5 @@
 #!/bin/sh
-# The Snakemake workflow: each case is run once, what has changed again, what was done before a kill stays.
+# Snakemake workflow: each case runs once, a changed case again, and finished results survive a kill.
 # Usage: campaign.sh WEARTRACK SNAKEFILE FIXTURES WORK; 77 without Snakemake.
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
@@ -38,7 +38,7 @@ printf '\n' >>cases/dma.txt
 campaign || fail "the fourth campaign fails"
 [ "$(runs)" = 3 ] || fail "a file of all cases has changed, and not all are run again"
 
-# A case that answers nothing has a row; a file that is no case stops no other one.
+# A case without a result has a row; an invalid case file stops no other one.
 printf '<case version="1"><dma><files>absent.txt</files></dma></case>\n' >cases/nothing.xml
 printf '<case' >cases/broken.xml
 campaign --keep-going && fail "a file that is no case is taken for one"
@@ -53,7 +53,7 @@ options='--replicates 11 --no-provenance'
 campaign || fail "the fifth campaign fails"
 [ "$(runs)" = 3 ] || fail "with other options old results stay"
 
-# Force curves file by file, of folders in a folder; what is no curve stops no other file.
+# Force curves file by file, in nested folders; an invalid file stops no other one.
 mkdir -p maps/a maps/b
 cp cases/bulk-1.jpk-force-map cases/bulk-2.jpk-force-map maps/a
 cp cases/bulk-3.jpk-force-map maps/b/bulk-2.jpk-force-map
@@ -90,7 +90,7 @@ indent=
 by_file && fail "no tip is asked for"
 grep -q 'files need their tip' said || fail "that a tip is needed is not said"
 
-# Below a hidden folder, and with names that Snakemake would take for wildcards; what is hidden in it is left out.
+# Below a hidden folder, with names that look like Snakemake wildcards; hidden files in it are excluded.
 mkdir -p .hidden/maps/.skipped
 cp cases/bulk-1.jpk-force-map '.hidden/maps/a{1}.jpk-force-map'
 cp cases/bulk-2.jpk-force-map .hidden/maps/.skipped

@@ -1,8 +1,8 @@
 #!/bin/sh
-# Two compounds at two severities, made with known softening of the track: collect finds which differ,
-# and says so of no pair that does not. Usage: collect.sh PROGRAM GENERATOR FIXTURES WORK [SEEDS]; with
-# SEEDS (such as "1 2 3") it counts instead how often the intervals of all pairs hold the truth: of 100
-# studies 94 to 98 % of each pair, and 3 called two different that are not.
+# Two compounds at two severities with known softening of the track: collect finds the pairs that differ,
+# and no others. Usage: collect.sh PROGRAM GENERATOR FIXTURES WORK [SEEDS]. With SEEDS (such as "1 2 3")
+# the script counts how often the intervals contain the truth: in 100 studies 94 to 98 % for each pair,
+# and 3 wrong verdicts "differs".
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 program=$1 generator=$2 fixtures=$3 work=$4 seeds=${5:-}
@@ -10,7 +10,7 @@ rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
 
-# A case of its own folder: sample, condition, softening, variant of the errors of measurement.
+# A case in its own folder: sample, condition, softening, variant of the measurement errors.
 make_case() {
   mkdir -p "$1-$2"
   sed -e "s#</title>#</title><sample>$1</sample><condition>$2</condition>#" -e '/<roughness>/,$d' \
@@ -27,7 +27,7 @@ make_study() {
   "$program" collect -q HC-mild.h5 HC-severe.h5 HS-mild.h5 HS-severe.h5 -o study.h5
   "$program" table study.h5 ratio_pairs >pairs.tsv
 }
-# "HC mild severe yes"; what is true of each pair: 0.85/0.64, 1/0.64, 0.85/1, 1
+# "HC mild severe yes"; true ratios of the pairs: 0.85/0.64, 1/0.64, 0.85/1, 1
 verdicts() { awk -F '\t' 'NR > 1 { print $1, $2, $3, $10 }' pairs.tsv | sort; }
 
 if [ -n "$seeds" ]; then
@@ -50,36 +50,36 @@ if [ "$(verdicts)" != "$expected" ]; then
   cat pairs.tsv >&2
   exit 1
 fi
-# what would settle a pair of which it cannot be said; where all are judged there is none
+# how to decide an inconclusive pair; no text if all are decided
 ! "$program" table --keys study.h5 ratio_pairs | grep 'would decide'
 "$program" collect -q --equivalence-margin 0.001 HC-*.h5 HS-*.h5 -o fine.h5
 "$program" table --keys fine.h5 ratio_pairs | grep -q 'decide the nearest of them, severe: HC against HS'
-# the number is that of an interval beside 1, which 0.1 % leave no room for
+# the interval beside 1 leaves no space for 0.1 %
 "$program" table fine.h5 ratio_pairs >fine.tsv
 needed=$(awk -F '\t' '$1 == "severe" { half = (log($6) - log($5)) / 2; off = log($4)
   n = (half / (off < 0 ? -off : off)) ^ 2; if (n < 2) n = 2; printf "%.0f", int(n) + (n > int(n)) }' fine.tsv)
 "$program" table --keys fine.h5 ratio_pairs | grep -q "about $needed times as many spots"
-# every row of the cases, and a figure that draws them
+# every row of the cases, and a figure for each
 "$program" table study.h5 collection --format csv | cut -d , -f 1,2,6 >cases.csv
 printf 'sample,condition,differs\nHC,mild,yes\nHC,severe,yes\nHS,mild,no\nHS,severe,yes\n' | diff - cases.csv
 "$program" report study.h5 -o page >/dev/null 2>&1
 test -s page/plots/collected_modulus.tsv
 ! test -e page/plots/collected_friction.tsv
-# one rubber behind all: its dependence on the rate is one, which no other margin says
+# all samples are one rubber: it has one rate dependence, and no other margin
 constants() { "$program" table "$1" shared_constants | awk -F '\t' 'NR > 1 { print $1, $2, $3, $NF }'; }
 printf 'sample HC one\nsample HS one\nall cases  one\n' | sed 's/^/modulus over a decade of rate /' >expected
 constants study.h5 | diff expected -
 "$program" collect -q HC-mild.h5 HC-severe.h5 HS-mild.h5 HS-severe.h5 --constant-margin 1e-6 -o narrow.h5
 constants narrow.h5 | grep -q 'all cases  inconclusive'
 "$program" table --keys narrow.h5 shared_constants | grep -q 'settled_by.*errors smaller by a factor'
-# what was indented beside stands with every sample, and is no case
+# the reference indentations are with every sample, and are no case
 "$program" indent -q --curves median --tip pyramid:half-angle=20deg,radius=20nm --group silica \
   HC-mild/bulk-1.jpk-force-map -o silica.h5
 "$program" collect -q HC-mild.h5 HS-mild.h5 silica.h5 -o beside.h5
 "$program" table beside.h5 collected_force | sed 1d | cut -f 2,3,4 | sort -u >places.tsv
 printf 'HC\t\tsilica\nHC\tmild\tbulk\nHC\tmild\tmild\nHS\t\tsilica\nHS\tmild\tbulk\nHS\tmild\tmild\n' |
   diff - places.tsv
-# without a group, or of one that another has, it is named by its file and not drawn as bulk
+# without a group, or with a duplicate one, a case has the name of its file and is not drawn as bulk
 "$program" indent -q --curves median --tip pyramid:half-angle=20deg,radius=20nm \
   HC-mild/bulk-1.jpk-force-map -o filler.h5
 cp silica.h5 again.h5
@@ -92,7 +92,7 @@ status=0
 "$program" collect silica.h5 -o none.h5 2>words || status=$?
 test $status -eq 1 -a ! -e none.h5
 grep -q 'there is no case' words
-# of files that are none the others stand; two of a kind are named
+# invalid files are skipped; two of a kind are named
 status=0
 "$program" collect HC-mild.h5 pairs.tsv HS-mild.h5 -o two.h5 2>words || status=$?
 test $status -eq 3
@@ -102,7 +102,7 @@ status=0
 test $status -eq 1 -a ! -e none.h5
 grep -q 'sample "HC" and condition "mild"' words
 
-# cases without indentation have a row of their largest friction, and none of a ratio
+# cases without indentation have a row of their largest friction and no ratio
 for name in nr-rough sbr-rough; do
   "$program" run -q --no-report "$fixtures/../compounds/$name.xml" -o $name.h5 >/dev/null
 done

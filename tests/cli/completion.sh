@@ -1,10 +1,10 @@
 #!/bin/bash
-# The completion that was built, as bash uses it. Usage: completion.sh FOLDER
+# Tests the built completion as bash uses it. Usage: completion.sh FOLDER
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 source "$1/weartrack"
 fail() { echo "$*"; exit 1; }
-# What is offered for the last of the words.
+# Prints the suggestions for the last word.
 offer() {
   COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)) COMPREPLY=()
   _weartrack

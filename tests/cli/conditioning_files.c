@@ -1,6 +1,8 @@
-/* Writes the inputs of conditioning.txt into a folder: sound data and the same data with one fault
- * each, of a rubber, friction records and surfaces whose numbers are known.
- * Usage: conditioning_files FOLDER. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes the inputs of conditioning.txt into a folder: sound data, and the same data with one fault
+ * each. The true values of the rubber, friction records and surfaces are known.
+ *
+ * Usage: conditioning_files FOLDER
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -102,7 +104,7 @@ static const char rheo_head[] =
 
 static void put_row(FILE *out, fault kind, int isotherm, int k, point p)
 {
-    const bool is_one = isotherm == 3; /* the isotherm that is bad */
+    const bool is_one = isotherm == 3; /* index of the faulty isotherm */
     const bool flagged = kind == FLAGGED && k >= FREQUENCIES - 3;
     if (kind == FLAGGED) {
         fprintf(out, "\t%d\t%g\t%g\t%g\t%s\t%g\n", k + 1, 2 * M_PI * p.hertz,
@@ -167,8 +169,9 @@ static void write_sweep(const char *name, fault kind)
 
 enum { SAMPLES = 1000 };
 
-/* A running-in from 0.6 to 0.35 at 8 N. `offset` is a zero of the force; `spike` replaces a sample;
- * `before` and `after` are samples without load; `factor` scales the coefficient. */
+/* A running-in from 0.6 to 0.35 at 8 N. `offset` is the zero of the force, `spike` replaces a
+ * sample, `before` and `after` are numbers of samples without load, `factor` scales the
+ * coefficient. */
 typedef struct record {
     const char *name;
     uint64_t seed;
@@ -196,7 +199,7 @@ static void write_record(const record *r)
     fclose(out);
 }
 
-/* Strokes of 8 mm with friction 0.35 at 8 N and a zero of the force of 5 N. */
+/* Strokes of 8 mm with friction 0.35 at 8 N and a force zero of 5 N. */
 static void write_strokes(const char *name)
 {
     FILE *const out = begin(name, 5);
@@ -210,7 +213,7 @@ static void write_strokes(const char *name)
     fclose(out);
 }
 
-/* A running-in that is not over at the end. */
+/* A running-in that is incomplete at the end of the record. */
 static void write_slow(const char *name)
 {
     FILE *const out = begin(name, 6);
@@ -220,7 +223,7 @@ static void write_slow(const char *name)
     fclose(out);
 }
 
-/* A height profile of 2000 points at steps of 0.5 um, rms height some 20 nm. */
+/* A height profile of 2000 points at steps of 0.5 um; the rms height is about 20 nm. */
 static void write_profile(const char *name, const char *names)
 {
     FILE *const out = begin(name, 8);
@@ -236,7 +239,8 @@ static void write_profile(const char *name, const char *names)
 
 /* ---- force curves ---------------------------------------------------------------------------- */
 
-/* A sphere of 4 um on a sample of 25 kPa (Poisson ratio 0.5), with a lever of 0.12 N/m. */
+/* A sphere of 4 um radius on a sample of 25 kPa (Poisson ratio 0.5); the spring constant is 0.12
+ * N/m. */
 static void write_curve(const char *name, const char *head)
 {
     enum { POINTS = 500 };
@@ -295,7 +299,7 @@ static void write_map(const char *name, uint64_t seed, double offset, bool scars
     fclose(out);
 }
 
-/* A matrix with its area in the header: 20 x 15 pixels of 0.2 um, of which `rows` are there. */
+/* A matrix of 20 x 15 pixels of 0.2 um, stated in the header; the file contains `rows` of them. */
 static void write_matrix(const char *name, int rows, const char *end)
 {
     FILE *const out = begin(name, 11);

@@ -1,6 +1,6 @@
 #!/bin/sh
-# convert --contact takes the contact points of the file that is called so, not of another whose path
-# ends alike. Usage: contact_names.sh WEARTRACK FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later
+# convert --contact uses the contact points of the file with this name, not of another path with the same
+# end. Usage: contact_names.sh WEARTRACK FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 fixtures=$2 work=$3
 rm -rf "$work"; mkdir -p "$work/a" "$work/b"; cd "$work"
@@ -21,7 +21,7 @@ for place in a/ b/ ''; do
   [ "$(first <found.txt)" = "$(cat "expected$(echo "$place" | tr -d /)")" ] ||
     fail "${place}spot.jpk-force-map has the contact of another file"
 done
-# from elsewhere it cannot be told which is meant
+# from another folder the name is ambiguous
 "$weartrack" indent -q --tip $tip a/spot.jpk-force-map b/spot.jpk-force-map -o two.tsv
 cd b
 ! "$weartrack" convert --contact ../two.tsv spot.jpk-force-map -o found.txt 2>words || fail "one of two was taken"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Copies: four files with the same samples under other names and headers give the tables of one, to the
-# last digit, and with --conditioning keep they do not.
+# Copies: four files with the same samples but other names and headers give the tables of one file, to the
+# last digit. With --conditioning keep they do not.
 # Usage: copies.sh WEARTRACK FIXTURES CURVE WORK. SPDX-License-Identifier: GPL-3.0-or-later
 weartrack=$1
 fixtures=$2

@@ -1,5 +1,6 @@
-/* Result files made to crash the HDF5 library, given to the command: each call ends by itself with
- * status 0 or 1, with words if it fails and without half a result.
+/* Crafted result files that crash the HDF5 library. Every call of the command exits with status 0
+ * or 1, prints a message on failure and leaves no partial result.
+ *
  * Usage: crafted PROGRAM RESULT.h5 WORK
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "writers/hdf5_damage.h"
@@ -22,8 +23,8 @@ extern char **environ;
 static const char *program;
 static size_t n_good, n_refused, n_crashed, n_wrong;
 
-/* Whether the file holds the word; *empty if nothing. */
-static bool holds(const char *path, const char *word, bool *empty)
+/* Returns true if the file contains the word. Sets *empty if the file is empty. */
+static bool file_contains(const char *path, const char *word, bool *empty)
 {
     char text[4096];
     FILE *const in = fopen(path, "r");
@@ -49,7 +50,7 @@ static void call(const char *what, char *const arguments[], const char *result)
         abort();
     (void)posix_spawn_file_actions_destroy(&actions);
     const int status = WIFEXITED(state) ? WEXITSTATUS(state) : -1;
-    n_crashed += holds("words", "fails on this file", &silent);
+    n_crashed += file_contains("words", "fails on this file", &silent);
     n_good += status == 0;
     n_refused += status == 1;
     const bool left = access(result, F_OK) == 0;

@@ -1,5 +1,7 @@
-/* The command interrupted while gnuplot hangs: it ends at once by the signal, and leaves neither a
- * process nor a file. Usage: interrupts PROGRAM FIXTURES WORK
+/* Signals while gnuplot hangs: the command ends at once by the signal and leaves neither a process
+ * nor a file.
+ *
+ * Usage: interrupts PROGRAM FIXTURES WORK
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <glob.h>
@@ -24,7 +26,7 @@ static pid_t start(char *const words[])
     return pid;
 }
 
-/* Exit status, or 128 and the signal. */
+/* Returns the exit status, or 128 plus the signal number. */
 static int end_of(pid_t pid)
 {
     int state = 0;
@@ -41,8 +43,8 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* The number that the gnuplot of this test writes in its folder when it has begun. The next run
- * removes that folder if it is left. */
+/* Returns the process id that the gnuplot of this test writes at its start. The next run removes a
+ * folder that is left. */
 static pid_t wait_for_gnuplot(pid_t report)
 {
     char pattern[64];
@@ -60,7 +62,7 @@ static pid_t wait_for_gnuplot(pid_t report)
     return (pid_t)number;
 }
 
-static bool is_gone(pid_t pid)
+static bool has_ended(pid_t pid)
 {
     for (int i = 0; i < 200; i++) {
         char path[64], state = 'Z';
@@ -87,8 +89,8 @@ static bool try_signal(char *const report[], int number)
     const double took = now() - begin;
     struct stat info;
     const bool left = number != SIGKILL && system("ls -d .weartrack-* >left 2>/dev/null") == 0;
-    const bool good = gnuplot > 0 && end == 128 + number && took < 3 && is_gone(gnuplot) && !left &&
-                      stat("report", &info) != 0;
+    const bool good = gnuplot > 0 && end == 128 + number && took < 3 && has_ended(gnuplot) &&
+                      !left && stat("report", &info) != 0;
     printf("%s signal %d: ended with %d after %.2f s%s\n", good ? "ok  " : "FAIL", number, end,
            took, left ? ", something is left" : "");
     return good;
@@ -118,7 +120,7 @@ int main(int argc, char **argv)
         return 2;
     char *const report[] = {argv[1], "report", "case.h5", "-o", "report", "--gnuplot", fake, NULL};
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGKILL, SIGINT};
-    bool good = true; /* the last one removes what the one before it has left */
+    bool good = true; /* The last run removes the files that the previous one left. */
     for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
         good = try_signal(report, signals[i]) && good;
     return good ? 0 : 1;

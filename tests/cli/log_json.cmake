@@ -1,9 +1,9 @@
-# Every line on standard error with --log json is one object of JSON, and they say what happened.
+# With --log json every line on standard error is a JSON object, and the objects describe the run.
 # Run: cmake -DPROGRAM=.. -DFIXTURES=<folder> -DWORK=<folder> -P log_json.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 
-# Runs the call; `events` gets the events in order, `lines` the lines, with the status of the last.
+# Runs the call; `events` receives the events in order, `lines` the lines, with the status of the last.
 macro(run expected)
   execute_process(COMMAND ${PROGRAM} ${ARGN} --log json OUTPUT_QUIET ERROR_VARIABLE text RESULT_VARIABLE rc)
   if(NOT rc EQUAL ${expected})
@@ -29,7 +29,7 @@ macro(run expected)
   endif()
 endmacro()
 
-# The member of the first line with this event is `value`.
+# Checks that the member of the first line with this event is `value`.
 function(expect event member value)
   list(FIND events ${event} i)
   if(i EQUAL -1)
@@ -45,7 +45,7 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 set(tip pyramid:half-angle=35deg,radius=20nm)
-configure_file(${FIXTURES}/case/bulk-1.jpk-force-map ${WORK}/copy.jpk-force-map COPYONLY) # gives a warning
+configure_file(${FIXTURES}/case/bulk-1.jpk-force-map ${WORK}/copy.jpk-force-map COPYONLY) # causes a warning
 run(3 indent --tip ${tip} ${FIXTURES}/case/bulk-1.jpk-force-map ${WORK}/copy.jpk-force-map
     ${FIXTURES}/case/dma.txt "${WORK}/a \"b\" \\.txt")
 if(NOT events STREQUAL "failed;failed;row;row;row;warning;message;end")

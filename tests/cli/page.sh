@@ -1,7 +1,7 @@
 #!/bin/sh
-# The page of a report in a real browser: at three widths and on paper nothing is cut off, the answers
-# are on the first screen, text has a contrast of 4.5, no link is dead, and it reads the same as HTML
-# and as XML. Usage: page.sh WEARTRACK FIXTURES WORK
+# The page of a report in a real browser: at three widths and on paper nothing is cut off, the results are
+# on the first screen, text has a contrast of 4.5, no link is dead, and HTML and XML read the same. Usage:
+# page.sh WEARTRACK FIXTURES WORK
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 fixtures=$2 work=$3
@@ -11,7 +11,7 @@ done
 command -v "$browser" >/dev/null && command -v gnuplot >/dev/null || { echo "no chromium or no gnuplot: not tried"; exit 77; }
 rm -rf "$work"; mkdir -p "$work"; cd "$work"
 fail() { echo "$*"; exit 1; }
-browse() { # nothing of the user's, nothing from the network
+browse() { # no user profile, no network
   timeout 120 "$browser" --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking \
     --disable-component-update --disable-sync --user-data-dir="$work/profile" --allow-file-access-from-files "$@" 2>browser.log
 }
@@ -23,9 +23,9 @@ browse() { # nothing of the user's, nothing from the network
 "$weartrack" report -q record.h5 -o record.html
 "$weartrack" run -q "$fixtures/texture/case.xml" -o texture.h5 --report texture.html >/dev/null
 
-# What the browser finds is written into the document that it prints. A page stands in a frame of each
-# width, as no window is as narrow as a telephone; on paper is what `@media print` says, everywhere, in
-# the 180 mm between the margins of A4.
+# A script writes its results into the document, which the browser prints. A page is in a frame of each
+# width, because no window is as narrow as a telephone. The paper width of 180 mm (between the margins of
+# A4) uses `@media print` everywhere.
 cat > judge.js <<'JUDGE'
 const widths = {telephone: 390, tablet: 768, desk: 1400, paper: 680, dark: 1400};
 const lines = [];
@@ -132,10 +132,10 @@ for name in case dma texture record; do
   for width in telephone tablet desk paper; do
     grep -q "JUDGED $width overflow 0\$" "$name.judged" || fail "$name: wider than the $width: $(grep "$width" "$name.judged")"
   done
-  for width in telephone desk paper; do # a tablet may have to push
+  for width in telephone desk paper; do # a tablet may scroll
     grep -q "JUDGED $width tables_cut 0" "$name.judged" || fail "$name: columns cut: $(grep "$width tables" "$name.judged")"
   done
-  for width in telephone desk; do # the answer begins on the first screen, with each kind of result
+  for width in telephone desk; do # the result begins on the first screen, for each kind of result
     begin=$(sed -n "s/.*JUDGED $width answer_begins //p" "$name.judged")
     [ "$begin" -ge 0 ] && [ "$begin" -lt 300 ] || fail "$name: the answer begins at $begin of the $width"
   done

@@ -1,5 +1,5 @@
-/* Runs command-line cases from plain text files: arguments, standard input, expected output, words
- * and exit status. Usage: run_cases PROGRAM FIXTURES SHARED WORK CASES.txt
+/* Runs command-line cases from plain text files: arguments, standard input, expected output and
+ * exit status. Usage: run_cases PROGRAM FIXTURES SHARED WORK CASES.txt
  *
  * A case file has one directive per line:
  *   case NAME                     begins a case
@@ -58,7 +58,7 @@ static void expand(const char *in, char *out, size_t size)
     out[n] = '\0';
 }
 
-/* Splits in place; "..." holds blanks together. */
+/* Splits the line in place; "..." is one argument. */
 static int split(char *text, char **words)
 {
     int n = 0;
@@ -233,7 +233,7 @@ static void fresh_work(void)
         abort();
 }
 
-/* 1 passed, 0 failed, -1 skipped */
+/* Returns 1 if the case passed, 0 if it failed and -1 if it was skipped. */
 static int run_case(cli_case *c)
 {
     char out[2][LINE], err[LINE], first_in[LINE] = "/dev/null", *rest;

@@ -1,10 +1,10 @@
 #!/bin/sh
-# The bundled cases of four compounds after mild and severe sliding, whose ratio of track and bulk
-# depends on the rate: collect says of every compound that severe sliding softens more, and of no two
-# compounds that they differ. Usage: severity.sh PROGRAM GENERATOR FIXTURES WORK [SEEDS]; with SEEDS
-# (such as "1 2 3") it counts instead how often the intervals hold the truth, and the verdicts: of 6
-# studies 93 of 96 pairs and 137 of 144 ratios at one rate, 24 of 24 pairs that differ found, 71 of 72
-# others called alike and none different.
+# The bundled cases of four compounds after mild and severe sliding; their ratio of track and bulk depends
+# on the rate. collect reports for every compound that severe sliding softens more, and for no two
+# compounds that they differ. Usage: severity.sh PROGRAM GENERATOR FIXTURES WORK [SEEDS]. With SEEDS (such
+# as "1 2 3") the script counts how often the intervals contain the truth, and the verdicts. In 6 studies:
+# 93 of 96 pairs, 137 of 144 ratios at one rate, 24 of 24 different pairs found, 71 of 72 others "same"
+# and none "differs".
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 program=$1 generator=$2 fixtures=$3 work=$4 seeds=${5:-}
@@ -21,8 +21,8 @@ make_study() {
   "$program" collect -v ??-mild.h5 ??-severe.h5 -o study.h5 >words 2>&1
   "$program" table study.h5 ratio_pairs >pairs.tsv
 }
-# "holds" or "misses" of each pair and each ratio at one rate. Rates of the piezo are those of the tip
-# but for the bending of the lever, and in their order.
+# "holds" or "misses" for each pair and each ratio at one rate. Rates of the piezo and of the tip differ
+# only by the cantilever deflection, and have the same order.
 check_intervals() {
   awk -F '\t' 'NR > 1 { truth = $2 == "mild" && $3 == "severe" ? 0.80 / 0.55 : 1
     print $5 <= truth && truth <= $6 ? "pair holds" : "pair misses", $10 (truth > 1 ? ", as is true" : "") }' pairs.tsv
@@ -58,7 +58,7 @@ for compound in HC LC HS LS; do
   grep -q "$compound: mild / severe  *1\.[45].*softer against its bulk: severe" words
 done
 grep -q 'ratios that differ  *4 of 16 pairs  *12 alike, 0 undecided' words
-# its pictures, all of one run
+# the figures of one run
 "$program" report study.h5 -o page >/dev/null 2>&1
 for figure in modulus force friction area; do
   test -s page/plots/collected_$figure.svg

@@ -1,6 +1,6 @@
 #!/bin/sh
-# What a terminal shows: each subcommand prints at most 20 lines there. A pipe gets all of it, and so
-# does a terminal with --verbose (text) or -o - (tables). Usage: terminal.sh PROGRAM FIXTURES WORK
+# Output on a terminal: each subcommand prints at most 20 lines. A pipe gets all lines, and so does a
+# terminal with --verbose (text) or -o - (tables). Usage: terminal.sh PROGRAM FIXTURES WORK
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 program=$1 fixtures=$2 case=$2/case work=$3

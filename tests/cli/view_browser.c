@@ -1,6 +1,8 @@
-/* The page of `weartrack view` in a real browser, driven over the debugging protocol: from files to
- * an override that the shell repeats. Skipped without chromium. Usage: view_browser PROGRAM
- * FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Drives the page of `weartrack view` in a real browser over the debugging protocol, from the
+ * choice of files to an override that the shell repeats. The test is skipped without chromium.
+ *
+ * Usage: view_browser PROGRAM FIXTURES WORK
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -19,11 +21,11 @@ extern char **environ;
 
 enum { MESSAGE_SIZE = 4 << 20, SKIPPED = 77, LIMIT = 120 };
 static char *message; /* [MESSAGE_SIZE] last message of the browser */
-static size_t length; /* bytes behind the message that are read already */
+static size_t length; /* number of bytes after the message that are already read */
 static int to_browser, from_browser;
 static pid_t browser, server;
-static char session[80], value[4096]; /* target of the calls; result of the last expression,
-                                           "" if it failed */
+/* target of the calls; result of the last expression, "" on failure */
+static char session[80], value[4096];
 
 static _Noreturn void fail(const char *what)
 {
@@ -54,7 +56,7 @@ static double now(void)
 static void receive(void)
 {
     size_t used = strlen(message) + 1;
-    if (length > 0) { /* keep what follows the last message */
+    if (length > 0) { /* keeps the bytes after the last message */
         memmove(message, message + used, length);
     }
     for (const double end = now() + LIMIT; memchr(message, '\0', length) == NULL;) {
@@ -69,7 +71,7 @@ static void receive(void)
     length -= strlen(message) + 1;
 }
 
-/* Calls a method and waits for its reply, which is the message then. */
+/* Calls a method and waits for its reply, which replaces the message. */
 static void call(const char *method, const char *parameters)
 {
     static int number;
@@ -84,7 +86,7 @@ static void call(const char *method, const char *parameters)
     do
         receive();
     while (strncmp(message, key, strlen(key)) != 0);
-    /* A page that is loading has no context for an expression yet. */
+    /* A page that is loading cannot evaluate an expression yet. */
     check(strstr(message, "\"error\":{") == NULL || strstr(message, "execution context") != NULL,
           method);
 }
@@ -99,7 +101,7 @@ static void member(const char *name, char *to, size_t size)
     (void)snprintf(to, size, "%.*s", (int)strcspn(at, "\""), at);
 }
 
-/* Evaluates an expression of text without double quotes; `value` has its result as text. */
+/* Evaluates an expression without double quotes; `value` receives the result as text. */
 static const char *js(const char *expression)
 {
     char parameters[4096];
@@ -203,7 +205,7 @@ static void start_browser(void)
     int in[2], out[2], high[2];
     const int words_file = open("browser.txt", O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     check(pipe2(in, O_CLOEXEC) == 0 && pipe2(out, O_CLOEXEC) == 0 && words_file >= 0, "pipe");
-    /* above the descriptors of the child, so that none is replaced before it is used */
+    /* above the descriptors of the child, so that none is replaced before its use */
     high[0] = fcntl(in[0], F_DUPFD_CLOEXEC, 20);
     high[1] = fcntl(out[1], F_DUPFD_CLOEXEC, 20);
     const int none = fcntl(words_file, F_DUPFD_CLOEXEC, 20);
@@ -322,7 +324,7 @@ static void test_curves(void)
            shorter);
 }
 
-/* The case and the overrides that the page wrote give the same digits in the shell. */
+/* The case and the overrides of the page give the same digits in the shell. */
 static void test_shell(const char *program)
 {
     char shown[64], command[8192];
@@ -353,7 +355,7 @@ static void test_shell(const char *program)
     check(of_shell == atof(shown), "the shell gives the digits of the page");
 }
 
-/* Place on the screen where the handle of the isotherm of 60 degC lies above the others. */
+/* Returns the screen position where the handle of the 60 degC isotherm lies above the others. */
 static void find_isotherm(double *x, double *y)
 {
     (void)js("(() => { const g = document.querySelector('#master .handle[aria-label^=`Isotherm of "
@@ -365,7 +367,7 @@ static void find_isotherm(double *x, double *y)
     check(sscanf(value, "%lf %lf", x, y) == 2, "the isotherm of 60 degC");
 }
 
-/* Compares the shifts that the page shows with a table of the shell, digit by digit. */
+/* Compares the shifts on the page with a table of the shell, digit by digit. */
 static void compare_shifts(const char *shown, const char *name)
 {
     char kind[32];
@@ -385,7 +387,7 @@ static void compare_shifts(const char *shown, const char *name)
     check(n == 12 && by_hand == 1, "12 shifts, one of them by hand");
 }
 
-/* An isotherm is dragged with the mouse, taken back, and moved with a key. The case and the command
+/* Drags an isotherm with the mouse, undoes it, and moves it with a key. The case and the command
  * line of the panel give the same shifts. */
 static void test_hand_shift(const char *program)
 {
@@ -466,7 +468,7 @@ static void test_sliders(void)
         "true");
 }
 
-/* A plot is saved as an SVG file of the requested width, without a colour of the page. */
+/* Saves a plot as an SVG file of the requested width, without colours of the page. */
 static void test_saved_plot(void)
 {
     (void)js("(() => { URL.createObjectURL = (blob) => { blob.text().then((text) => { "
@@ -479,7 +481,7 @@ static void test_saved_plot(void)
     wait_for("document.documentElement.dataset.saved", "svg 85mm true true false");
 }
 
-/* Drops a file of the work folder on the panel Start, as from the desktop. */
+/* Drops a file of the work folder on the panel Start. */
 static void drop_file(const char *name)
 {
     static const char *const types[] = {"dragEnter", "dragOver", "drop"};
@@ -495,8 +497,8 @@ static void drop_file(const char *name)
     }
 }
 
-/* A folder of data: the page takes one more file, writes a case, names what is missing, runs it and
- * shows the answer. */
+/* A folder of data: the page adds a file, writes a case, names missing inputs, runs the case and
+ * shows the result. */
 static void test_new_case(const char *program)
 {
     char address[256];
@@ -511,7 +513,7 @@ static void test_new_case(const char *program)
     wait_for("document.querySelectorAll('#start details').length", "3");
     shell("cmp track-1.jpk-force-map ../outside/track-1.jpk-force-map");
     check(strcmp(data("error"), "undefined") == 0, "a dropped file");
-    drop_file("../outside/track-1.jpk-force-map"); /* none is replaced */
+    drop_file("../outside/track-1.jpk-force-map"); /* No file is replaced. */
     wait_for("document.querySelector('#fault').textContent.includes('has a file of this name')",
              "true");
     (void)js("delete document.documentElement.dataset.error");

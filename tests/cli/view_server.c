@@ -1,6 +1,8 @@
-/* The local server of `weartrack view`, asked by a small client over sockets: what the page gets,
- * what is refused, that the numbers are those of `weartrack run` to the last digit, and how it
- * ends. Usage: view_server PROGRAM FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tests the local server of `weartrack view` with a small socket client: responses, refused
+ * requests, exit, and numbers that equal those of `weartrack run` to the last digit.
+ *
+ * Usage: view_server PROGRAM FIXTURES WORK
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <arpa/inet.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -20,7 +22,7 @@
 extern char **environ;
 
 enum { ANSWER_SIZE = 32 << 20 };
-static char *answer; /* [ANSWER_SIZE] head and body of the last answer */
+static char *answer; /* [ANSWER_SIZE] header and body of the last response */
 static unsigned port;
 static char token[64];
 static const char *program;
@@ -61,7 +63,7 @@ static int connect_to_server(void)
     return s;
 }
 
-/* Sends bytes; false if the server has closed the connection. */
+/* Sends bytes; returns false if the server has closed the connection. */
 static bool send_bytes(int s, const char *bytes, size_t n)
 {
     while (n > 0) {
@@ -74,7 +76,7 @@ static bool send_bytes(int s, const char *bytes, size_t n)
     return true;
 }
 
-/* Reads to the end of the connection and returns the status, 0 without an answer. */
+/* Reads until the connection closes and returns the status, 0 without a response. */
 static int receive_answer(int s)
 {
     size_t n = 0;
@@ -86,7 +88,7 @@ static int receive_answer(int s)
     return strncmp(answer, "HTTP/1.1 ", 9) == 0 ? atoi(answer + 9) : 0;
 }
 
-/* Sends a request whose head is complete but for the length of its body. */
+/* Sends a request; `head` lacks only the length of the body. */
 static int send_request(const char *head, const char *body, size_t length)
 {
     char lines[2048];
@@ -98,7 +100,7 @@ static int send_request(const char *head, const char *body, size_t length)
     return receive_answer(s);
 }
 
-/* Asks as the page does. `target` follows the token. */
+/* Sends a request as the page does. `target` follows the token. */
 static int ask(const char *method, const char *target, const char *body)
 {
     char head[1024];
@@ -120,7 +122,7 @@ static void expect(int status, const char *method, const char *target, const cha
     }
 }
 
-/* The text after `"name": ` behind the first `after`, as it stands, up to a comma or the end. */
+/* Returns the text after `"name": ` that follows the first `after`, up to a comma or the end. */
 static void member(const char *after, const char *name, char *to, size_t size)
 {
     char key[64];
@@ -155,7 +157,7 @@ static pid_t start_server(char *argument)
     return child;
 }
 
-/* Waits for the end and returns the exit status, or 128 and the signal; -1 if it does not end. */
+/* Waits for the process and returns the exit status, 128 plus the signal, or -1 on a timeout. */
 static int end_of(pid_t child, double limit)
 {
     int state = 0;
@@ -224,7 +226,7 @@ static void test_refusals(const char *case_text)
            "error");
     expect(422, "POST", "curve?group=bulk&file=..%2F..%2Fetc%2Fpasswd&number=0", case_text,
            "error");
-    /* a body that is larger than allowed is not read to its end */
+    /* The server does not read a body above the limit to its end. */
     enum { HUGE = 8 << 20 };
     char *huge = malloc(HUGE);
     check(huge != NULL, "memory");
@@ -232,7 +234,7 @@ static void test_refusals(const char *case_text)
     (void)snprintf(head, sizeof head, "POST /%s/check HTTP/1.1\r\nHost: 127.0.0.1:%u\r\n", token,
                    port);
     check(send_request(head, huge, HUGE) != 200, "a huge body");
-    /* what is no HTTP, and a client that sends nothing, do not stop the server */
+    /* Bytes that are not HTTP and a silent client do not stop the server. */
     const int garbage = connect_to_server(), silent = connect_to_server();
     (void)send_bytes(garbage, huge, 100000);
     check(receive_answer(garbage) != 200, "garbage");
@@ -241,7 +243,7 @@ static void test_refusals(const char *case_text)
     close(silent);
 }
 
-/* A file is added once, under a plain name in the folder of the case; nothing is replaced. */
+/* A file is added once, under a plain name in the folder of the case; no file is replaced. */
 static void test_added_files(const char *case_text)
 {
     enum { HUGE = 65 << 20 };
@@ -296,7 +298,7 @@ static void test_added_files(const char *case_text)
     check(unlink("link.txt") == 0 && unlink("new one.txt") == 0, "added files");
 }
 
-/* The fit of one curve by the server, by its trial and by `run` have the same digits. */
+/* The fit of one curve has the same digits by the server, by its preview and by `run`. */
 static void test_digits(const char *case_text)
 {
     char of_curve[64], of_trial[64], of_run[64], contact[64], moved[64];
@@ -328,7 +330,7 @@ static void test_digits(const char *case_text)
         atof(contact) + 5e-9);
     expect(200, "POST", "save?name=overrides.tsv&was=", overrides, "digest");
     expect(409, "POST", "save?name=overrides.tsv&was=", overrides,
-           "error"); /* the file is not new any more */
+           "error"); /* The file exists now. */
     const char *section = "<indentation>";
     const char *at = strstr(case_text, section);
     char *changed = calloc(1, strlen(case_text) + 256), digest[80];
@@ -360,7 +362,7 @@ static void test_link(void)
     check(unlink("overrides.tsv") == 0, "link");
 }
 
-/* A result names its case, whatever the name of that is. */
+/* A result names its case, also if the name has special characters. */
 static void test_result(void)
 {
     FILE *const file = fopen("study.xml", "w");
@@ -376,7 +378,7 @@ static void test_result(void)
     check(kill(server, SIGINT) == 0 && end_of(server, 20) == 128 + SIGINT, "Ctrl-C of a result");
 }
 
-/* Latencies, which depend on the machine: shown, and wrong only if they are out of all bounds. */
+/* Latencies depend on the machine. They are printed; only an extreme value is a failure. */
 static void test_latency(const char *case_text)
 {
     double start = now();
@@ -430,7 +432,7 @@ int main(int argc, char **argv)
     test_digits(case_text);
     test_link();
     test_latency(case_text);
-    /* Ctrl-C ends it at once; the end of the last page after a few seconds */
+    /* Ctrl-C ends the server at once; after the last page closes it ends within a few seconds. */
     check(kill(server, SIGINT) == 0 && end_of(server, 20) == 128 + SIGINT, "Ctrl-C");
     test_result();
     server = start_server(".");

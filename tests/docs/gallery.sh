@@ -1,7 +1,6 @@
 #!/bin/sh
-# The gallery: runs the commands of weartrack-gallery(7) and puts the figures that it names for them on
-# one page, WORK/gallery.html. Fails where a command does, where a figure that is named is not drawn, and
-# where one that weartrack knows is not named.
+# Runs the commands of weartrack-gallery(7) and writes their figures to one page, WORK/gallery.html. Fails
+# if a command fails, if a named figure is not drawn, and if a figure of weartrack is not named.
 # Usage: gallery.sh WEARTRACK MAN FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 man=$2 fixtures=$3 work=$4
@@ -14,7 +13,7 @@ cp -R "$fixtures"/. fixtures
 chmod -R u+w fixtures
 fail() { echo "$*"; exit 1; }
 
-# Lines of the page, each with its kind before it: title, command, figures, text.
+# Lines of the page with a kind: title, command, figures, text.
 awk '
   /^\.SH DESCRIPTION/ { on = 1; next }
   /^\.SH/ { on = 0 }
@@ -54,7 +53,7 @@ HEAD
       figures)
         echo '<div class="figures">'
         for name in $rest; do
-          # what was written last: several reports may have it
+          # the latest file, because several reports may have the figure
           # shellcheck disable=SC2012 # the names are those of the page
           picture=$(ls -t fixtures/*/plots/"$name.svg" 2>/dev/null | head -n 1)
           [ -n "$picture" ] || { echo "not drawn: $name" >&2; exit 1; }

@@ -1,4 +1,4 @@
-# groff reads every man page without a word of complaint.
+# groff reads every man page without a warning.
 # Run: cmake -DGROFF=.. -DMAN=<folder> -P man_lint.cmake. SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 file(GLOB pages "${MAN}/*.[157]" "${MAN3}/weartrack-*.3")
@@ -7,7 +7,7 @@ if(n LESS 10)
   message(FATAL_ERROR "only ${n} man pages")
 endif()
 foreach(page IN LISTS pages)
-  # a declaration stands as it is written, which no line of a page may be short enough for
+  # declarations are not filled, so their lines may be too long for a page
   set(warnings -ww)
   if(page MATCHES "3$")
     set(warnings -ww -Wbreak)
@@ -23,7 +23,7 @@ foreach(page IN LISTS pages)
       message(SEND_ERROR "${page} has no section ${section}")
     endif()
   endforeach()
-  # a page that is referred to exists
+  # every referenced page exists
   string(REGEX MATCHALL "\\.BR weartrack[a-z-]* \\([15]\\)" references "${text}")
   foreach(reference IN LISTS references)
     string(REGEX REPLACE "^\\.BR (weartrack[a-z-]*) \\(([15])\\)$" "\\1.\\2" target "${reference}")

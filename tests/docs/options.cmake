@@ -1,5 +1,5 @@
-# The options of `weartrack SUBCOMMAND --help all` are those of its man page, both ways, and every
-# subcommand has a page. Run: cmake -DPROGRAM=.. -DMAN=<folder> -P options.cmake
+# The options of `weartrack SUBCOMMAND --help all` and of its man page are the same, and every subcommand
+# has a page. Run: cmake -DPROGRAM=.. -DMAN=<folder> -P options.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 
@@ -35,7 +35,7 @@ foreach(row IN LISTS rows)
     message(SEND_ERROR "weartrack ${name} --help ends with ${rc}")
   endif()
   options_of("${help}" in_help)
-  # --help has the options that most need, and each of them is one; on two pages of a terminal
+  # --help has the common options, each of which exists, on at most two terminal pages
   options_of("${short}" in_short)
   list(REMOVE_ITEM in_short ${in_help})
   if(in_short OR NOT rc_all EQUAL 0)
@@ -57,7 +57,7 @@ foreach(row IN LISTS rows)
   endforeach()
   file(READ ${page} text)
   string(REPLACE "\\-" "-" text "${text}")
-  # of the page only the section OPTIONS counts: examples may show other commands
+  # only the section OPTIONS of the page counts, because examples may show other commands
   string(FIND "${text}" "\n.SH OPTIONS" start)
   if(start EQUAL -1)
     message(SEND_ERROR "${page} has no section OPTIONS")

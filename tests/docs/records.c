@@ -1,14 +1,13 @@
-/* Puts the records of the parameters and of the tables into a page or a schema: prints FILE with
- * what stands between two markers made anew. In a page of a subcommand that is the list of its
- * options, as --help shows them; in weartrack-case(5) and weartrack-case.xsd the elements of a
- * section.
+/* Writes the records of parameters and tables into a page or a schema: prints FILE with new text
+ * between markers. In the page of a subcommand this is the list of its options as in --help. In
+ * weartrack-case(5) and weartrack-case.xsd it is the elements of a section.
  *     .\" options            .\" parameters SECTION     <!-- parameters SECTION -->
  *     .\" end                .\" end                    <!-- end -->
- * .\" table NAME is for the columns and keys of a table, called as in core/table/registry.h; a page
- * with one has all of them. .\" subcommands, .\" results and .\" figures are for their lists, and
- * .\" limits for the limits of every number of a case or an option.
- * <!-- choices --> is for the types of those that are words.
- * After SECTION, "= NAME..." takes these alone and "but NAME..." all others.
+ * .\" table NAME marks the columns and keys of a table with its name in core/table/registry.h; a
+ * page with one table has all of them. .\" subcommands, .\" results and .\" figures mark their
+ * lists, .\" limits the limits of every number of a case or an option.
+ * <!-- choices --> marks the types of parameters whose values are words.
+ * After SECTION, "= NAME..." selects these parameters and "but NAME..." all others.
  * Usage: docs_records PROGRAM FILE. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/resources.h"
 #include "core/base/quantity.h"
@@ -24,7 +23,7 @@ enum { LINE = 1024, SET = 256, TEXT = 2048 };
 
 /* ---- troff ----------------------------------------------------------------------------------- */
 
-/* Text with what troff would take for its own; a long word may be broken after , and :. */
+/* Escapes text for troff; a long word may be broken after a comma or colon. */
 static void put_troff(const char *text)
 {
     for (const char *p = text; *p != '\0'; p++) {
@@ -57,12 +56,12 @@ static void put_name(const char *name, const char *unit)
         printf(" [%s]", unit);
 }
 
-/* A sentence: with a capital and a stop. */
+/* Prints a sentence: with a capital letter and a full stop. */
 static void put_sentence(const char *text)
 {
     char first[] = {text[0], '\0'};
     const size_t word = strspn(text, "abcdefghijklmnopqrstuvwxyz-");
-    if (word > 1 && strchr(" ,;", text[word]) != NULL) /* not a formula or something to type */
+    if (word > 1 && strchr(" ,;", text[word]) != NULL) /* text other than a formula or input */
         first[0] = (char)(text[0] - 'a' + 'A');
     printf("\\&%s", first);
     put_troff(text + 1);
@@ -89,8 +88,8 @@ static void put_option(const option *o)
     put_sentence(o->text);
 }
 
-/* The names of the options that another page tells, as one entry; `head`: what they are of. */
-static void put_told(FILE *help, const char *head, size_t length)
+/* Names of the options that another page describes, as one entry; `head` is their subject. */
+static void put_other_options(FILE *help, const char *head, size_t length)
 {
     char line[LINE], text[LINE];
     const char *parted = ".TP\n";
@@ -103,11 +102,12 @@ static void put_told(FILE *help, const char *head, size_t length)
     }
     putchar('\n');
     put_sentence(text);
-    while (fgets(line, sizeof line, help) != NULL) /* or the command would meet a closed pipe */
+    /* otherwise the command writes into a closed pipe */
+    while (fgets(line, sizeof line, help) != NULL)
         continue;
 }
 
-/* Reads the list of options out of the help. */
+/* Reads the list of options from the help. */
 static bool put_options(const char *program, const char *subcommand)
 {
     char command[LINE], line[LINE];
@@ -127,7 +127,7 @@ static bool put_options(const char *program, const char *subcommand)
         if (told != NULL) {
             put_option(&o);
             o = (option){.letter = '\0'};
-            put_told(help, line, (size_t)(told - line));
+            put_other_options(help, line, (size_t)(told - line));
             break;
         }
         if (!in_list || *rest == '\0') {
@@ -171,7 +171,7 @@ static const char *schema_type(const wt_param *param, const char *name)
     }
 }
 
-/* Whether what is written now stands in an xs:sequence of the schema: xs:all has nothing twice. */
+/* True inside an xs:sequence of the schema; xs:all allows no element twice. */
 static bool in_sequence;
 
 static void put_element(const wt_param *param, const char *name, const char *set,
@@ -211,7 +211,7 @@ static bool is_listed(const char *names, const char *name)
     return false;
 }
 
-/* `what` is "SECTION", "SECTION = NAME..." or "SECTION but NAME..."; indent NULL: a page. */
+/* `what` is "SECTION", "SECTION = NAME..." or "SECTION but NAME..."; indent NULL means a page. */
 static bool put_section(const char *what, const char *indent)
 {
     char section[64];
@@ -240,8 +240,8 @@ static bool put_section(const char *what, const char *indent)
     return false;
 }
 
-/* A parameter that stands in a section before, too, is of the same type. */
-static bool stands_before(size_t s, const char *name)
+/* A parameter that an earlier section also has gets the same type. */
+static bool is_in_earlier_section(size_t s, const char *name)
 {
     for (size_t i = 0; i < s; i++)
         for (size_t t = 0; t < SECTION_TABLES && case_sections[i].params[t] != NULL; t++)
@@ -253,7 +253,7 @@ static bool stands_before(size_t s, const char *name)
     return false;
 }
 
-/* The types of the parameters that are one of several words. */
+/* Types of the parameters whose values are words. */
 static void put_choices(const char *indent)
 {
     for (size_t s = 0; s < N_CASE_SECTIONS; s++)
@@ -261,7 +261,7 @@ static void put_choices(const char *indent)
             for (size_t i = 0; i < wt_params_count(case_sections[s].params[t]()); i++) {
                 const wt_param *param = wt_params_get(case_sections[s].params[t](), i);
                 if (param->kind != PARAM_CHOICE || (param->flags & PARAM_NO_CASE) != 0 ||
-                    stands_before(s, case_param_name(case_sections[s].name, param->name)))
+                    is_in_earlier_section(s, case_param_name(case_sections[s].name, param->name)))
                     continue;
                 printf("%s<xs:simpleType name=\"%s\">\n", indent,
                        case_param_name(case_sections[s].name, param->name));
@@ -277,7 +277,7 @@ static void put_choices(const char *indent)
 
 /* ---- limits ---------------------------------------------------------------------------------- */
 
-/* Where its own limits and what there is at all of the quantity both let it be. */
+/* Intersection of the parameter's limits and the plausible range of the quantity. */
 static void put_limit(const wt_param *param)
 {
     const param_limits *l = &param->limits;
@@ -392,7 +392,7 @@ static bool put_table(const char *name)
     return false;
 }
 
-/* Whether a page that has tables has all of them. */
+/* True if a page with tables has all of them. */
 static bool has_all_tables(const char *path)
 {
     bool any = false, all = true;
@@ -409,7 +409,7 @@ static bool has_all_tables(const char *path)
 
 /* ---- lists of names -------------------------------------------------------------------------- */
 
-/* Reads them out of the help. */
+/* Reads them from the help. */
 static bool put_subcommands(const char *program)
 {
     char command[LINE], line[LINE], name[64];
@@ -436,7 +436,7 @@ static void put_names(const char *const *names, size_t n)
         printf(".IR %s %s\n", names[i], i + 1 < n ? "," : ".");
 }
 
-/* The tables that a case may ask for. */
+/* Tables that a case may request. */
 static void put_results(void)
 {
     static const char *const groups[] = {"bulk", "track"};

@@ -1,5 +1,5 @@
-# The pages and the schema hold what the records of the parameters and tables say; with -DWRITE=ON it is written
-# into them. Run: cmake -DTOOL=.. -DPROGRAM=.. -DSOURCE=<project folder> [-DWRITE=ON] -P records.cmake
+# The pages and the schema contain the text of the records of parameters and tables; -DWRITE=ON writes it.
+# Run: cmake -DTOOL=.. -DPROGRAM=.. -DSOURCE=<project folder> [-DWRITE=ON] -P records.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 

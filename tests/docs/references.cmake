@@ -1,10 +1,10 @@
-# The methods' references and DOIs fit each other as far as a DOI tells: form, journal, volume and page; and
-# no page or header has one that is not in their table. Run: cmake -DSOURCE=.. -P references.cmake.
+# References and DOIs of the methods agree in journal, volume and page, as far as a DOI contains them. No
+# page or header has a reference that is not in their table. Run: cmake -DSOURCE=.. -P references.cmake.
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 file(READ ${SOURCE}/src/case/answer/methods.c text)
 string(REPLACE ";" "," text "${text}")
-string(REGEX REPLACE "\"[ \n]+\"" "" text "${text}") # strings of several lines
+string(REGEX REPLACE "\"[ \n]+\"" "" text "${text}") # joins literals of several lines
 string(REGEX MATCHALL "\"[^\"\n]*\",[ \n]*\"10\\.[^\"]*\"" pairs "${text}")
 list(LENGTH pairs n)
 string(REGEX MATCHALL "\"10\\." written "${text}")
@@ -13,7 +13,7 @@ if(n LESS 10 OR NOT n EQUAL n_written)
   message(FATAL_ERROR "${n} references with a DOI, of ${n_written} DOIs")
 endif()
 
-# What a DOI holds, and how journals print it: volume and page or article are the two groups.
+# Pattern of a DOI and of the printed reference; the two groups are volume and page or article.
 set(rules
   "10\\.1103/PhysRevE\\.([0-9]+)\\.([0-9]+)|Phys. Rev. E"
   "10\\.1093/biomet/([0-9]+)\\.[0-9-]+\\.([0-9]+)|Biometrika"

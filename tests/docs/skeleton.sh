@@ -56,7 +56,7 @@ for file in src/read/aaa/aaa.c src/read/zzz9/zzz9.c src/read/kindofreaders123/ki
     -Iinclude -Isrc "$file" || fail "$file does not compile"
 done
 
-# A name that exists is refused, and nothing is changed.
+# An existing name is refused and nothing is changed.
 cp -r "$work/tree" "$work/before"
 for call in 'reader aaa' 'reader gsf' 'reader stored' 'reader text' 'reader tidy' 'reader ntmdt-text' \
   'reader Abc' 'reader' 'subcommand a' 'subcommand ramp' 'subcommand new-case' 'subcommand log' \

@@ -1,6 +1,6 @@
 #!/bin/sh
-# The session of a page, weartrack-tutorial(7) or weartrack-source(7): its commands run, and what it shows
-# of them is what they say.
+# Session of a page, weartrack-tutorial(7) or weartrack-source(7): its commands run and print what the
+# page shows.
 # Usage: tutorial.sh WEARTRACK PAGE FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 page=$2 fixtures=$3 work=$4

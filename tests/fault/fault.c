@@ -1,16 +1,16 @@
-/* What the command does when the system fails it: every allocation, every call that writes, and
- * its own end at every such call. Run by hand for all of them, or for one in N,
- * the Kth first:
+/* Failures of the system: of every allocation and every call that writes, and a signal at every
+ * such call. Without options the program tries all of them; --allocations and --calls select one
+ * in N, --start the first one:
  *
  *     fault COMMAND SHIM FIXTURES WORK [--allocations N] [--calls N] [--start K] [--only JOB]
  *
- * Allocations fail by the library SHIM (shim.c), one for each place with its callers: that one
- * alone, and that one with all after it. Calls to the system are stopped by seccomp and answered
- * here, so that those of libraries and of stdio are among them. Then it must hold:
- *   - it ends by itself, or by the signal that was sent, never by another one;
- *   - exit status 0 with the same bytes as ever, or a message and another status;
- *   - what bears the final name is whole or is not there;
- *   - the next run, without a failure, gives the same bytes and leaves the same files as ever.
+ * The library SHIM (shim.c) lets allocations fail, one for each call stack: once only this one, and
+ * once this one with all later ones. seccomp stops system calls, also those of libraries and stdio,
+ * and this program returns the error. The requirements are:
+ *   - the command exits, or ends by the signal that was sent;
+ *   - the exit status is 0 with the usual bytes, or there is a message and another status;
+ *   - a file with its final name is complete or absent;
+ *   - the next run, without a failure, gives the usual bytes and files.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <dirent.h>
 #include <errno.h>
@@ -39,10 +39,10 @@ enum { MAX_ARGUMENTS = 24, TIME_LIMIT = 120, LINE = 4096, SAID = 400 };
 
 typedef struct job {
     const char *name;
-    const char *arguments[MAX_ARGUMENTS]; /* FIXTURES/ is put for @ */
+    const char *arguments[MAX_ARGUMENTS]; /* '@' stands for FIXTURES/. */
 } job;
 
-/* Each in a folder of its name; a later one may read what an earlier one wrote. */
+/* Each job has a folder with its name; a job may read the output of an earlier one. */
 static const job jobs[] = {
     {"convert", {"convert", "--no-provenance", "@formats/tidy/two-runs.csv", "-o", "out.tsv"}},
     {"stdout", {"convert", "--no-provenance", "@formats/jpk-text/curve.txt"}},
@@ -55,7 +55,7 @@ static const job jobs[] = {
     {"of_map",
      {"indent", "--no-provenance", "--threads", "1", "--tip",
       "pyramid:half-angle=20deg,radius=20nm", "../map/out.h5", "-o", "out.tsv"}},
-    {"spool", {"info", "../unpacks.tsv.gz"}}, /* to a file without a name */
+    {"spool", {"info", "../unpacks.tsv.gz"}}, /* a file without a name */
     {"studio", {"convert", "--no-provenance", "@fuzz/nhf/new.nhf", "-o", "out.tsv"}},
     {"master", {"master", "--no-provenance", "@case/dma.txt", "-o", "out.h5"}},
     {"database", {"summary", "--threads", "1", "../master/out.h5", "-o", "out.sqlite"}},
@@ -70,7 +70,7 @@ static const job jobs[] = {
     {"report", {"report", "--no-provenance", "--gnuplot", "../plot", "../run/out.h5", "-o", "out"}},
 };
 
-/* What is done to one run. */
+/* Failure in one run. */
 typedef struct fault {
     size_t allocation; /* 0 = none */
     bool for_good;
@@ -78,10 +78,10 @@ typedef struct fault {
     int error, signal;
 } fault;
 
-/* What came of it. */
+/* Outcome of the run. */
 typedef struct outcome {
-    int state; /* as waitpid gives it */
-    char said[SAID];
+    int state; /* status of waitpid */
+    char messages[SAID];
     size_t n_calls;
     bool injected;
 } outcome;
@@ -109,18 +109,18 @@ __attribute__((format(printf, 1, 2))) static char *print(const char *format, ...
 
 /* ---- one run --------------------------------------------------------------------------------- */
 
-/* The calls that change something outside. */
+/* System calls that change something outside the process. */
 static const int calls[] = {
     SYS_write,    SYS_pwrite64, SYS_writev,    SYS_fsync,   SYS_fdatasync, SYS_ftruncate,
     SYS_linkat,   SYS_unlinkat, SYS_renameat2, SYS_mkdirat, SYS_pipe2,
-#ifdef SYS_rename /* newer systems have those with "at" only */
+#ifdef SYS_rename /* Newer systems only have the "at" variants. */
     SYS_renameat, SYS_rename,   SYS_unlink,    SYS_mkdir,
 #endif
 };
 enum { N_CALLS = sizeof calls / sizeof *calls };
 
-/* From now on these calls of this process and its children wait for an answer through the
- * descriptor that is returned. */
+/* From now on these calls of this process and its children wait for an answer through the returned
+ * descriptor. */
 static int hand_over_calls(void)
 {
     struct sock_filter filter[N_CALLS + 3];
@@ -180,10 +180,10 @@ _Noreturn static void become_command(const job *j, const char *folder, const fau
     if (chdir(folder) != 0)
         _exit(99);
     const int out = open("standard-output", O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    const int said = open("../said", O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    const int messages = open("../messages", O_WRONLY | O_CREAT | O_TRUNC, 0666);
     dup2(none, 0);
     dup2(out, 1);
-    dup2(said, 2);
+    dup2(messages, 2);
     setenv("FAULT_PROGRAM", "weartrack", 1);
     if (f->allocation > 0)
         setenv("FAULT_ALLOC", print("%zu", f->allocation), 1);
@@ -205,7 +205,7 @@ _Noreturn static void become_command(const job *j, const char *folder, const fau
     _exit(99);
 }
 
-/* Answers the calls of the program until it has ended. */
+/* Answers the calls of the program until it ends. */
 static void answer_calls(int channel, pid_t child, const fault *f, outcome *o)
 {
     struct seccomp_notif call;
@@ -222,7 +222,7 @@ static void answer_calls(int channel, pid_t child, const fault *f, outcome *o)
         memset(&answer, 0, sizeof answer);
         answer.id = call.id;
         answer.flags = SECCOMP_USER_NOTIF_FLAG_CONTINUE;
-        /* What is said of the failure may arrive. */
+        /* The message about the failure is not blocked. */
         const bool words = call.data.nr == SYS_write && call.data.args[0] == 2;
         if (!words && (pid_t)call.pid == child && ++o->n_calls == f->call) {
             o->injected = true;
@@ -250,7 +250,7 @@ static outcome run(const job *j, const char *folder, const fault *f, const char 
     if (child < 0)
         give_up("fork");
     if (child == 0) {
-        alarm(TIME_LIMIT); /* kept by exec */
+        alarm(TIME_LIMIT); /* exec keeps it. */
         become_command(j, folder, f, places, channel[1], stopped);
     }
     close(channel[1]);
@@ -260,19 +260,19 @@ static outcome run(const job *j, const char *folder, const fault *f, const char 
     while (waitpid(child, &o.state, 0) < 0 && errno == EINTR)
         ;
     o.injected = o.injected || f->allocation > 0;
-    char *said = print("%s/said", work);
-    FILE *in = fopen(said, "r");
+    char *messages = print("%s/messages", work);
+    FILE *in = fopen(messages, "r");
     if (in != NULL) {
-        o.said[fread(o.said, 1, sizeof o.said - 1, in)] = '\0';
+        o.messages[fread(o.messages, 1, sizeof o.messages - 1, in)] = '\0';
         fclose(in);
     }
-    free(said);
+    free(messages);
     return o;
 }
 
-/* ---- what lies in a folder ------------------------------------------------------------------- */
+/* ---- contents of a folder -------------------------------------------------------------------- */
 
-static uint64_t mix(uint64_t hash, const void *bytes, size_t n)
+static uint64_t mix_hash(uint64_t hash, const void *bytes, size_t n)
 {
     for (size_t i = 0; i < n; i++)
         hash = (hash ^ ((const unsigned char *)bytes)[i]) * UINT64_C(0x100000001b3);
@@ -288,16 +288,15 @@ static uint64_t content(const char *path)
     if (in == NULL)
         return 0;
     while ((n = fread(bytes, 1, sizeof bytes, in)) > 0)
-        hash = mix(hash, bytes, n);
+        hash = mix_hash(hash, bytes, n);
     fclose(in);
     return hash;
 }
 
-/* Names and contents of a folder and all below it as one number; the files as a number of their
- * own. */
+/* Hashes the names and contents of a folder and its subfolders; the files have a separate hash. */
 static uint64_t look(const char *folder, size_t *n_files)
 {
-    uint64_t all = 0; /* the order of the folder does not matter */
+    uint64_t all = 0; /* The order of directory entries does not matter. */
     DIR *d = opendir(folder);
     for (struct dirent *e; d != NULL && (e = readdir(d)) != NULL;) {
         if (strcmp(e->d_name, ".") == 0 || strcmp(e->d_name, "..") == 0)
@@ -307,7 +306,7 @@ static uint64_t look(const char *folder, size_t *n_files)
         if (lstat(path, &info) != 0)
             memset(&info, 0, sizeof info);
         const uint64_t inner = S_ISDIR(info.st_mode) ? look(path, n_files) : content(path);
-        all += mix(inner, e->d_name, strlen(e->d_name));
+        all += mix_hash(inner, e->d_name, strlen(e->d_name));
         *n_files += 1;
         free(path);
     }
@@ -324,9 +323,9 @@ static void empty(const char *folder)
     free(line);
 }
 
-/* ---- judgement ------------------------------------------------------------------------------- */
+/* ---- assessment ------------------------------------------------------------------------------ */
 
-/* What a run without a failure gives. */
+/* Result of a run without a failure. */
 typedef struct truth {
     uint64_t all, output, printed;
     size_t n_files;
@@ -347,7 +346,7 @@ static uint64_t of_output(const char *folder)
     return hash;
 }
 
-static truth look_at(const char *folder)
+static truth hash_folder(const char *folder)
 {
     truth t = {0};
     char *printed = print("%s/standard-output", folder);
@@ -373,13 +372,12 @@ static const char *fault_name(const fault *f)
 static void survivor(const job *j, const fault *f, const outcome *o, const char *what)
 {
     n_survivors++;
-    printf("SURVIVOR %s, %s: %s (state %d); said: %.*s\n", j->name, fault_name(f), what, o->state,
-           (int)strcspn(o->said, "\n"), o->said);
+    printf("SURVIVOR %s, %s: %s (state %d); messages: %.*s\n", j->name, fault_name(f), what,
+           o->state, (int)strcspn(o->messages, "\n"), o->messages);
     fflush(stdout);
 }
 
-/* What lay in the folder of a job when a next run made everything well again: it does so a second
- * time. */
+/* Contents of a folder from which the next run recovered. They need no second test. */
 static uint64_t *cleared;
 static size_t n_cleared;
 
@@ -399,14 +397,14 @@ static void add_cleared(uint64_t all)
     cleared[n_cleared++] = all;
 }
 
-static void judge(const job *j, const char *folder, const fault *f, const truth *good)
+static void assess_outcome(const job *j, const char *folder, const fault *f, const truth *good)
 {
     empty(folder);
     outcome o = run(j, folder, f, NULL, f->call > 0);
     if (!o.injected)
         return;
     n_injected++;
-    const truth now = look_at(folder);
+    const truth now = hash_folder(folder);
     if (WIFEXITED(o.state) && WEXITSTATUS(o.state) == 99) {
         give_up("the command could not be started");
     } else if (WIFSIGNALED(o.state)) {
@@ -419,7 +417,7 @@ static void judge(const job *j, const char *folder, const fault *f, const truth 
             survivor(j, f, &o, "exit status 0 and other bytes or files");
             return;
         }
-    } else if (o.said[0] == '\0') {
+    } else if (o.messages[0] == '\0') {
         survivor(j, f, &o, "no message");
         return;
     }
@@ -433,15 +431,15 @@ static void judge(const job *j, const char *folder, const fault *f, const truth 
     const outcome again = run(j, folder, &none, NULL, false);
     if (again.state != 0)
         survivor(j, f, &again, "the next run fails");
-    else if (look_at(folder).all != good->all)
+    else if (hash_folder(folder).all != good->all)
         survivor(j, f, &o, "left something that the next run does not clear");
     else
         add_cleared(now.all);
 }
 
-/* ---- the sweep ------------------------------------------------------------------------------- */
+/* ---- all failures ---------------------------------------------------------------------------- */
 
-/* One in so many, and which one first. */
+/* Selects one in N, with an offset. */
 typedef struct sampling {
     size_t allocations, calls, start;
 } sampling;
@@ -461,9 +459,9 @@ static void sweep_allocations(const job *j, const char *folder, const truth *goo
     for (; fscanf(in, "%zu", &number) == 1; n++)
         if (n % how->allocations == how->start % how->allocations) {
             fault f = {.allocation = number};
-            judge(j, folder, &f, good);
+            assess_outcome(j, folder, &f, good);
             f.for_good = true;
-            judge(j, folder, &f, good);
+            assess_outcome(j, folder, &f, good);
         }
     fclose(in);
     printf("%s: allocations: %zu in all, at %zu places\n", j->name, number, n - 1);
@@ -482,7 +480,7 @@ static void sweep_calls(const job *j, const char *folder, const truth *good, con
             if ((4 * i + k) % how->calls == how->start % how->calls) {
                 fault f = kinds[k];
                 f.call = i;
-                judge(j, folder, &f, good);
+                assess_outcome(j, folder, &f, good);
             }
     printf("%s: %zu calls that write\n", j->name, n);
 }
@@ -494,10 +492,10 @@ static void sweep(const job *j, const sampling *how, bool wanted)
     empty(folder);
     const outcome o = run(j, folder, &none, NULL, false);
     if (o.state != 0) {
-        fprintf(stderr, "fault: %s fails as it is: %s\n", j->name, o.said);
+        fprintf(stderr, "fault: %s fails as it is: %s\n", j->name, o.messages);
         exit(2);
     }
-    const truth good = look_at(folder);
+    const truth good = hash_folder(folder);
     n_cleared = 0;
     if (wanted) {
         const size_t injected = n_injected, survivors = n_survivors;
@@ -506,7 +504,7 @@ static void sweep(const job *j, const sampling *how, bool wanted)
         printf("%s: %zu injected, %zu survivors\n", j->name, n_injected - injected,
                n_survivors - survivors);
         empty(folder);
-        (void)run(j, folder, &none, NULL, false); /* for those that read it */
+        (void)run(j, folder, &none, NULL, false); /* for the jobs that read it */
     }
     free(folder);
 }
@@ -552,7 +550,7 @@ int main(int argc, char **argv)
     empty(argv[4]);
     if (command == NULL || shim == NULL || fixtures == NULL || realpath(argv[4], work) == NULL)
         give_up("arguments");
-    /* Stands for gnuplot. */
+    /* Replaces gnuplot. */
     char *plot = print("%s/plot", work);
     FILE *out = fopen(plot, "w");
     if (out == NULL)

@@ -1,10 +1,10 @@
-/* Loaded before the C library (LD_PRELOAD): lets one allocation of the program fail, whoever asks
- * for it, also a library or the C library itself; or lists the allocations that differ in who asks.
+/* Loaded before the C library (LD_PRELOAD). It lets one allocation of the program fail, also in a
+ * library or in the C library itself, or lists the allocations with different callers.
  *
- *     FAULT_PROGRAM   name of the program that is meant; others, such as gnuplot, are left alone
+ *     FAULT_PROGRAM   name of the program to test; others, such as gnuplot, are unchanged
  *     FAULT_ALLOC     number of the allocation that fails, from 1 on
- *     FAULT_FOR_GOOD  if set, all that come after it fail too
- *     FAULT_PLACES    file for the numbers of allocations, the first of each place with its callers
+ *     FAULT_FOR_GOOD  if set, all later ones fail too
+ *     FAULT_PLACES    file for the numbers of allocations, the first of each call stack
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The functions of the C library by their other names. */
+/* Other names of the functions in the C library. */
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t n, size_t size);
 void *__libc_realloc(void *old, size_t size);
@@ -29,7 +29,7 @@ static bool active, for_good;
 static size_t failing; /* 0 = none */
 static const char *list;
 static atomic_size_t count;
-static _Thread_local bool inside; /* backtrace allocates */
+static _Thread_local bool inside; /* backtrace allocates memory. */
 static uint64_t seen[MAX_PLACES];
 static size_t first_at[MAX_PLACES], n_seen;
 
@@ -40,7 +40,7 @@ __attribute__((noinline)) static void note_place(size_t number)
     inside = true;
     const int n = backtrace(frames, DEPTH);
     inside = false;
-    for (int i = OWN; i < n; i++) /* this one, fails() and the allocator come before */
+    for (int i = OWN; i < n; i++) /* skips this function, fails() and the allocator */
         hash = (hash ^ (uint64_t)(uintptr_t)frames[i]) * UINT64_C(0x9E3779B97F4A7C15);
     size_t at = (size_t)(hash >> 40) % MAX_PLACES;
     while (seen[at] != 0 && seen[at] != hash)
@@ -98,7 +98,7 @@ int posix_memalign(void **memory, size_t alignment, size_t size)
     return 0;
 }
 
-/* From the start of main on, as far as can be: what comes before is the loader's. */
+/* Counts from about the start of main; earlier allocations belong to the loader. */
 __attribute__((constructor)) static void begin(void)
 {
     const char *program = getenv("FAULT_PROGRAM"), *number = getenv("FAULT_ALLOC");
@@ -109,7 +109,7 @@ __attribute__((constructor)) static void begin(void)
     for_good = getenv("FAULT_FOR_GOOD") != NULL;
     list = getenv("FAULT_PLACES");
     if (list != NULL)
-        (void)backtrace(&frame, 1); /* its own allocations are done now */
+        (void)backtrace(&frame, 1); /* backtrace has made its own allocations now. */
     active = true;
 }
 

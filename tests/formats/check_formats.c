@@ -1,10 +1,8 @@
-/* Reads every line of expected.txt against the fixtures, and fails for a description that no line
- * exercises: there is no format without a fixture.
+/* Reads every line of expected.txt against the fixtures. A description without a line is an
+ * error, so that every format has a fixture.
  *
- *   check_formats FIXTURES EXPECTED
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * check_formats FIXTURES EXPECTED
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "../status_name.h"
 #include "weartrack/read.h"
 
@@ -67,7 +65,7 @@ static void is_word(reading *r, const char *what, const char *found, const char 
 static void take_options(reading *r)
 {
     r->options = wt_read_defaults();
-    /* every quantity by its name: what a file cannot give is then an error, not left out */
+    /* Every quantity is requested by its name, so that a missing one is an error. */
     r->options.want = WT_Q_ALL & ~WT_Q_BIT(WT_Q_NONE);
     r->options.units = r->units;
     for (size_t i = 0; i < r->n; i++) {
@@ -96,7 +94,7 @@ static void with_blanks(const char *from, char *to, size_t size)
         *c = *c == '_' ? ' ' : *c;
 }
 
-/* True if the reading is to be looked at further. */
+/* Returns true if the reading is to be checked further. */
 static bool has_status(reading *r, wt_status status, const wt_error *err)
 {
     const char *expected = item(r, "status");
@@ -119,7 +117,7 @@ static bool has_status(reading *r, wt_status status, const wt_error *err)
     return status == WT_OK;
 }
 
-/* The first warning holds the text expected, or there is none. */
+/* The first warning contains the expected text, or there is no warning. */
 static void check_warning(reading *r, const wt_log *log)
 {
     const char *expected = item(r, "warning"), *found = NULL;
@@ -426,7 +424,7 @@ static void check_spectrum(reading *r, const wt_formats *formats, wt_input *inpu
     wt_power_spectrum_clear(&p);
 }
 
-/* The facts of `info` name the columns, whatever is missing. */
+/* The metadata of `info` name the columns, also if values are missing. */
 static void check_facts(reading *r, const wt_formats *formats, wt_input *input)
 {
     wt_table *facts = NULL;
@@ -438,7 +436,7 @@ static void check_facts(reading *r, const wt_formats *formats, wt_input *input)
     }
     for (size_t i = 0; i < wt_table_n_rows(facts); i++)
         columns += strncmp(wt_table_text(facts, i, 0), "column \"", 8) == 0;
-    /* Those of a matrix are alike. */
+    /* The columns of a matrix are equal. */
     const size_t fewest = strcmp(r->kind, "image") == 0 ? 1 : 2;
     if (columns < fewest && item(r, "found") == NULL)
         fail(r, "the facts name %zu columns", columns);

@@ -1,4 +1,5 @@
-/* Structured damage. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Structured damage of files.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "damage.h"
 
 #include "../fuzz/pack_list.h"
@@ -33,7 +34,7 @@ static byte_block pack(const archive_entry *entries, size_t n)
 
 static byte_block copy(byte_block b)
 {
-    byte_block c = {malloc(2 * b.n + 64), b.n}; /* room for one block twice */
+    byte_block c = {malloc(2 * b.n + 64), b.n}; /* Space for one block twice. */
     if (c.at == NULL)
         abort();
     if (b.n > 0)
@@ -105,7 +106,7 @@ static bool is_text(byte_block b)
     return b.n > 0 && odd == 0;
 }
 
-/* From where to where the line goes in which the place is; its end belongs to it. */
+/* Limits of the line at this position, with its line end. */
 static void find_line(byte_block b, size_t place, size_t *from, size_t *to)
 {
     for (*from = place; *from > 0 && b.at[*from - 1] != '\n'; --*from)
@@ -115,8 +116,8 @@ static void find_line(byte_block b, size_t place, size_t *from, size_t *to)
     *to += *to < b.n;
 }
 
-/* A block: lines of a text, else bytes. Half of them are in the first 4096 bytes, where headers
- * are. */
+/* A block is lines of a text, else bytes. Half of the blocks are in the first 4096 bytes, where
+ * headers are. */
 static void draw_block(byte_block b, bool text, uint64_t *seed, size_t *from, size_t *to)
 {
     static const size_t sizes[] = {1, 2, 4, 8, 32, 96, 512, 4096};
@@ -177,7 +178,7 @@ static void swap(byte_block b, bool text, uint64_t *seed, size_t from, size_t to
 {
     size_t other = 0, end = 0;
     draw_block(b, text, seed, &other, &end);
-    if (text && (other >= to || end <= from)) { /* the first line of each */
+    if (text && (other >= to || end <= from)) { /* start of each line */
         const byte_block old = copy(b);
         const size_t a = from < other ? from : other, a_end = from < other ? to : end;
         const size_t c = from < other ? other : from, c_end = from < other ? end : to;
@@ -197,7 +198,7 @@ static void swap(byte_block b, bool text, uint64_t *seed, size_t from, size_t to
     }
 }
 
-/* A number in text becomes 0, 1 or many nines; in bytes nothing, one or all bits. */
+/* A number in text becomes 0, 1 or many nines. In bytes no bit, one bit or all bits are set. */
 static void set_extreme(byte_block b, bool text, uint64_t *seed)
 {
     const size_t which = draw(seed, 3), room = b.n > 2048 && draw(seed, 2) > 0 ? 2048 : b.n;
@@ -228,7 +229,8 @@ static void flip_bits(byte_block b, uint64_t *seed)
         b.at[draw(seed, b.n)] ^= (unsigned char)(1U << draw(seed, 8));
 }
 
-/* The next value behind a place: between quotes, > and <, or = or : and the end of the line. */
+/* The next value after a position: between quotes, between > and <, or from = or : to the line
+ * end. */
 static bool find_value(byte_block b, size_t at, size_t *from, size_t *to)
 {
     for (size_t looked = 0; looked < b.n; looked++, at = (at + 1) % b.n) {
@@ -248,7 +250,7 @@ static bool find_value(byte_block b, size_t at, size_t *from, size_t *to)
 static void exchange_value(byte_block *b, uint64_t *seed)
 {
     size_t from = 0, to = 0, other = 0, end = 0;
-    const size_t capacity = b->n > 16384 ? 16384 : b->n; /* headers come first */
+    const size_t capacity = b->n > 16384 ? 16384 : b->n; /* Headers come first. */
     if (!find_value(*b, draw(seed, capacity), &from, &to) ||
         !find_value(*b, draw(seed, capacity), &other, &end))
         return;
@@ -260,7 +262,7 @@ static void exchange_value(byte_block *b, uint64_t *seed)
     free(old.at);
 }
 
-static void spoil(byte_block *b, damage d, uint64_t *seed)
+static void damage_block(byte_block *b, damage d, uint64_t *seed)
 {
     const bool text = is_text(*b);
     size_t from = 0, to = 0;
@@ -307,7 +309,7 @@ static void spoil(byte_block *b, damage d, uint64_t *seed)
 static byte_block damage_whole(byte_block whole, damage d, uint64_t *seed)
 {
     byte_block b = copy(whole);
-    spoil(&b, d, seed);
+    damage_block(&b, d, seed);
     return b;
 }
 
@@ -324,7 +326,7 @@ static byte_block damage_entry(const damageable *f, damage d, uint64_t *seed)
         memmove(entries + which, entries + which + 1, (n - which - 1) * sizeof *entries);
         n--;
     } else {
-        spoil(&changed, d, seed);
+        damage_block(&changed, d, seed);
         entries[which].content = changed;
     }
     const byte_block packed = pack(entries, n);

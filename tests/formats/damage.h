@@ -1,8 +1,7 @@
-/* Structured damage of a file, drawn by a seed; in an archive that of one entry, packed anew with
- * its check sum and without a central directory, or that of the archive as it lies there.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Structured damage of a file, drawn by a seed. In an archive it changes one entry, which is
+ * packed again with its checksum and without a central directory, or the bytes of the archive
+ * itself.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef TESTS_FORMATS_DAMAGE_H
 #define TESTS_FORMATS_DAMAGE_H
 
@@ -11,18 +10,18 @@
 #include <stdint.h>
 
 typedef enum damage {
-    FIELD,      /* a whole number of 2, 4 or 8 bytes, or the digits of one in text */
-    TEXT,       /* letters for digits */
-    DELETED,    /* bytes, or lines of a text */
-    DOUBLED,    /* the same */
-    SWAPPED,    /* two blocks, or two lines */
-    ZEROED,     /* bytes, or the cells of a line made empty */
-    ENTRY_GONE, /* of an archive, or a block of another file */
-    CUT,        /* at any place */
-    EXTREME,    /* a whole number, in text too, set to nothing, one or the largest */
-    BITS,       /* one to eight of them */
-    VALUE,      /* of an attribute, an element or a key set to that of another */
-    PACKED,     /* any of these, of an archive as it is packed; else as CUT */
+    FIELD,      /* an integer of 2, 4 or 8 bytes, or the digits of a number in text */
+    TEXT,       /* letters in place of digits */
+    DELETED,    /* bytes, or lines of a text, removed */
+    DOUBLED,    /* bytes or lines repeated */
+    SWAPPED,    /* two blocks or two lines exchanged */
+    ZEROED,     /* bytes set to zero, or the cells of a line emptied */
+    ENTRY_GONE, /* entry of an archive, or a block of another file */
+    CUT,        /* file truncated at any position */
+    EXTREME,    /* an integer, also in text, set to zero, one or the largest value */
+    BITS,       /* one to eight bits */
+    VALUE,      /* value of an attribute, element or key replaced with that of another */
+    PACKED,     /* one of these, applied to the packed archive; other files as CUT */
     N_DAMAGES
 } damage;
 extern const char *const damage_names[N_DAMAGES];
@@ -38,18 +37,17 @@ typedef struct archive_entry {
 } archive_entry;
 
 typedef struct damageable {
-    byte_block
-        whole; /* of an archive, as damaged ones are packed: the damage is the only difference */
-    byte_block original;    /* an archive as it was */
-    archive_entry *entries; /* of an archive */
+    byte_block whole;       /* the undamaged file, packed as the damaged ones are */
+    byte_block original;    /* True if the file was an archive. */
+    archive_entry *entries; /* name of the entry */
     size_t n_entries;
 } damageable;
 
-/* Of a file; no bytes if there is none. */
+/* Reads a file; no bytes if there is none. */
 damageable damageable_load(const char *path);
 void damageable_free(damageable *d);
 
-/* Number `trial` of the seed: new bytes, and of which kind the damage is. */
+/* Damage number `trial` of the seed: returns new bytes and the kind of damage. */
 byte_block damage_draw(const damageable *d, uint64_t seed, size_t trial, damage *kind);
 
 #endif

@@ -1,15 +1,14 @@
 #!/bin/sh
-# Damaged files (damage.h) through the commands that fit what is in them: none may crash, hang or be
-# stopped by a sanitizer, and what it does ends as one of the four exit statuses says. Whoever gets
-# other rows or numbers than the whole file gives, with exit status 0 or 3, is told something that is
-# not said of that; of those kinds of damage at least that are named. A number that was changed for
-# another, in a file that says it once, cannot be known for wrong: those are counted.
+# Damaged files (damage.h) as input of the commands. No command may crash, hang or be stopped by a
+# sanitizer, and its output fits its exit status. If rows or numbers differ from the undamaged file with
+# exit status 0 or 3, there is a warning that the undamaged file does not cause. This holds for the stated
+# KINDS of damage. A number that was changed cannot be detected; such files are counted.
 #
 #   damaged_commands.sh DAMAGED_FILES COMMAND FOLDER SEED TRIALS KINDS "CALL" FILE
 #
 # KINDS: deleted,cut,... or none. CALL is a subcommand with its options. WT_DAMAGES in the environment
-# is the number of trials instead. An archive is read as it is packed for damage, without its end, which
-# is said and makes the exit status 3.
+# replaces the number of trials. An archive has no central directory, which is reported and gives exit
+# status 3.
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -u
@@ -17,8 +16,8 @@ damaged=$1 command=$2 folder=$3 seed=$4 trials=${WT_DAMAGES:-$5} kinds=$6 call=$
 name=$(basename "$file")
 rm -rf "$folder"
 mkdir -p "$folder/files" "$folder/run" || exit 2
-# Always under one name, so that only the damage makes a difference. The answer without what is said
-# of it and what an image is called goes to $folder/table, what is said to $folder/said.
+# The name is always the same, so that only the damage makes a difference. $folder/table receives the
+# result without messages and image names, $folder/said the messages.
 run() { # FILE
   cp "$1" "$folder/run/$name" || exit 2
   # shellcheck disable=SC2086 # the options are several words

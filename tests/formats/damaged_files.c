@@ -1,14 +1,13 @@
-/* Structured damage (damage.h) of files that the library reads. Each is read in a process of its
- * own: none may crash or take more than ten seconds. What came of each kind of damage is counted,
- * and those where numbers changed without a word are named. Of the kinds named by the word "refuse"
- * none may be read with other numbers and without a word. With a folder to write to the damaged
- * files are only written: as it is packed for damage FOLDER/whole-NAME, and
- * FOLDER/NUMBER-KIND-NAME.
+/* Structured damage (damage.h) of files that the library reads. Each file is read in its own
+ * process, which may not crash or take more than ten seconds.
  *
- *   damaged_files SEED TRIALS [-v] [refuse=KIND,KIND...] [write=FOLDER] FILE...
+ * The program counts the outcomes for each kind of damage and lists the files whose numbers
+ * changed without a warning. For the kinds after "refuse" such a file is a failure. With a
+ * folder the program only writes the files: FOLDER/whole-NAME is the undamaged file, packed as
+ * the damaged ones are, and FOLDER/NUMBER-KIND-NAME a damaged one.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * damaged_files SEED TRIALS [-v] [refuse=KIND,KIND...] [write=FOLDER] FILE...
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "damage.h"
 #include "read_numbers.h"
 
@@ -42,8 +41,8 @@ static bool same_numbers(const numbers *a, const numbers *b)
     return true;
 }
 
-/* Whether a warning of the damaged file is none of the whole one. */
-static bool has_news(const wt_log *log, const wt_log *before)
+/* Returns true if the damaged file has a warning that the whole one lacks. */
+static bool has_new_warning(const wt_log *log, const wt_log *before)
 {
     for (size_t i = 0; i < wt_log_count(log); i++) {
         const wt_log_entry e = wt_log_get(log, i);
@@ -65,9 +64,9 @@ static outcome read_damaged(const wt_formats *formats, const file *f, byte_block
     const wt_status status = read_any(formats, b.at, b.n, log, &values);
     outcome o = REFUSED;
     if (status == WT_OK)
-        o = has_news(log, f->log) || values.n_failed > f->values.n_failed ? WARNED
-            : same_numbers(&values, &f->values)                           ? SAME
-                                                                          : CHANGED;
+        o = has_new_warning(log, f->log) || values.n_failed > f->values.n_failed ? WARNED
+            : same_numbers(&values, &f->values)                                  ? SAME
+                                                                                 : CHANGED;
     free(values.values);
     wt_log_free(log);
     return o;
@@ -81,7 +80,7 @@ static outcome try_damage(const wt_formats *formats, const file *f, byte_block b
     if (child == 0) {
         const struct rlimit limit = {SECONDS, SECONDS};
         (void)setrlimit(RLIMIT_CPU, &limit);
-        (void)alarm(6 * SECONDS); /* a machine that is busy */
+        (void)alarm(6 * SECONDS); /* The limit allows for a busy machine. */
         _exit((int)read_damaged(formats, f, b));
     }
     if (child < 0 || waitpid(child, &status, 0) != child)
@@ -94,7 +93,7 @@ static outcome try_damage(const wt_formats *formats, const file *f, byte_block b
                : CRASHED;
 }
 
-/* ---- the call -------------------------------------------------------------------------------- */
+/* ---- options and report ---------------------------------------------------------------------- */
 
 typedef struct call {
     uint64_t seed;
@@ -112,7 +111,7 @@ static bool load(const wt_formats *formats, const char *path, file *f)
            read_any(formats, f->bytes.whole.at, f->bytes.whole.n, f->log, &f->values) == WT_OK;
 }
 
-static void release(file *f)
+static void free_file(file *f)
 {
     damageable_free(&f->bytes);
     free(f->values.values);
@@ -126,7 +125,7 @@ static void write_file(const char *path, byte_block b)
         abort();
 }
 
-/* With its name at the end, so that a reader that goes by the name finds it. */
+/* The name ends as before, for a reader that uses the file extension. */
 static void write_damaged(call *c, const char *path)
 {
     const char *const slash = strrchr(path, '/'), *const own = slash != NULL ? slash + 1 : path;
@@ -143,7 +142,7 @@ static void write_damaged(call *c, const char *path)
     (void)snprintf(name, sizeof name, "%s/whole-%s", c->folder, own);
     write_file(name, f.bytes.whole);
     c->failures += !read;
-    release(&f);
+    free_file(&f);
 }
 
 static void try_file(call *c, const char *path)
@@ -173,7 +172,7 @@ static void try_file(call *c, const char *path)
     for (size_t o = 0; o < N_OUTCOMES; o++)
         printf(" %4zu %s", counts[o], outcome_names[o]);
     printf("%s\n", !read ? " (not read at all)" : "");
-    release(&f);
+    free_file(&f);
 }
 
 int main(int argc, char **argv)

@@ -1,10 +1,8 @@
-/* The text export of a JPK force curve, gzip-packed, against its own bytes. Shared reference data,
- * where present; 77 = skipped.
+/* Compares the text export of a JPK force curve, packed with gzip, with its own bytes. The file
+ * is shared reference data; without it the exit status is 77 (skipped).
  *
- *   measured_jpk_text FILE.gz
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * measured_jpk_text FILE.gz
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/read.h"
 
 #include <math.h>

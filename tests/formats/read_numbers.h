@@ -1,8 +1,5 @@
-/* All numbers of a file, of whatever kind they are: for programs that damage files and look at what
- * is read all the same.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* All numbers of a file of any kind, for programs that damage files and compare the result.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef TESTS_FORMATS_READ_NUMBERS_H
 #define TESTS_FORMATS_READ_NUMBERS_H
 
@@ -17,10 +14,10 @@
 typedef struct numbers {
     double *values;
     size_t n, room;
-    size_t n_failed; /* curves that could not be read, which is said of each */
+    size_t n_failed; /* number of curves with an error */
 } numbers;
 
-/* What is missing is no number. */
+/* A missing value is not counted. */
 static inline void keep(numbers *all, const double *values, size_t n)
 {
     for (size_t i = 0; values != NULL && i < n; i++) {
@@ -106,7 +103,7 @@ static inline wt_status read_rest(const wt_formats *formats, wt_input *input, un
     return status;
 }
 
-/* Reads the bytes as all kinds that they are; WT_E_FORMAT if they are none. */
+/* Reads the bytes as every kind that matches; WT_E_FORMAT if none does. */
 static inline wt_status read_any(const wt_formats *formats, const void *bytes, size_t n,
                                  wt_log *log, numbers *all)
 {
@@ -131,7 +128,7 @@ static inline wt_status read_any(const wt_formats *formats, const void *bytes, s
     return status;
 }
 
-/* The bytes of a file, with a zero behind them; NULL if there is none. */
+/* Returns the bytes of a file with a zero at the end, or NULL. */
 static inline unsigned char *load_bytes(const char *path, size_t *n)
 {
     FILE *const in = fopen(path, "rb");

@@ -1,7 +1,6 @@
-/* Any bytes as a file of one binary reader, reader_READER_ID: images, force curves, facts.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Fuzz target of one binary reader, reader_READER_ID: it reads the images, force curves and
+ * metadata of any bytes.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read_all.h"
 
 #include "read/text/text.h"
@@ -15,7 +14,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static wt_formats *formats;
     const file_reader *reader = &READER_OF(READER_ID);
-    if (reader->runs != NULL) { /* a description, which the set of formats gives it */
+    if (reader->runs != NULL) { /* The set of formats assigns the description. */
         if (formats == NULL && wt_formats_new(NULL, &formats, NULL, NULL) != WT_OK)
             abort();
         reader = formats_find_reader(formats, reader->info.id);

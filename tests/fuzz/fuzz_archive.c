@@ -1,5 +1,6 @@
-/* Any bytes as a ZIP archive of files of force curves, a list of entries (pack_list.h): all curves
- * are read. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzz target: a ZIP archive of force curve files, given as a list of entries (pack_list.h). All
+ * curves are read.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "pack_list.h"
 #include "read_all.h"
 

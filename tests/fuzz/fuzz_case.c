@@ -1,7 +1,5 @@
-/* Any bytes as a case file; what passes the checks is planned.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Fuzz target: any bytes as a case file. A case that passes the checks is planned.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/case.h"
 
 #include <stdlib.h>

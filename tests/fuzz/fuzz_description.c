@@ -1,7 +1,6 @@
-/* Any bytes as a format description; what passes the checks then reads a sample.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Fuzz target: any bytes as a format description. A description that passes the checks then
+ * reads a sample.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 
 #include <stdlib.h>

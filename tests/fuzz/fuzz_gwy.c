@@ -1,5 +1,6 @@
-/* Any bytes as a file of Gwyddion, of a user's and as the program converts another one: there masks
- * are missing heights. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzz target: a Gwyddion file, once as a user's file and once as a conversion by the program,
+ * where masks mark missing heights.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read_all.h"
 
 #include "read/gwy/gwy.h"

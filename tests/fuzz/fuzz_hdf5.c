@@ -1,8 +1,10 @@
-/* Bytes as what comes through the door to HDF5; bytes of HDF5 as a file; behind an 'a', as the
- * abstract at the end of a file, whose length, mark and set of tables are made to agree; or, behind
- * a 'p', as changes of a sound result file (two bytes where, one how many, up to eight of value),
- * whose checksums are then made to agree. What is read can be written. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Fuzz target: bytes of an HDF5 file and of the stream from its sandbox. Data that is read can
+ * be written.
+ *
+ * After an 'a', the bytes are the summary at the end of a file; its length, mark and set of
+ * tables are corrected. After a 'p', they change a valid result file: two bytes state the
+ * position, one the number, and up to eight the values. The checksums are then corrected.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/store.h"
 #include "core/table/table.h"
 #include "writers/hdf5_damage.h"
@@ -58,7 +60,7 @@ static void change(const uint8_t *data, size_t size)
     hdf5_check(copy, &map);
 }
 
-/* WT_END, which is that a file has none, is no failure with a message. */
+/* A file without tables returns WT_END, which has no message. */
 static wt_status read_abstract(const uint8_t *data, size_t size, wt_result **result, wt_error *err)
 {
     static int file = -1;

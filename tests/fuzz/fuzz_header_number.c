@@ -1,5 +1,6 @@
-/* Any text as a value of a header: what is read is finite and lies in the text, and the warning
- * ends. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzz target: any text as a value of a header. The number is finite and lies in the text, and
+ * the warning is terminated.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/header_number.h"
 
 #include <math.h>
@@ -17,7 +18,8 @@ static void check(bool good)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    char *const text = malloc(size > 0 ? size : 1); /* exact: a byte too far is an error */
+    /* The buffer has the exact size, so that a read beyond its end is an error. */
+    char *const text = malloc(size > 0 ? size : 1);
     double value = 0, error = 0;
     size_t end = 0;
     check(text != NULL);

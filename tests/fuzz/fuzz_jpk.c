@@ -1,7 +1,6 @@
-/* Any bytes as a JPK file: a ZIP archive as it is, other bytes as a list of entries (pack_list.h).
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Fuzz target: any bytes as a JPK file. A ZIP archive is used unchanged, other bytes as a list
+ * of entries (pack_list.h).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "pack_list.h"
 #include "read_all.h"
 

@@ -1,8 +1,6 @@
-/* Any bytes as a packed file: gzip and .xls by their signatures, other bytes as the list of entries
- * (pack_list.h) of an .xlsx. The sweep in it is read, then the sheet called "A".
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Fuzz target: any bytes as a packed file. The signature selects gzip or .xls; other bytes are
+ * the list of entries (pack_list.h) of an .xlsx. The target reads the sweep, then the sheet "A".
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "pack_list.h"
 
 #include "weartrack/read.h"

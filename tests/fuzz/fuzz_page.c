@@ -1,5 +1,6 @@
-/* Any text stream as a result: its tables are bound, every figure is drawn as a script, and the
- * page is written, all but gnuplot. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzz target: any text stream as a result. Its tables are checked, every figure is written as a
+ * script and the page is written; gnuplot does not run.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
 #include "weartrack/report.h"
 
@@ -9,7 +10,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* The tables of the stream as far as it goes. */
+/* Returns the tables up to the first error of the stream. */
 static wt_result *read_result(const uint8_t *data, size_t size)
 {
     wt_error err = WT_ERROR_INIT;
@@ -19,7 +20,7 @@ static wt_result *read_result(const uint8_t *data, size_t size)
     if (result == NULL || in == NULL)
         abort();
     while (wt_stream_read(in, "input", &table, &err) == WT_OK)
-        if (wt_result_add(result, table, &err) != WT_OK) /* it has taken it */
+        if (wt_result_add(result, table, &err) != WT_OK) /* The result now owns the table. */
             break;
     (void)fclose(in);
     return result;

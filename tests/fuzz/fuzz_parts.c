@@ -1,8 +1,6 @@
-/* Any bytes as a text stream of this program, read as a whole and part by part: both find the same
- * tables, or the same fault.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Fuzz target: any bytes as a text stream of this program, read at once and part by part. Both
+ * readings find the same tables or the same error.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/formats.h"
 #include "read/text/text.h"
 

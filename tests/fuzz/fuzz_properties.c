@@ -1,7 +1,5 @@
-/* Any bytes as Java .properties: what was parsed can be found again.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Fuzz target: any bytes as Java .properties. Every parsed key is found again.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/jpk/jpk.h"
 
 #include <stdlib.h>

@@ -1,5 +1,6 @@
-/* Any text as a unit, a quantity, one with an error, a list, of the kind that the first byte says:
- * what is taken is finite and possible. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzz target: any text as a unit, a quantity, a quantity with an error or a list; the first
+ * byte selects the kind. Accepted values are finite and possible.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/quantity.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
-/* Any request: what is admitted has the token, the host and the method of its route. The lines are
- * method, target, host, origin and site; missing ones are missing headers.
+/* Fuzz target: any HTTP request. An admitted request has the token, the host and the method of
+ * its route. The lines are method, target, host, origin and site; a missing line is a missing
+ * header.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "view/view.h"
 

@@ -1,5 +1,6 @@
-/* Any text as the parameters of a self-affine surface: one that is taken has a spectrum of finite
- * densities. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzz target: any text as the parameters of a self-affine surface. An accepted surface has a
+ * spectrum of finite densities.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/friction.h"
 
 #include <math.h>
@@ -17,7 +18,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
     const wt_job work = wt_job_defaults();
-    /* Anything else would be the name of a file. */
+    /* Other text would be a file name. */
     snprintf(text, sizeof text, "self-affine:%.*s", size < 480 ? (int)size : 480,
              size > 0 ? (const char *)data : "");
     if (wt_surface_open(text, NULL, &work, &surface, &err) == WT_OK) {

@@ -1,5 +1,6 @@
-/* Any bytes to the reader of the text stream; what it accepts is written and must be read again
- * as the same bytes. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzz target: any bytes as the text stream. Accepted tables are written, read again, and give
+ * the same bytes.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/core.h"
 
 #include <stdint.h>
@@ -8,7 +9,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Text of a table, new. */
+/* Returns the text of a table; the caller frees it. */
 static char *text_of(const wt_table *table, size_t *length)
 {
     char *text = NULL;

@@ -1,4 +1,5 @@
-/* Any bytes as a compressed file of Digital Surf, before Gwyddion sees what is unpacked.
+/* Fuzz target: any bytes as a compressed Digital Surf file, before Gwyddion reads the unpacked
+ * data.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read_all.h"
 

@@ -1,12 +1,10 @@
-/* Any bytes as a text export of one description, READER_ID: whether it is its file, force curves,
- * sweep, spectrum and facts.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Fuzz target of one text description, READER_ID: detection, force curves, sweep, spectrum and
+ * metadata of any bytes.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 #include "read_all.h"
 
-/* Friction in every sample, and time that does not fall within the record. */
+/* Every sample has a friction value, and the time does not decrease within the record. */
 static void read_record(const file_reader *reader, wt_input *input, const wt_read_options *options)
 {
     wt_record record = {.n = 0};
@@ -41,7 +39,7 @@ static void all_finite(const double *values, size_t n)
             abort();
 }
 
-/* Numbers at all points, or NaN at all; returns whether there are numbers. */
+/* The values are numbers at all points or NaN at all points. Returns true for numbers. */
 static bool finite_or_none(const double *values, size_t n)
 {
     const bool none = values == NULL || n == 0 || isnan(values[0]);
@@ -101,7 +99,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     if (wt_input_open_memory(data, size, "fuzz", &input, &err) != WT_OK)
         return 0;
-    /* Even inputs carry what the file lacks, so that more of it is read. */
+    /* Even inputs state the values that the file lacks, so that more of the file is read. */
     if (size % 2 == 0) {
         options.units = units;
         options.n_units = sizeof units / sizeof *units;

@@ -1,5 +1,6 @@
-/* Any text as a tip: what is taken passes the check and has a table of forces, or the error says
- * why not. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzz target: any text as a tip. An accepted tip passes the check and has a table of forces, or
+ * the error states the reason.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/indentation.h"
 
 #include <math.h>

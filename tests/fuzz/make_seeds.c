@@ -1,8 +1,7 @@
-/* Makes the seeds of the fuzz targets of the binary readers, each below 20 kB: make_seeds FOLDER.
- * Committed in fixtures/fuzz; run again after a change of the writers.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Writes the seeds of the fuzz targets of the binary readers, each below 20 kB: make_seeds
+ * FOLDER. The seeds are committed in fixtures/fuzz; run the program again after a change of the
+ * writers.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "writers/ardf_writer.h"
 #include "writers/book_writer.h"
 #include "writers/curve_hdf5_writer.h"
@@ -31,7 +30,7 @@ static void path_of(char *path, size_t size, const char *folder, const char *nam
 
 /* ---- JPK ---------------------------------------------------------------------------------- */
 
-/* The same entries as the list that fuzz_jpk packs again. */
+/* The same entries as the list that fuzz_jpk packs. */
 static int write_list(const char *archive, const char *list)
 {
     zip_t *zip = zip_open(archive, ZIP_RDONLY, NULL);
@@ -78,7 +77,7 @@ static int make_jpk(const char *folder)
         f.n_curves = f.map ? 2 : 1;
         f.columns = f.rows = f.map ? 2 : 0;
         f.inline_headers = kind >= 2;
-        /* Headers that repeat everything are long. */
+        /* Headers that repeat all keys are long. */
         curves[0].n_segments = curves[1].n_segments = f.inline_headers ? 1 : 3;
         f.encoding = (jpk_writer_encoding)kind;
         snprintf(name, sizeof name, "seed%d.zip", kind);
@@ -257,7 +256,7 @@ static void put_number(FILE *out, uint64_t value, size_t width)
         (void)fputc((int)(value >> (8 * i) & 0xff), out);
 }
 
-/* An object of a Gwyddion file, whose size stands before it. */
+/* An object of a Gwyddion file, with its size in front. */
 static void put_object(FILE *out, const char *name, const char *components, size_t n)
 {
     (void)fwrite(name, 1, strlen(name) + 1, out);
@@ -301,7 +300,7 @@ static int make_gwy(const char *folder)
     return fclose(out);
 }
 
-/* Compressed, in one piece and in three. */
+/* Compressed, in one block and in three. */
 static int make_surf(const char *folder)
 {
     static const int heights[12] = {-3, 7, 1, 0, 100000, -1, 5, 5, 5, 5, 5, 5};
@@ -320,7 +319,7 @@ static int make_surf(const char *folder)
     return bad ? -1 : 0;
 }
 
-/* Lists of entries, which the target packs. */
+/* Lists of entries; the target packs them. */
 static int make_x3p(const char *folder)
 {
     static const char *const heights[] = {

@@ -1,9 +1,7 @@
-/* A ZIP archive of any bytes. The check sums of one that is changed stop nearly every change at the
- * door, so the bytes are taken as a list of entries, name and content apart by 0x1e and entries by
- * 0x1f, and packed into an archive without its end.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Packs any bytes into a ZIP archive. Checksums would reject nearly every change of a finished
+ * archive. The bytes are therefore a list of entries: 0x1e separates name and content, 0x1f
+ * separates entries. The archive has no central directory.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef TESTS_FUZZ_PACK_LIST_H
 #define TESTS_FUZZ_PACK_LIST_H
 
@@ -40,7 +38,7 @@ static inline uint8_t *put_entry(uint8_t *to, const uint8_t *name, size_t name_l
 {
     to = put(to, 0x04034b50, 4);
     to = put(to, 20, 2);
-    to = put(to, 0, 4); /* no flags, stored */
+    to = put(to, 0, 4); /* no flags, not compressed */
     to = put(to, 0x50210000, 4);
     to = put(to, crc32(content, n), 4);
     to = put(put(to, (uint32_t)n, 4), (uint32_t)n, 4);
@@ -50,7 +48,7 @@ static inline uint8_t *put_entry(uint8_t *to, const uint8_t *name, size_t name_l
     return to + name_length + n;
 }
 
-/* Each entry takes 30 bytes more than in the list, and a separator is at least one byte of it. */
+/* Each entry takes 30 bytes more than in the list, where a separator takes at least one. */
 static inline uint8_t *pack_list(const uint8_t *data, size_t size, size_t *length)
 {
     size_t entries = 1;

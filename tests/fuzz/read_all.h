@@ -1,8 +1,6 @@
-/* What the fuzz targets of the readers have in common: everything that can be read is read, and
- * every number that comes out is looked at.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Common functions of the fuzz targets of readers. They read all data of a file and check every
+ * number.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef TESTS_FUZZ_READ_ALL_H
 #define TESTS_FUZZ_READ_ALL_H
 
@@ -13,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Never infinite: a sample is a number or missing. */
+/* A sample is finite or missing (NaN), never infinite. */
 static inline void never_infinite(const double *values, size_t n)
 {
     for (size_t i = 0; i < n; i++)
@@ -41,7 +39,7 @@ static inline void read_curves(const file_reader *reader, const uint8_t *data, s
     if (wt_input_open_memory(data, size, "fuzz", &input, NULL) != WT_OK)
         abort();
     if (force_open(reader->force, reader, input, options, log, &source, &err) == WT_OK) {
-        /* Every call moves on, also after a curve that cannot be read. */
+        /* Every call advances, also after a curve with an error. */
         for (size_t i = 0; wt_force_next(source, &curve, &err) != WT_END; i++) {
             if (i > wt_force_count(source))
                 abort();
@@ -117,7 +115,7 @@ static inline void read_noise(const file_reader *reader, const uint8_t *data, si
     wt_input_close(input);
 }
 
-/* Twice: with the calibration of the file, and with all that a user may give. */
+/* Reads twice: with the calibration of the file, and with all values that a user may state. */
 static inline void read_all(const file_reader *reader, const uint8_t *data, size_t size)
 {
     wt_read_options options = wt_read_defaults();

@@ -1,9 +1,7 @@
-/* Runs a fuzz target without a fuzzer: each seed as it is, then with a fixed set of changes made by
- * a generator of fixed start. Arguments are files and folders of seeds; none is one empty seed. A
- * fault ends the program; WT_FUZZ_LAST names a file that then holds the input.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Runs a fuzz target without a fuzzer: each seed unchanged, then with a fixed set of
+ * pseudo-random changes. Arguments are files and folders of seeds; no argument is one empty
+ * seed. An error ends the program; the file WT_FUZZ_LAST then holds the input.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <dirent.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -19,9 +17,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 #define CHANGES 400
 
 typedef struct run {
-    const char *last; /* where the last input is kept, NULL = nowhere */
+    const char *last; /* file for the last input, or NULL */
     double start;
-    uint64_t state; /* of the generator */
+    uint64_t state; /* state of the generator */
     size_t n;
 } run;
 
@@ -46,7 +44,7 @@ static size_t below(run *r, size_t n)
     return n == 0 ? 0 : (size_t)(draw(r) % n);
 }
 
-/* In memory of exactly the size, so that a sanitizer sees one byte too many. */
+/* The buffer has the exact size, so that a sanitizer detects a read of one byte too many. */
 static void try_bytes(run *r, const uint8_t *bytes, size_t n)
 {
     uint8_t *exact = malloc(n > 0 ? n : 1);
@@ -92,7 +90,7 @@ static void change(run *r, uint8_t *bytes, size_t n)
     }
 }
 
-static bool in_time(const run *r)
+static bool has_time_left(const run *r)
 {
     return now() - r->start < SECONDS_PER_PROGRAM;
 }
@@ -103,9 +101,9 @@ static void try_seed(run *r, const uint8_t *seed, size_t n)
     if (copy == NULL)
         abort();
     try_bytes(r, seed, n);
-    for (size_t i = 0; i < TRUNCATIONS && i < n && in_time(r); i++)
+    for (size_t i = 0; i < TRUNCATIONS && i < n && has_time_left(r); i++)
         try_bytes(r, seed, n * i / TRUNCATIONS);
-    for (size_t i = 0; i < CHANGES && n > 0 && in_time(r); i++) {
+    for (size_t i = 0; i < CHANGES && n > 0 && has_time_left(r); i++) {
         memcpy(copy, seed, n);
         change(r, copy, n);
         try_bytes(r, copy, n);
@@ -129,7 +127,7 @@ static int try_file(run *r, const char *path)
     return bad != 0;
 }
 
-static int not_hidden(const struct dirent *entry)
+static int is_visible(const struct dirent *entry)
 {
     return entry->d_name[0] != '.';
 }
@@ -137,7 +135,7 @@ static int not_hidden(const struct dirent *entry)
 static int try_path(run *r, const char *path)
 {
     struct dirent **entries = NULL;
-    int n = scandir(path, &entries, not_hidden, alphasort);
+    int n = scandir(path, &entries, is_visible, alphasort);
     if (n < 0)
         return try_file(r, path);
     int bad = 0;

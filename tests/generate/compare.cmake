@@ -1,4 +1,4 @@
-# The generator gives the committed files, byte for byte:
+# The generator reproduces the committed files:
 #   cmake -DGENERATOR=... -DFIXTURES=... -DFOLDER=... -DINPUT=... -P compare.cmake
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
@@ -10,7 +10,7 @@ if(NOT result EQUAL 0)
 endif()
 file(GLOB made RELATIVE ${FOLDER} ${FOLDER}/*)
 file(GLOB committed RELATIVE ${FIXTURES} ${FIXTURES}/*)
-list(REMOVE_ITEM committed case.xml stated-road.xml softening.txt) # of the case: by hand
+list(REMOVE_ITEM committed case.xml stated-road.xml softening.txt) # files of the case written by hand
 if(NOT made STREQUAL committed)
   message(FATAL_ERROR "made: ${made}; committed: ${committed}")
 endif()

@@ -1,4 +1,5 @@
-/* The truth behind the bundled case. SPDX-License-Identifier: GPL-3.0-or-later */
+/* True values of the bundled case.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef TESTS_GENERATE_GENERATE_H
 #define TESTS_GENERATE_GENERATE_H
 
@@ -11,38 +12,39 @@
 #define TRUTH_C2 110.0
 #define TRUTH_TERMS 23
 
-/* Indentation at 23 degC; the wear track is softer by one factor at all rates. */
+/* Indentation at 23 degC; the wear track is softer by the same factor at all rates. */
 #define TRUTH_TEMPERATURE 296.15
 #define TRUTH_RATIO 0.64
 
-/* The road: C0 [m^4] up to a roll-off [rad/m], and the law above it. */
+/* The road: C0 [m^4] up to a roll-off [rad/m], and a power law above it. */
 #define TRUTH_ROAD_C0 2e-17
 #define TRUTH_ROLL_OFF 4e3
 #define TRUTH_HURST 0.8
 
 wt_rubber truth_rubber(double relaxation_time[TRUTH_TERMS], double modulus[TRUTH_TERMS]);
-/* Vertical shift b(T): the measured moduli times b are those at the reference. */
+/* Vertical shift b(T): the measured moduli times b are those at the reference temperature. */
 double truth_vertical(double temperature);
 
-/* Normal deviates that are the same on every machine (up to the mathematical library). */
+/* Normal deviates that are equal on every machine (except for the mathematical library). */
 double truth_normal(uint64_t *state);
 
-/* A tip pressed into `factor` times the rubber by a lever whose base goes from contact at an even
- * rate by `travel`, and back. */
+/* A tip on a cantilever is pressed into a rubber with `factor` times the modulus. The base moves
+ * from contact at a constant rate by `travel` and back. */
 typedef struct truth_press {
     const wt_tip *tip;
     double spring_constant, travel, rate, factor, temperature;
 } truth_press;
-enum { TRUTH_STEPS = 400 }; /* each way */
-/* Travel that presses to about a depth: by |E*| at 1/(loading time). */
+enum { TRUTH_STEPS = 400 }; /* steps of each direction */
+/* Returns the travel for an approximate depth, by |E*| at 1/(loading time). */
 double truth_travel(const wt_material *material, const truth_press *p, double depth);
-/* Force at a time in steps. */
+/* Interpolates the force at a time in steps. */
 double truth_force_after(const double force[2 * TRUTH_STEPS + 1], double steps);
-/* Forces [N] at the ends of the steps. */
+/* Computes the forces [N] at the ends of the steps. */
 void truth_indent(const truth_press *p, const wt_rubber *rubber, double force[2 * TRUTH_STEPS + 1]);
 
-/* Each writes its files into a folder; 0, or -1 with a text on stderr. Variant 0 is the bundled
- * case; another one has the same truth and other errors of measurement. */
+/* Each function writes its files into a folder and returns 0, or -1 with a message on stderr.
+ * Variant 0 is the bundled case; other variants have the same truth and other measurement
+ * errors. */
 int generate_dma(const wt_rubber *rubber, const char *folder, uint64_t variant);
 int generate_curves(const wt_rubber *rubber, const char *folder, uint64_t variant, double ratio);
 int generate_road(const char *folder, uint64_t variant);

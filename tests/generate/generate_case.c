@@ -1,9 +1,9 @@
-/* Writes the data files of the bundled case and the truth behind them:
+/* Writes the data files of the bundled case and their true values:
  *   generate_case FOLDER CASE.xml [VARIANT [RATIO]]
- * CASE.xml has the conditions, and the road by its law.
- * The same bytes every time; variants, for counting how often a stated interval holds the truth,
- * differ in their errors of measurement, ratios in how soft the track is. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+ * CASE.xml states the conditions and the power law of the road.
+ * The output is reproducible. Variants differ in the measurement errors; they serve to count how
+ * often an interval contains the true value. RATIO is the softening of the track.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/run/stage_functions.h"
 #include "generate.h"
 
@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* Two terms for each decade from 1e-8 s to 1e3 s: the transition, and a slow process on the
- * plateau, without which horizontal and vertical shifts could not be told apart there. */
+ * plateau. Without the slow process horizontal and vertical shifts could not be separated there. */
 wt_rubber truth_rubber(double relaxation_time[TRUTH_TERMS], double modulus[TRUTH_TERMS])
 {
     for (int k = 0; k < TRUTH_TERMS; k++) {
@@ -115,7 +115,7 @@ int main(int argc, char **argv)
     const double ratio = argc > 4 ? strtod(argv[4], NULL) : TRUTH_RATIO;
     uint64_t variant = argc > 3 ? strtoull(argv[3], NULL, 10) : 0;
     wt_rubber rubber = truth_rubber(relaxation_time, modulus);
-    /* log b of the isotherms, for the material at another temperature */
+    /* log b of the isotherms, for a material at another temperature */
     double temperature[13], log_b[13];
     for (int i = 0; i < 13; i++) {
         temperature[i] = 243.15 + 10 * i;

@@ -1,5 +1,6 @@
-/* Force maps of bulk and wear track: four spots each, a map of four columns and three rows, one row
- * for each piezo rate. The rubber has the spectrum of the DMA, that of the track times one factor.
+/* Force maps of bulk and wear track: four positions each, a map of four columns and three rows, one
+ * row for each piezo rate. The rubber has the spectrum of the DMA; that of the track is multiplied
+ * by one factor.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "generate.h"
 #include "writers/jpk_writer.h"
@@ -16,10 +17,10 @@
 
 #define SPRING_CONSTANT 0.3 /* N/m */
 #define SENSITIVITY 60e-9   /* m/V */
-#define DEPTH 100e-9        /* of the deepest point [m] */
+#define DEPTH 100e-9        /* depth of the deepest point [m] */
 #define FREE 250e-9         /* travel before contact [m] */
-#define NOISE 40e-12        /* of the force [N] */
-#define SPOT_SCATTER 0.04   /* standard deviation of ln E between and within spots */
+#define NOISE 40e-12        /* standard deviation of the force [N] */
+#define SPOT_SCATTER 0.04   /* standard deviation of ln E between and within positions */
 #define CURVE_SCATTER 0.03
 
 static const double piezo_rate[RATES] = {0.2e-6, 2e-6, 20e-6};
@@ -30,7 +31,7 @@ typedef struct buffers {
     jpk_writer_curve curve[CURVES];
 } buffers;
 
-static wt_tip the_tip(void)
+static wt_tip case_tip(void)
 {
     wt_tip tip = {.shape = WT_TIP_BLUNTED_PYRAMID, .sides = 4};
     tip.half_angle = 20 * 3.14159265358979323846 / 180;
@@ -88,8 +89,8 @@ int generate_curves(const wt_rubber *rubber, const char *folder, uint64_t varian
 {
     static const char *const zone[2] = {"bulk", "track"};
     int result = -1;
-    uint64_t seed = 65 + (variant << 32); /* by 64 the ratio depends on the rate, by chance */
-    wt_tip tip = the_tip();
+    uint64_t seed = 65 + (variant << 32); /* with 64 the ratio depends on the rate by chance */
+    wt_tip tip = case_tip();
     wt_material *material = NULL;
     buffers *b = calloc(1, sizeof *b);
     if (b == NULL ||

@@ -7,7 +7,7 @@
 
 #define ISOTHERMS 12
 #define FREQUENCIES 16
-#define NOISE 0.005 /* relative, of each modulus */
+#define NOISE 0.005 /* relative noise of each modulus */
 
 /* Storage and loss modulus in shear at an angular frequency and a temperature. */
 static void modulus(const wt_rubber *rubber, double omega, double temperature, double *storage,

@@ -1,13 +1,14 @@
-/* A part of a made surface as Gwyddion Simple Field. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A part of a synthetic surface as Gwyddion Simple Field.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "generate_field.h"
 
 #include <stdio.h>
 
-int write_field(const char *folder, const char *name, const made_surface *s, size_t n, size_t rows,
-                size_t x, size_t y)
+int write_field(const char *folder, const char *name, const synthetic_surface *s, size_t n,
+                size_t rows, size_t x, size_t y)
 {
     char path[1024];
-    double *z = make_surface(s);
+    double *z = surface_create(s);
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *out = fopen(path, "wb");
     if (out == NULL)

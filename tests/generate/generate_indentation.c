@@ -1,7 +1,7 @@
-/* A tip at the end of a lever that goes into rubber with memory and out again at one rate: the
- * integrals of Lee and Radok (J. Appl. Mech. 27 (1960) 438) on the way in and of Ting (J. Appl.
- * Mech. 33 (1966) 845) on the way out as sums over the whole past, with the mean of E(t) over each
- * step of time, of which a curve has so many that what they leave is far below the noise.
+/* A tip on a cantilever indents a viscoelastic rubber and retracts at one rate. The approach uses
+ * the integral of Lee and Radok (J. Appl. Mech. 27 (1960) 438), the retraction that of Ting (J.
+ * Appl. Mech. 33 (1966) 845). Both are sums over the whole history with the mean of E(t) over each
+ * time step. The steps are so many that their error is far below the noise.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "generate.h"
 
@@ -51,7 +51,7 @@ double truth_force_after(const double force[2 * TRUTH_STEPS + 1], double steps)
     return force[i] + fmin(fmax(steps - i, 0), 1) * (force[i + 1] - force[i]);
 }
 
-/* E(t) at a temperature, as its mean from one time to another. */
+/* Mean of E(t) between two times at a temperature. */
 static double mean_relaxation(const wt_rubber *rubber, double temperature, double from, double to)
 {
     const double a = pow(10, wt_wlf_log_shift(&rubber->law.wlf, temperature));
@@ -84,8 +84,7 @@ static double depth_at(const truth_press *p, double travel, double past, double 
     return (low + high) / 2;
 }
 
-/* Integral of E dx over the steps after `from` up to `to`, as it is at the end of step `to_time`.
- */
+/* Integral of E dx over the steps after `from` up to `to`, at the end of step `to_time`. */
 static double integral(const double *e, const double *x, int from, int to, int to_time)
 {
     double sum = 0;
@@ -94,10 +93,10 @@ static double integral(const double *e, const double *x, int from, int to, int t
     return sum;
 }
 
-/* The force on the way out: that of the contact at t1, from which on the integral of E ddepth is
- * zero. *t1, which falls: the last end of a step where it is not negative; -1: the tip is free. */
-static double way_out(const truth_press *p, const double *e, const double *f, double *depth,
-                      double travel, int i, int *t1)
+/* Force on retraction: that of the contact at t1, from which on the integral of E ddepth is zero.
+ * *t1, which decreases, is the end of the last step where it is not negative; -1: no contact. */
+static double retraction_force(const truth_press *p, const double *e, const double *f,
+                               double *depth, double travel, int i, int *t1)
 {
     double later = 0, force_later = 0;
     for (; *t1 >= 0; --*t1) {
@@ -122,13 +121,13 @@ void truth_indent(const truth_press *p, const wt_rubber *rubber, double force[2 
     double e[2 * TRUTH_STEPS], depth[2 * TRUTH_STEPS + 1] = {0}, f[2 * TRUTH_STEPS + 1] = {0};
     const double factor = p->factor / (1 - rubber->poisson_ratio * rubber->poisson_ratio);
     const double step = p->travel / p->rate / TRUTH_STEPS;
-    int top = 0, t1 = 0; /* steps of the way in, once that is over */
+    int top = 0, t1 = 0; /* number of steps of the approach, after its end */
     for (int i = 0; i < 2 * TRUTH_STEPS; i++)
         e[i] = factor * mean_relaxation(rubber, p->temperature, i * step, (i + 1) * step);
     force[0] = 0;
     for (int i = 1; i <= 2 * TRUTH_STEPS; i++) {
         const double travel = p->travel * (1 - fabs(1 - (double)i / TRUTH_STEPS));
-        if (top == 0) { /* the lever takes it deeper for a while after the piezo has turned */
+        if (top == 0) { /* The cantilever increases the depth for a while after the piezo turns. */
             const double past = integral(e, f, 0, i - 1, i) - e[0] * f[i - 1];
             depth[i] = depth_at(p, travel, past, e[0]);
             f[i] = force_at(p, depth[i]);
@@ -137,7 +136,7 @@ void truth_indent(const truth_press *p, const wt_rubber *rubber, double force[2 
                 continue;
             t1 = top = i - 1;
         }
-        force[i] = way_out(p, e, f, depth, travel, i, &t1);
-        t1 = t1 < 0 || t1 == top ? t1 : t1 + 1; /* where the next one begins to look */
+        force[i] = retraction_force(p, e, f, depth, travel, i, &t1);
+        t1 = t1 < 0 || t1 == top ? t1 : t1 + 1; /* start of the next search */
     }
 }

@@ -1,8 +1,9 @@
 /* Four compounds after mild and after severe sliding: force curves of bulk and tracks as text, a
- * case file for each compound and severity, and the truth behind them:
+ * case file for each compound and severity, and the true values:
  *   generate_severity FOLDER [VARIANT]
- * The track is softer by a factor that depends on the rate; variants differ in the errors of
- * measurement. SPDX-License-Identifier: GPL-3.0-or-later */
+ * The track is softer by a factor that depends on the rate; variants differ in the measurement
+ * errors.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "generate.h"
 
 #include <math.h>
@@ -11,8 +12,8 @@
 
 enum { COMPOUNDS = 4, ZONES = 3, SPOTS = 4, RATES = 3, TERMS = 11, APPROACH = 72, RETRACT = 8 };
 
-/* Carbon black (C) and silica (S), of high and low load: stiffness of the rubber, and the rise of
- * the modulus by the filler. */
+/* Carbon black (C) and silica (S) at high and low content: stiffness of the rubber, and rise of the
+ * modulus by the filler. */
 static const struct {
     const char *name, *file;
     double plateau, transition;
@@ -21,20 +22,22 @@ static const struct {
                           {"HS", "hs", 1.3e6, 2.2e7},
                           {"LS", "ls", 0.7e6, 1.1e7}};
 
-/* The first zone is the bulk, which both severities have in common. */
+/* The first zone is the bulk, which both severities share. */
 static const struct {
     const char *name;
-    double ratio, pressure; /* track over bulk at the rate in the middle; of sliding [MPa] */
+    /* ratio of track and bulk at the middle rate; pressure of sliding [MPa] */
+    double ratio, pressure;
 } zones[ZONES] = {{"bulk", 1, 0}, {"mild", 0.80, 0.2}, {"severe", 0.55, 0.8}};
 
 static const double piezo_rate[RATES] = {0.2e-6, 2e-6, 20e-6}; /* [m/s] */
-static const double per_decade = 0.90;                         /* of the ratio, by the rate */
+/* change of the ratio with the rate */
+static const double per_decade = 0.90;
 
 static const double spring_constant = 0.3; /* [N/m] */
 static const double tip_radius = 20e-9, half_angle = 20;
 static const double depth = 100e-9, free_travel = 140e-9; /* [m] */
-static const double noise = 40e-12;                       /* of the force [N] */
-/* Standard deviations of ln E between and within spots. */
+static const double noise = 40e-12;                       /* standard deviation of the force [N] */
+/* Standard deviations of ln E between and within positions. */
 static const double spot_scatter = 0.03, curve_scatter = 0.02;
 
 typedef struct compound_rubber {

@@ -1,15 +1,17 @@
-/* Makes the height maps of fixtures/surface: two places of a random surface with a spectrum that is
- * known, one of it in a smaller window and profiles, as Gwyddion Simple Field.
- * Usage: generate_surface FOLDER. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes the height maps of fixtures/surface as Gwyddion Simple Field: two positions of a random
+ * surface with a known spectrum, one smaller window, and profiles.
+ *
+ * Usage: generate_surface FOLDER
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "generate_field.h"
 
 #include <stdio.h>
 
-/* Of a ground steel or fine asphalt: 1 um rms, waves down to two points. */
-static const made_surface wide = {256, 200e-6, 21, 126, 6e-26, 6e5, 0.8, 0, true, 0};
-/* Of the bundled case: a road of 40 um rms. */
-static const made_surface road = {256, 6.4e-3, 23, 126, 2e-17, 4e3, 0.8, 0, true, 0};
-static const made_surface narrow = {256, 20e-6, 22, 126, 6e-26, 6e5, 0.8, 0, true, 0};
+/* Ground steel or fine asphalt: 1 um rms, waves down to two points. */
+static const synthetic_surface wide = {256, 200e-6, 21, 126, 6e-26, 6e5, 0.8, 0, true, 0};
+/* The bundled case: a road of 40 um rms. */
+static const synthetic_surface road = {256, 6.4e-3, 23, 126, 2e-17, 4e3, 0.8, 0, true, 0};
+static const synthetic_surface narrow = {256, 20e-6, 22, 126, 6e-26, 6e5, 0.8, 0, true, 0};
 
 int main(int argc, char **argv)
 {

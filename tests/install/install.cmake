@@ -1,6 +1,6 @@
-# Installs into an empty prefix, moves it, builds and runs a small consumer with the CMake package
-# and with pkg-config, and runs the installed command. Library, CMake package and .pc file hold what
-# the head of core.h promises.
+# Installs into an empty prefix, moves it, builds and runs a small consumer with the CMake package and
+# with pkg-config, and runs the installed command. Library, CMake package and .pc file have the properties
+# that the head of core.h promises.
 # Run: cmake -DBUILD=.. -DSOURCE=.. -DWORK=.. -DCC=.. -DREADELF=.. -DVERSION=.. -DCFLAGS=..
 #            -DGENERATOR=.. -P install.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
@@ -18,7 +18,7 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
-# Nothing installed may know where it was installed to, or built.
+# No installed file contains the path of its installation or build.
 file(RENAME ${WORK}/first ${WORK}/moved)
 set(prefix ${WORK}/moved)
 
@@ -39,7 +39,7 @@ foreach(pattern IN ITEMS "^bin/weartrack$" "^lib/.*libweartrack\\.so" "^include/
   endif()
 endforeach()
 foreach(file IN LISTS installed)
-  # sanitizers keep the names of source files for their reports
+  # sanitizers store names of source files for their reports
   if(CFLAGS MATCHES "-fsanitize")
     break()
   endif()
@@ -51,7 +51,7 @@ foreach(file IN LISTS installed)
   endif()
 endforeach()
 
-# The loader is told one folder: that beside the command.
+# The loader has one folder: that of the library relative to the command.
 file(GLOB library ${prefix}/lib*/libweartrack.so ${prefix}/lib*/*/libweartrack.so)
 foreach(file IN ITEMS ${prefix}/bin/weartrack ${library})
   run(${READELF} -d ${file})
@@ -68,7 +68,7 @@ if(NOT dynamic MATCHES "^SONAME[^[]*\\[libweartrack\\.so\\.([0-9.]+)\\]$" OR NOT
   message(SEND_ERROR "the soname does not end in ${abi}, or a folder of libraries is named: ${dynamic}")
 endif()
 
-# The CMake package fits what the soname fits.
+# The CMake package accepts the same versions as the soname.
 file(GLOB_RECURSE version_file "${prefix}/*/weartrack-config-version.cmake")
 function(check_fits major minor expected)
   set(PACKAGE_FIND_VERSION ${major}.${minor})
@@ -125,7 +125,7 @@ if(NOT output MATCHES "^weartrack [0-9]")
 endif()
 run(${prefix}/bin/weartrack formats list)
 
-# Nothing said: optimised. A library folder of its own outside the prefix: the .pc file names both.
+# The default build is optimised. The library folder is outside the prefix; the .pc file states both.
 unset(ENV{CMAKE_BUILD_TYPE})
 run(${CMAKE_COMMAND} -G "${GENERATOR}" -S ${SOURCE} -B ${WORK}/plain -DCMAKE_C_COMPILER=${CC}
     -DBUILD_TESTING=OFF -DCMAKE_INSTALL_PREFIX=/opt/weartrack -DCMAKE_INSTALL_LIBDIR=/usr/lib64)

@@ -1,11 +1,11 @@
-/* Changes one place of the sources, and draws places to change.
- *   mutate check ROOT LIST           every place of the list is found exactly once
- *   mutate lines LIST                a line for each record: file, function, find, put, tests,
- *                                    equivalent, slow; tabs between
- *   mutate apply ROOT LIST N         makes change N (from 1) in the file under ROOT
- *   mutate draw ROOT SEED N FILE...  prints N drawn changes as a list: a function evenly of all in
- *                                    the files, then a place of it, then a change
- * See the list for the form of a record.
+/* Changes one position of the source, and draws positions to change.
+ *   mutate check ROOT LIST           checks that every position of the list is found once
+ *   mutate lines LIST                prints a line for each record, separated by tabs: file,
+ *                                    function, find, put, tests, equivalent, slow
+ *   mutate apply ROOT LIST N         applies change N (from 1) to the file under ROOT
+ *   mutate draw ROOT SEED N FILE...  draws N changes and prints them as a list: first a function,
+ *                                    then a position in it, then a change
+ * The head of the list describes a record.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "places.h"
 
@@ -30,7 +30,7 @@ static void fail_at(const char *path, size_t line, const char *what)
     exit(2);
 }
 
-/* Lines of a word and its text; a blank line ends a record, '#' starts a comment. */
+/* Each line is a key and its text; a blank line ends a record, '#' starts a comment. */
 static bool next_record(FILE *in, const char *path, size_t *line, record *r)
 {
     char text[TEXT];
@@ -79,7 +79,8 @@ static FILE *open_list(const char *path)
 
 /* ---- finding and changing -------------------------------------------------------------------- */
 
-/* First token of the place, with its length in tokens; says why not. */
+/* Returns the first token of the position and its number of tokens; prints the reason on
+ * failure. */
 static bool locate(const source *s, const record *r, size_t *first, size_t *n)
 {
     source part = source_of_text(r->find);
@@ -177,16 +178,16 @@ static int apply(const char *root, const char *list, long number)
 
 /* ---- drawing --------------------------------------------------------------------------------- */
 
-/* splitmix64: the same places on every machine. */
+/* splitmix64, which draws the same positions on every machine. */
 static uint64_t random_below(uint64_t *state, uint64_t n)
 {
     uint64_t z = (*state += UINT64_C(0x9E3779B97F4A7C15));
     z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
     z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
-    return (z ^ (z >> 31)) % n; /* n is small: the bias is not seen */
+    return (z ^ (z >> 31)) % n; /* n is small, so that the bias is negligible. */
 }
 
-/* Tokens first..end on one line, a blank where there was any. */
+/* Prints the tokens first..end on one line; white space becomes one blank. */
 static void print_tokens(const source *s, size_t first, size_t end)
 {
     for (size_t i = first; i < end; i++) {
@@ -197,8 +198,7 @@ static void print_tokens(const source *s, size_t first, size_t end)
     }
 }
 
-/* Prints the change with as many tokens around it as make it the only such place in its function.
- */
+/* Prints the change with enough tokens around it to be unique in its function. */
 static bool print_change(const char *file, const source *s, const function *f, const place *p)
 {
     size_t first = p->first, end = p->end;
@@ -226,7 +226,7 @@ static bool print_change(const char *file, const source *s, const function *f, c
     return true;
 }
 
-/* A place evenly of those of the function, then one of its changes. */
+/* Draws a position of the function, then one of its changes. */
 static const place *draw_place(const place *places, size_t n, uint64_t *state)
 {
     size_t n_name_slots = 0, chosen, i = 0;

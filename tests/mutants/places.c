@@ -1,4 +1,4 @@
-/* What can be changed in a function.
+/* Possible changes in a function.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "places.h"
 
@@ -41,7 +41,7 @@ static bool is_one_of(const token *t, const char *const *words)
     return false;
 }
 
-/* Something that has a value ends here, so that a sign behind it stands between two operands. */
+/* True if an operand ends at this token, so that a following sign is a binary operator. */
 static bool ends_operand(const token *t)
 {
     static const char *const words[] = {"return", "case", "sizeof", "else", "do", NULL};
@@ -56,7 +56,7 @@ static void change_signs(list *l, size_t i)
 {
     static const struct {
         const char *sign, *put;
-        bool between; /* only between two operands */
+        bool between; /* binary operator only */
     } changes[] = {
         {"<", "<=", true},   {"<", ">", true},    {"<=", "<", true},   {"<=", ">=", true},
         {">", ">=", true},   {">", "<", true},    {">=", ">", true},   {">=", "<=", true},
@@ -79,7 +79,7 @@ static void change_signs(list *l, size_t i)
 
 /* ---- numbers, keys, statuses ----------------------------------------------------------------- */
 
-/* sizeof x[0], sizeof(x[0]): any element will do. */
+/* sizeof x[0], sizeof(x[0]): the index has no effect. */
 static bool in_sizeof(const list *l, size_t i)
 {
     for (size_t back = 3; back <= 4 && i >= l->f->first + back; back++)
@@ -112,7 +112,7 @@ static void change_number(list *l, size_t i)
         add(l, i, i + 1, put);
 }
 
-/* Keys and names of columns: lower case, digits and '_', which no sentence is. */
+/* Keys and names of columns have lower case letters, digits and '_' only. */
 static void change_key(list *l, size_t i)
 {
     const token *t = at(l, i);
@@ -147,8 +147,8 @@ static void change_name(list *l, size_t i)
 
 /* ---- arguments ------------------------------------------------------------------------------- */
 
-/* End of an argument that starts at i: the comma or the bracket behind it. *simple: a name, a
- * number, a member or an element, so that two of them may be exchanged. */
+/* Returns the end of an argument that starts at i: the comma or bracket after it. *simple: the
+ * argument is a name, a number, a member or an element, which may be exchanged with another one. */
 static size_t argument_end(const list *l, size_t i, bool *simple)
 {
     int depth = 0;
@@ -209,7 +209,7 @@ static bool only_frees(const token *t)
     return false;
 }
 
-/* A call or an assignment as a statement of its own. */
+/* A call or an assignment as a separate statement. */
 static void delete_statement(list *l, size_t i)
 {
     static const char *const starts[] = {";", "{", "}", ")", "else", NULL};
@@ -232,7 +232,7 @@ static void delete_statement(list *l, size_t i)
             continue;
         depth += strchr("([{", *u->text) != NULL ? 1 : strchr(")]}", *u->text) != NULL ? -1 : 0;
         if (depth < 0)
-            return; /* the head of a loop */
+            return; /* loop header */
         if (depth == 0 && token_is(u, ";")) {
             add(l, i, k + 1, ";");
             return;

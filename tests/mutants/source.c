@@ -120,7 +120,7 @@ bool token_is(const token *t, const char *text)
 
 /* ---- functions ------------------------------------------------------------------------------- */
 
-/* The token after the one that closes what token i opens. */
+/* Returns the token after the one that closes the bracket at token i. */
 static size_t after_closing(const source *s, size_t i)
 {
     const char open = *s->tokens[i].text, close = open == '(' ? ')' : '}';
@@ -136,14 +136,15 @@ static size_t after_closing(const source *s, size_t i)
     return i;
 }
 
-/* NAME ( ... ) { ... } outside of all braces. */
+/* NAME ( ... ) { ... } outside all braces. */
 static void find_functions(source *s)
 {
     for (size_t i = 0; i + 1 < s->n_tokens;) {
         const token *t = &s->tokens[i];
         if (t->directive) {
             i++;
-        } else if (token_is(t, "{")) { /* of a type or a table; 'extern "C" {' is left open */
+            /* braces of a type or a table; 'extern "C" {' is not skipped */
+        } else if (token_is(t, "{")) {
             const bool linkage = i > 0 && s->tokens[i - 1].kind == TOKEN_STRING;
             i = linkage ? i + 1 : after_closing(s, i);
         } else if (t->kind == TOKEN_NAME && token_is(&s->tokens[i + 1], "(")) {

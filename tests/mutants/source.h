@@ -1,4 +1,4 @@
-/* A C file as tokens and functions: enough of the language to find a place and to change it.
+/* A C file as tokens and functions, as far as a change needs them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef TESTS_MUTANTS_SOURCE_H
 #define TESTS_MUTANTS_SOURCE_H
@@ -10,9 +10,9 @@ typedef enum token_kind { TOKEN_NAME, TOKEN_NUMBER, TOKEN_STRING, TOKEN_SIGN } t
 
 typedef struct token {
     token_kind kind;
-    const char *text; /* in the text of the source */
+    const char *text; /* position in the source text */
     size_t length;
-    bool directive; /* of a preprocessor line */
+    bool directive; /* token of a preprocessor line */
 } token;
 
 typedef struct function {
@@ -29,16 +29,16 @@ typedef struct source {
     size_t n_functions;
 } source;
 
-/* Both end the program on a failure of the system. */
+/* Both end the program if the system fails. */
 source source_read(const char *path);
-source source_of_text(const char *text); /* a part of a file: tokens only */
+source source_of_text(const char *text); /* splits a part of a file into tokens */
 void source_free(source *s);
 
 bool token_is(const token *t, const char *text);
-/* Number of places in tokens first..end where the tokens of `part` follow one another, comments and
- * blanks apart; *at is the last one. */
+/* Counts the matches of the tokens of `part` in the tokens first..end, ignoring white space and
+ * comments. *at is the last match. */
 size_t source_find(const source *s, size_t first, size_t end, const source *part, size_t *at);
-/* NULL if there is none of this name. */
+/* Returns NULL if there is no function of this name. */
 const function *source_function(const source *s, const char *name);
 
 #endif

@@ -1,4 +1,4 @@
-/* Reads numeric cases from plain text, so that who knows the field can add one without C:
+/* Reads numeric cases from plain text, so that a domain expert can add one without C:
  *
  *   case NAME
  *   given KEY VALUE...
@@ -16,10 +16,10 @@
 enum { CASE_LINES = 64, CASE_VALUES = 64, CASE_NAME = 48 };
 
 typedef struct case_line {
-    bool expected; /* expect, not given */
+    bool expected; /* expect line; false: given line */
     char key[CASE_NAME];
-    char word[CASE_NAME]; /* the first value as it stands */
-    size_t n;             /* numbers */
+    char word[CASE_NAME]; /* first value as text */
+    size_t n;             /* number of values */
     double value[CASE_VALUES];
 } case_line;
 
@@ -46,8 +46,8 @@ static inline void case_split(char *text, case_line *line)
     }
 }
 
-/* The next case of a file; false at its end. A line that is none of the three words, or too much
- * for a case, ends the program: a case must not be skipped unseen. */
+/* Reads the next case of a file; returns false at its end. An invalid line or too many values end
+ * the program, so that no case is skipped. */
 static inline bool case_read(FILE *in, numeric_case *c)
 {
     char text[4096];
@@ -79,7 +79,7 @@ static inline bool case_read(FILE *in, numeric_case *c)
     }
 }
 
-/* The line with a key, NULL if there is none. */
+/* Returns the line with a key, or NULL. */
 static inline const case_line *case_find(const numeric_case *c, bool expected, const char *key)
 {
     for (size_t i = 0; i < c->n; i++)
@@ -88,14 +88,14 @@ static inline const case_line *case_find(const numeric_case *c, bool expected, c
     return NULL;
 }
 
-/* The word behind a key, "" if the case does not have it. */
+/* Returns the word after a key, or "". */
 static inline const char *case_word(const numeric_case *c, bool expected, const char *key)
 {
     const case_line *line = case_find(c, expected, key);
     return line ? line->word : "";
 }
 
-/* A single given or expected number, `missing` if the case does not have it. */
+/* Returns a single number, or `missing`. */
 static inline double case_number(const numeric_case *c, bool expected, const char *key,
                                  double missing)
 {

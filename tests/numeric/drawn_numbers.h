@@ -1,4 +1,4 @@
-/* Numbers drawn by a seed, for tests that draw scenes of friction.
+/* Random numbers from a seed, for tests that draw friction scenes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_NUMERIC_DRAWN_NUMBERS_H
 #define WT_TESTS_NUMERIC_DRAWN_NUMBERS_H

@@ -1,5 +1,5 @@
-/* One case of sliding, as numbers: read from friction.txt and its like, and as material and
- * roughness of the library. */
+/* One friction case as numbers. It is read from friction.txt and similar files and becomes a
+ * material and a roughness of the library. */
 #ifndef WT_TESTS_FRICTION_SCENE_H
 #define WT_TESTS_FRICTION_SCENE_H
 
@@ -13,23 +13,23 @@ typedef enum law_kind { PRONY, TABLE, ZENER } law_kind;
 
 typedef struct scene {
     law_kind law;
-    bool slope;            /* the end slopes of a table go on */
-    bool transverse;       /* with these: */
-    wt_transverse factors; /* */
-    size_t n;              /* terms or knots */
-    double e0, alpha;      /* Zener: e[0], e[1], tau[0] */
+    bool slope;      /* extrapolates the end slopes of a table */
+    bool transverse; /* uses the factors below */
+    wt_transverse factors;
+    size_t n;         /* terms or knots */
+    double e0, alpha; /* Zener: e[0], e[1], tau[0] */
     const double *e, *tau, *loss;
     double nu, pressure, velocity, gamma;
     double q0, qr, q1, hurst, c0;
-    size_t n_density; /* 0: self-affine */
+    size_t n_density; /* 0: self-affine spectrum */
     const double *wavenumber, *density;
-    double thickness, ratio; /* of a layer; 0: none */
-    size_t n_strain;         /* of a softening; 0: none */
+    double thickness, ratio; /* thickness and modulus ratio of a layer; 0: none */
+    size_t n_strain;         /* strains of a softening; 0: none */
     const double *strain, *f, *g;
     double strain_factor;
 } scene;
 
-/* Of the library. */
+/* Creates the material of the library. */
 static inline wt_status scene_material(const scene *s, wt_material **material, wt_error *err)
 {
     wt_prony prony = {.deformation = WT_TENSION,
@@ -66,7 +66,7 @@ static inline wt_status scene_roughness(const scene *s, wt_roughness **roughness
     return wt_roughness_self_affine(s->q0, s->qr, s->q1, s->hurst, s->c0, roughness, err);
 }
 
-/* None without points. */
+/* Returns no table without points. */
 static inline wt_softening scene_softening(const scene *s)
 {
     return (wt_softening){.n = s->n_strain,
@@ -79,7 +79,7 @@ static inline wt_softening scene_softening(const scene *s)
 
 enum { SCENE_MOST = 2000 };
 
-/* A scene and room for its numbers. */
+/* A scene with storage for its numbers. */
 typedef struct case_scene {
     scene s;
     double e[SCENE_MOST], tau[SCENE_MOST], loss[SCENE_MOST];
@@ -96,9 +96,9 @@ static inline size_t case_numbers(const numeric_case *c, const char *key, double
     return line->n;
 }
 
-/* given spread N TAU TAU E E: terms at equal distances of the logarithm, from the first to the
- * last. given noisy N OMEGA OMEGA E E TAN NOISE: knots likewise, E'' = TAN E', both times exp(NOISE
- * u), u between -1 and 1 by chance. */
+/* given spread N TAU TAU E E: terms at equal logarithmic distances, from the first to the last.
+ * given noisy N OMEGA OMEGA E E TAN NOISE: knots at equal distances, E'' = TAN E', both multiplied
+ * by exp(NOISE u) with u uniform in -1..1. */
 static inline void case_made(const numeric_case *c, case_scene *made)
 {
     const case_line *spread = case_find(c, false, "spread"), *noisy = case_find(c, false, "noisy");

@@ -1,8 +1,9 @@
-/* Friction by an own quadrature that shares nothing with the library: G, P and mu of one scene in
- * long double, or in quad precision where FRICTION_TRUTH_QUAD is defined (gcc). Double sums instead
- * of the closed forms; the angle knot by knot; panels in ln q that are halved until the integrand
- * is a polynomial to 16 digits; of a solid with directions the compliance of its surface as it
- * stands in the books. */
+/* Friction by a quadrature that is independent of the library: G, P and mu of one scene in long
+ * double, or in quad precision with FRICTION_TRUTH_QUAD (gcc).
+ *
+ * Double sums replace the closed forms, and the angle is integrated from knot to knot. Subintervals
+ * in ln q are halved until the integrand is a polynomial to 16 digits. A transversely isotropic
+ * solid uses the published compliance of its surface. */
 #ifndef WT_TESTS_FRICTION_TRUTH_H
 #define WT_TESTS_FRICTION_TRUTH_H
 
@@ -17,7 +18,7 @@ typedef __float128 real;
 typedef __complex128 pair;
 #define FN(name) name##q
 #define TRUTH_PI M_PIq
-#define TRUTH_DEEP 80 /* e-folds below w that count */
+#define TRUTH_DEEP 80 /* number of e-folds below w that contribute */
 #define TRUTH_SMALL (real)1e-16
 #else
 #include <complex.h>
@@ -37,10 +38,10 @@ typedef struct truth {
 
 enum { NODES = 20 };
 
-/* Gauss-Legendre on [0, 1], the Legendre polynomials at its nodes, and the integrals from 0 to each
- * node of the polynomials that are 1 at one node and 0 at the others. */
+/* Gauss-Legendre rule on [0, 1], the Legendre polynomials at its nodes, and the integrals from 0 to
+ * each node of the Lagrange polynomials. */
 static real node[NODES], weight[NODES], legendre[NODES][NODES], running[NODES][NODES];
-/* For pieces of the angle: the poles next to one let 12 nodes leave less than 1e-24. */
+/* Subintervals of the angle: near a pole 12 nodes have an error below 1e-24. */
 enum { ANGLES = 12 };
 static real angle_node[ANGLES], angle_weight[ANGLES];
 
@@ -91,7 +92,7 @@ static void make_rule(void)
         }
 }
 
-/* Legendre coefficients; how far they are from ending. */
+/* Computes Legendre coefficients and the size of the last ones. */
 static real expand(const real *value, real *coefficient)
 {
     real most = 0;
@@ -105,8 +106,8 @@ static real expand(const real *value, real *coefficient)
     return most > 0 ? tail / most : 0;
 }
 
-/* Whether halves would be no better: they end, or `before`, of twice the width, shows that what is
- * left is rounding. */
+/* True if halves are not more accurate: the coefficients decay, or `before`, from twice the width,
+ * shows that only rounding is left. */
 static bool is_fine(real tail, real before)
 {
     return tail <= TRUTH_SMALL || (tail <= (real)1e-9 && tail > before / 4);
@@ -123,11 +124,10 @@ static real series_at(const real *coefficient, real x)
 
 /* ---- material -------------------------------------------------------------------------------- */
 
-/* Of a table, from knot to knot, for the scene in question: logarithms of frequencies and moduli.
- */
+/* Table of the current scene, from knot to knot: logarithms of frequencies and moduli. */
 static real log_width[SCENE_MOST], log_storage[SCENE_MOST], log_loss[SCENE_MOST];
 
-static void take_logarithms(const scene *s)
+static void compute_logarithms(const scene *s)
 {
     for (size_t k = 0; s->law == TABLE && k + 1 < s->n; k++) {
         log_width[k] = FN(log)((real)s->tau[k + 1] / s->tau[k]);
@@ -177,7 +177,7 @@ static void law_modulus(const scene *s, real omega, real *storage, real *loss)
     *loss = im;
 }
 
-/* Those of the strain in question. */
+/* Strain softening of the current scene. */
 static real soft_storage = 1, soft_loss = 1;
 
 static void modulus(const scene *s, real omega, real *storage, real *loss)
@@ -206,14 +206,14 @@ static void modulus(const scene *s, real omega, real *storage, real *loss)
 
 /* ---- angle ----------------------------------------------------------------------------------- */
 
-/* From ln(omega / w) = -low to -high, 0 <= high < low, where the moduli are smooth and steep by no
- * more than one e-fold over `wide`: cos(phi) = exp(-t^2). */
+/* From ln(omega / w) = -low to -high, 0 <= high < low, where the moduli are smooth and change by at
+ * most one e-fold over `wide`: cos(phi) = exp(-t^2). */
 static void angle_piece(const scene *s, real w, real low, real high, real wide, real *j1, real *j2)
 {
     const real end = FN(sqrt)(low), longest = s->transverse ? (real)0.2 : (real)0.35;
     real from = FN(sqrt)(high);
     while (from < end) {
-        const real more = wide * (1 + from * from / 8); /* c^s is next to nothing there */
+        const real more = wide * (1 + from * from / 8); /* c^s is negligible there. */
         const real to = FN(fmin)(FN(fmin)(from + longest, FN(sqrt)(from * from + more)), end);
         for (int i = 0; i < ANGLES; i++) {
             const real t = from + (to - from) * angle_node[i], c = FN(exp)(-t * t);
@@ -228,7 +228,7 @@ static void angle_piece(const scene *s, real w, real low, real high, real wide, 
     }
 }
 
-/* Likewise where they are constant. */
+/* The same where the moduli are constant. */
 static void angle_constant(const scene *s, real omega, real low, real high, real *j1, real *j2)
 {
     real storage, loss;
@@ -238,7 +238,7 @@ static void angle_constant(const scene *s, real omega, real low, real high, real
     *j2 += 4 * (storage * storage + loss * loss) * (FN(asin)(high) - FN(asin)(low));
 }
 
-/* Slopes of ln E' and ln E'' between two knots: the less and the steeper. */
+/* Slopes of ln E' and ln E'' between two knots: the smaller and the larger. */
 static void table_slopes(size_t k, real *least, real *most)
 {
     const real storage = log_storage[k] / log_width[k], loss = log_loss[k] / log_width[k];
@@ -316,7 +316,7 @@ static real density_at(const scene *s, real q)
     return s->density[k] * FN(pow)((real)s->density[k + 1] / s->density[k], t);
 }
 
-/* Burmister (1943), nu = 1/2, bonded: over the modulus of the bulk. */
+/* Burmister (1943), nu = 1/2, bonded layer; relative to the modulus of the bulk. */
 static real layer_scale(const scene *s, real q)
 {
     if (!(s->thickness > 0))
@@ -327,7 +327,8 @@ static real layer_scale(const scene *s, real q)
            (1 + 4 * n * x * e - n * n * e * e);
 }
 
-/* int k^4 C dt up to t, on pieces between the bends of the spectrum; a power law in each. */
+/* int k^4 C dt up to t, on subintervals between the slope changes of the spectrum, each a power
+ * law. */
 static real slope_moment(const scene *s, real t)
 {
     const size_t bends = s->n_density > 0 ? s->n_density : 1;
@@ -354,8 +355,8 @@ static real strain_at(const scene *s, real t)
     return s->strain_factor * FN(sqrt)(2 * TRUTH_PI * slope_moment(s, t));
 }
 
-/* Where a strain is met, by halves; a negative number if it is not. */
-static real strain_met(const scene *s, real strain, real length)
+/* Finds by bisection where the strain is reached; a negative number if it is not. */
+static real find_strain(const scene *s, real strain, real length)
 {
     real low = 0, high = length;
     if (!(strain_at(s, length) > strain))
@@ -406,7 +407,7 @@ static real area(real variance)
 
 /* t = from + (root + width u)^2 - root^2, with g and mu as polynomials in u. */
 typedef struct panel {
-    real root, width, start; /* start: G before it */
+    real root, width, start; /* start: G in front of the subinterval */
     real g[NODES], mu[NODES];
     real gamma;
 } panel;
@@ -427,7 +428,7 @@ static real rise(const panel *p, real a, real b)
     return sum;
 }
 
-/* P is 1 to 30 digits below it. */
+/* P is 1 to 30 digits below this point. */
 static const double full_contact = 0.0037;
 
 /* int S P mu dt from u = a, where G is `variance`, to b. */
@@ -486,7 +487,7 @@ static int rising(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* make_rule comes first. */
+/* Call make_rule first. */
 static truth truth_of(const scene *s)
 {
     const real length = FN(log)((real)s->q1 / s->q0), widest = (real)0.7;
@@ -494,7 +495,7 @@ static truth truth_of(const scene *s)
     truth sum = {0, 0};
     if (cut == NULL)
         return sum;
-    take_logarithms(s);
+    compute_logarithms(s);
     size_t n = 0, knot = 0;
     cut[n++] = length;
     if (s->n_density == 0 && s->qr > s->q0 && s->qr < s->q1)
@@ -505,12 +506,12 @@ static truth truth_of(const scene *s)
     for (size_t k = 0; k < n_knots; k++)
         cut[n++] = FN(log)(s->tau[k] / ((real)s->velocity * s->q0));
     for (size_t k = 0; k < s->n_strain; k++)
-        cut[n++] = strain_met(s, s->strain[k], length);
+        cut[n++] = find_strain(s, s->strain[k], length);
     qsort(cut, n, sizeof *cut, rising);
     real from = 0;
     for (size_t i = 0; i < n; i++)
         while (from < cut[i] && cut[i] <= length) {
-            /* smooth right of a knot */
+            /* smooth to the right of a knot */
             real anchor = from;
             while (knot < n_knots && FN(log)(s->tau[knot] / ((real)s->velocity * s->q0)) <= from)
                 knot++;

@@ -1,11 +1,11 @@
-/* Friction that heats itself, on roughness with directions, against nested quadrature that shares
- * nothing with the kernel: every direction is asked for the spectrum itself, with no harmonics; the
- * kernel of the heat is the closed one of two wavenumbers, with no lattice; temperatures come of
- * damped steps from that of the surroundings. Scenes are drawn where the heat matters.
+/* Friction with flash temperature on anisotropic roughness, against nested quadrature that is
+ * independent of the kernel. Every direction evaluates the spectrum itself, without harmonics. The
+ * heat kernel is the closed form for two wavenumbers, without a lattice. Damped steps from the
+ * ambient temperature find the temperatures. The drawn scenes have a large effect of heat.
  *
- *   heat_checks [SCENES [SEED [slow]]]
+ * heat_checks [SCENES [SEED [slow]]]
  *
- * slow: diffusivities down to 1e-12 m^2/s, where the heat stays where it is made. */
+ * slow: diffusivities down to 1e-12 m^2/s, where the heat stays at its source. */
 #include "numeric/drawn_numbers.h"
 
 #include "weartrack/friction.h"
@@ -66,7 +66,7 @@ static void make_rule(void)
 
 /* ---- angle ----------------------------------------------------------------------------------- */
 
-/* By the distance from 90 degrees, in the logarithm of it: there the frequency is 0. */
+/* The variable is the logarithm of the distance from 90 degrees, where the frequency is 0. */
 static double cosine[ANGLES], of_loss[ANGLES], of_side[ANGLES], of_square[ANGLES];
 
 static void make_angles(const scene *s)
@@ -118,8 +118,8 @@ static long double scaled_gap(long double z)
                         (z * sqrtl(pi));
 }
 
-/* int_0^inf (1 - exp(-tau k^2)) / (k^2 (k^2 + a^2)) dk; below z = 1 by its powers, for the two
- * parts are nearly the same there. */
+/* int_0^inf (1 - exp(-tau k^2)) / (k^2 (k^2 + a^2)) dk. Below z = 1 it uses the power series,
+ * because the two terms nearly cancel. */
 static long double wave_integral(long double a, long double tau)
 {
     const long double z = a * sqrtl(tau);
@@ -131,11 +131,11 @@ static long double wave_integral(long double a, long double tau)
     return pi / 2 / (a * a * a) * sum;
 }
 
-/* What heat at the scale k does to the temperature of scale i, by the integrals of both. */
+/* Effect of heat at scale k on the temperature of scale i, by the integrals of both. */
 static double heat_kernel(const double *q, const long double *integral, size_t i, size_t k,
                           long double tau)
 {
-    const long double near = 1e-6L; /* the square of it is left, and as much of the digits */
+    const long double near = 1e-6L; /* The cancellation leaves half of the digits. */
     long double a = 2 * q[i], b = 2 * q[k], of_a = integral[i], of_b = integral[k];
     if (i == k) {
         a *= 1 + near;
@@ -148,7 +148,7 @@ static double heat_kernel(const double *q, const long double *integral, size_t i
 
 /* ---- scales ---------------------------------------------------------------------------------- */
 
-/* In x = ln ln(q / q0), next to q0 from 1e-13 on. */
+/* The variable is x = ln ln(q / q0), from 1e-13 above q0. */
 static size_t n_nodes;
 static double wavenumber[MOST + 1], measure[MOST], panel_width[MOST];
 
@@ -182,7 +182,8 @@ static double shift(const scene *s, double rise)
     return pow(10, -s->c1 * rise / (s->c2 + rise));
 }
 
-/* All numbers at the temperatures `rise`, and the heat f times the measure of each scale. */
+/* Computes all numbers at the temperature rises `rise`, and the heat f times the measure of each
+ * scale. */
 static answer at_temperatures(const scene *s, const double *rise, double *heat)
 {
     const double stiffness = 1 / (1 - s->nu * s->nu) / s->pressure;
@@ -207,7 +208,7 @@ static answer at_temperatures(const scene *s, const double *rise, double *heat)
             const double part = area * (s->gamma + (1 - s->gamma) * area * area);
             sum.hysteresis += weight[i] * along[i] * part;
             sum.side += weight[i] * aside[i] * part;
-            /* mu sigma0 v of this scale is rho c P_m f / (2 q) */
+            /* mu sigma0 v of this scale is rho c P_m f / (2 q). */
             heat[from + i] = 2 * wavenumber[from + i] * weight[i] * along[i] * part * s->pressure *
                              s->velocity / (s->flash.heat_capacity * s->flash.macroscopic);
             all += weight[i] * g[i];
@@ -218,15 +219,15 @@ static answer at_temperatures(const scene *s, const double *rise, double *heat)
     return sum;
 }
 
-static const double hottest = 560; /* K: rubber burns */
+static const double hottest = 560; /* [K]; rubber burns above it */
 
-/* False if the temperatures do not settle, or where rubber burns. */
+/* Returns false if the temperatures do not converge or exceed the limit. */
 static bool solve(const scene *s, bool warm, answer *a)
 {
     static double kernel[MOST + 1][MOST], rise[MOST + 1], heat[MOST];
     static long double integral[MOST + 1];
     const double tau = s->flash.diffusivity * s->flash.contact_size / s->velocity;
-    const double damping = 0.2; /* of a map whose rates go from -4 to 1 */
+    const double damping = 0.2; /* factor of a map with eigenvalues from -4 to 1 */
     double moved = 1;
     make_angles(s);
     make_scales(s);
@@ -275,7 +276,7 @@ static scene draw(bool slow)
     s.qr = s.q0 * decades(0.3, 1);
     s.q1 = s.qr * decades(2, 3);
     s.c0 = uniform(0.5, 2) * 6e-16 * pow(2000 / s.qr, 4);
-    /* two orders askew to each other, nowhere below 0 */
+    /* two anisotropies at an angle, positive everywhere */
     s.texture.amplitude[0] = uniform(0.3, 0.7) * (uniform(0, 1) < 0.5 ? -1 : 1);
     s.texture.amplitude[1] = uniform(0, 0.3);
     s.texture.angle[0] = uniform(-1.4, 1.4);
@@ -328,7 +329,7 @@ static bool computed(const scene *s, double tolerance, wt_friction_point *p)
 
 /* ---- checks ---------------------------------------------------------------------------------- */
 
-/* What the quadrature here is good to, of the friction along the velocity for that to the side. */
+/* Accuracy of this quadrature: friction along the velocity, and lateral friction. */
 static const double own_error = 2e-10;
 static double worst;
 
@@ -380,7 +381,7 @@ int main(int argc, char **argv)
         const scene s = draw(slow);
         answer warm, cold;
         if (!solve(&s, true, &warm))
-            continue; /* by damped steps; what the library says of it is its own affair */
+            continue; /* without a reference the library is not tested */
         (void)solve(&s, false, &cold);
         settled++;
         matter += fabs(warm.hysteresis / cold.hysteresis - 1) > 0.05 &&

@@ -1,13 +1,13 @@
-/* Friction of drawn scenes against friction_truth.h in quad precision, which shares no code with
- * the kernel: whether the true error lies within the stated one, whether the tolerance is met, and
- * how much more is stated than is true.
+/* Friction of drawn scenes against friction_truth.h in quad precision, which is independent of the
+ * kernel. It tests that the true error is within the stated one and within the tolerance, and
+ * measures their ratio.
  *
- *   kernel_checks [SCENES [SEED [TRUTHS [steep]]]]
+ * kernel_checks [SCENES [SEED [TRUTHS [steep]]]]
  *
- * Each scene is computed at seven tolerances, with four numbers to check at each. TRUTHS is a file
- * of the truths of that seed, or "": what is there is read, and what is not is added. "steep" gives
- * all scenes a material whose table is as steep as one may be. Compiled with
- * CHECKS_LONG_DOUBLE the truth is in long double, forty times faster. */
+ * Each scene is computed at seven tolerances, with four numbers at each. TRUTHS is a file with the
+ * true values of the seed, or "": existing values are read and new ones are added. "steep" gives
+ * all scenes a material with the steepest permitted table. With CHECKS_LONG_DOUBLE the true values
+ * are in long double, forty times faster. */
 #ifndef CHECKS_LONG_DOUBLE
 #define FRICTION_TRUTH_QUAD
 #endif
@@ -36,7 +36,7 @@ typedef struct drawn {
     size_t surface;
 } drawn;
 
-/* From the glassy to the rubbery state, as rubbers have it. */
+/* From the glassy to the rubbery state, as in rubbers. */
 static void draw_prony(drawn *d)
 {
     scene *s = &d->s;
@@ -61,7 +61,7 @@ static void draw_zener(drawn *d)
     d->tau[0] = decades(-10, 1);
 }
 
-/* A measured curve with noise, whose knots may be steep, or nearly coincide. */
+/* A measured curve with noise; its knots may be steep or nearly coincide. */
 static void draw_table(drawn *d)
 {
     scene *s = &d->s;
@@ -84,14 +84,14 @@ static void draw_table(drawn *d)
     s->slope = s->slope && d->e[1] > d->e[0] && d->loss[1] > d->loss[0];
 }
 
-/* Change of a logarithm that stays within a span. */
+/* Change of a logarithm, limited to a span. */
 static double turn_back(double from, double by, double span)
 {
     return fabs(from + by) < span ? by : fabs(from - by) < span ? -by : 0;
 }
 
-/* Lines between the knots are nearly as steep as they may be, rising and falling, over a part of
- * the hundreds of decades that a double has. */
+/* Lines between the knots with nearly the steepest permitted slopes, rising and falling, in a part
+ * of the exponent range of a double. */
 static void draw_steep_table(drawn *d)
 {
     enum { STEEPEST = 99, SPAN = 140 };
@@ -123,7 +123,7 @@ static void add_knot(drawn *d, double factor_q, double factor_c)
     d->density[k] = k > 0 ? d->density[k - 1] * factor_c : factor_c;
 }
 
-/* A power of the wavenumber over so many decades. */
+/* A power law of the wavenumber over a number of decades. */
 static void add_power(drawn *d, double length, double exponent)
 {
     add_knot(d, pow(10, length), pow(10, length * exponent));
@@ -149,7 +149,7 @@ static void begin_table(drawn *d)
     add_knot(d, decades(1, 4), decades(-18, -8));
 }
 
-/* Bands without waves, 1 % of the wavenumber and less or more at each of their edges. */
+/* Bands without waves, with edges of various steepness from 1 % of the wavenumber. */
 static void draw_gaps(drawn *d)
 {
     begin_table(d);
@@ -165,7 +165,7 @@ static void draw_gaps(drawn *d)
     add_power(d, uniform(0.1, 1.5), affine());
 }
 
-/* Next to nothing at the lowest wavenumbers: the form was taken off. */
+/* Very low at the lowest wavenumbers, because the form was subtracted. */
 static void draw_high_pass(drawn *d)
 {
     begin_table(d);
@@ -177,7 +177,7 @@ static void draw_high_pass(drawn *d)
     add_power(d, uniform(0.5, 4), affine());
 }
 
-/* Two or three instruments, one not as high as the other where they meet. */
+/* Two or three instruments with different levels where they meet. */
 static void draw_stitched(drawn *d)
 {
     begin_table(d);
@@ -191,7 +191,7 @@ static void draw_stitched(drawn *d)
     }
 }
 
-/* Any power from knot to knot. */
+/* Any exponent between two knots. */
 static void draw_kinked(drawn *d)
 {
     begin_table(d);
@@ -211,7 +211,7 @@ static const struct {
                 {"kinked", draw_kinked}};
 enum { SURFACES = sizeof surfaces / sizeof *surfaces };
 
-/* Slopes as surfaces have them. */
+/* Slopes that occur on surfaces. */
 static void scale_surface(drawn *d)
 {
     scene *s = &d->s;
@@ -249,7 +249,7 @@ static void draw_softening(drawn *d)
     }
 }
 
-static bool all_steep; /* the material of all scenes is a steep table */
+static bool all_steep; /* All scenes have a steep table. */
 
 static void draw_scene(drawn *d, size_t number)
 {
@@ -297,7 +297,7 @@ static void draw_scene(drawn *d, size_t number)
         d->tolerance[k] = decades(-3 * (double)(k - 2), -3 * (double)(k - 3) - 1);
 }
 
-/* ---- truths ---------------------------------------------------------------------------------- */
+/* ---- true values ----------------------------------------------------------------------------- */
 
 static FILE *truths;
 
@@ -345,7 +345,7 @@ static truth truth_with_file(const scene *s, size_t number)
 typedef struct count {
     size_t checks, broken, runs, short_of, lied, n_quotients;
     double worst, worst_short, slowest;
-    double *quotient; /* stated error by the true one */
+    double *quotient; /* ratio of the stated to the true error */
 } count;
 
 static count counts[SURFACES];
@@ -385,7 +385,7 @@ static void check(count *c, const drawn *d, size_t number, size_t k, bool reache
             actual.value, error, stated);
 }
 
-/* False if it is refused. */
+/* Returns false if the scene is refused. */
 static bool compute(const drawn *d, double tolerance, wt_friction_point *p)
 {
     const scene *s = &d->s;

@@ -1,5 +1,5 @@
-/* Writes the numbers expected of friction cases: truth FILE [CASE] > NEW. In quad precision, by
- * friction_truth.h; what the file says itself of these numbers is left out. */
+/* Writes the expected numbers of friction cases in quad precision by friction_truth.h: truth FILE
+ * [CASE] > NEW. Expected numbers of the file are dropped. */
 #define FRICTION_TRUTH_QUAD
 #include "numeric/friction_truth.h"
 
@@ -10,7 +10,7 @@ static void say(const char *name, real value)
     printf("expect %s %s\n", name, text);
 }
 
-/* Lines up to the next case, without the numbers; `quiet`: only passes them. */
+/* Copies lines up to the next case, without expected numbers; `quiet` skips them. */
 static void copy_lines(FILE *in, bool quiet)
 {
     char text[4096];

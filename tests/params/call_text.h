@@ -1,4 +1,5 @@
-/* Calls as text: an option is given once, so the one there goes before another value comes.
+/* Calls as text. An option may be given once, so the old one is removed before another value is
+ * added.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TEST_CALL_TEXT_H
 #define WT_TEST_CALL_TEXT_H
@@ -6,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Takes " --name 'value'", " --name value" or " --name" out of a call. */
+/* Removes " --name 'value'", " --name value" or " --name" from a call. */
 static inline void drop_option(char *call, const char *name)
 {
     char option[96];

@@ -1,5 +1,5 @@
-/* Which tables of parameters the sections of a case have, for what is checked and written from
- * them. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parameter tables of the sections of a case, for the checks and the generated texts.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef TESTS_PARAMS_SECTIONS_H
 #define TESTS_PARAMS_SECTIONS_H
 

@@ -1,8 +1,9 @@
-/* No parameter is ignored: each one, moved off its default, changes what a subcommand or a case
- * gives. What cannot be moved by rule has its value here; what changes no result has its reason.
+/* Every parameter has an effect: another value than the default changes the output of a subcommand
+ * or a case. The tables here state values that no rule finds, and the reason for a parameter
+ * without an effect on a result.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "call_text.h"
-#include "near.h"
 #include "params/sections.h"
 
 #include <stdlib.h>
@@ -14,12 +15,12 @@
 
 enum { TEXT = 8192 };
 
-/* ---- how far a parameter is moved ------------------------------------------------------------ */
+/* ---- changed values -------------------------------------------------------------------------- */
 
 static const struct {
     const char *name, *text;
-    const char *with;    /* further options it needs, or elements of its section */
-    const char *without; /* the base is given without this one */
+    const char *with;    /* additional options, or elements of its section */
+    const char *without; /* option that the base does not have */
 } moved[] = {
     {"reference-temperature", "35degC", NULL, NULL},
     {"terms-per-decade", "2.7", NULL, NULL},
@@ -47,7 +48,7 @@ static const struct {
     {"baseline-from", "-5um", NULL, NULL},
     {"baseline-to", "-5um", NULL, NULL},
     {"tip", "sphere:radius=5um", NULL, NULL},
-    {"kind", "sweep", NULL, NULL}, /* which that file does not hold */
+    {"kind", "sweep", NULL, NULL}, /* that file contains none */
     {"group", "track", NULL, NULL},
     {"curves", "worst:1", NULL, NULL},
     {"spot", "s1", NULL, NULL},
@@ -82,7 +83,7 @@ static const struct {
     {"observed-thickness", "3um", NULL, "critical-energy"},
     {"specific-wear-rate", "2e-12m^2/N", NULL, NULL},
     {"running-in-time", "600s", NULL, NULL},
-    /* beyond what the product of both leaves of the other ends */
+    /* beyond the other limits of the product */
     {"prior-wear-from", "1e-12m^2/N", NULL, NULL},
     {"prior-energy-from", "2e11J/m^3", NULL, NULL},
     {"prior-wear-to", "2e-13m^2/N", NULL, NULL},
@@ -160,7 +161,7 @@ static const struct {
     {NULL, "no-report", "the base has it"},
     {NULL, "verbose", "reasons behind the short table: tests/cli/tribometers.txt"},
     {"case", "scan-lines", "for height maps with line faults: unit_job_conditioning, cli_psd"},
-    {"run", "keep", "the result that is there, of the same command: cli_keep"},
+    {"run", "keep", "the result that is there, of the same command: cli_run_keep"},
     {NULL, "style", "of the pictures: test_report"},
     {NULL, "figures", "of the pictures: unit_report_paper, tests/cli/bad_input.txt"},
     {NULL, "figure", "of the pictures: tests/cli/options.txt"},
@@ -181,7 +182,7 @@ static const struct {
     {NULL, "provenance", "tests/cli/round_trip.txt"},
 };
 
-/* subcommand: or "case"; what no subcommand shows a case may. */
+/* Subcommand or "case". A parameter without an effect in any subcommand may have one in a case. */
 static bool is_dead(const char *subcommand, const char *name)
 {
     const bool of_case = strcmp(subcommand, "case") == 0;
@@ -239,7 +240,7 @@ static char folder[] = "/tmp/weartrack-alive-XXXXXX";
 
 static const struct {
     const char *name;
-    const char *base; /* NAME VALUE pairs, parted by '|'; what stands alone ends them */
+    const char *base; /* NAME VALUE pairs, separated by '|'; a single name ends them */
     const char *files;
 } subcommands[] = {
     {"indent", "tip pyramid:half-angle=20deg,radius=20nm|master master.tsv",
@@ -267,7 +268,7 @@ static const struct {
 };
 enum { N_SUBCOMMANDS = sizeof subcommands / sizeof subcommands[0] };
 
-/* The parameters of the options, by the names that --help lists. */
+/* Parameters of the options, by the names in --help. */
 static const wt_params *(*const tables[])(void) = {
     wt_convert_job_params, wt_file_set_params,   wt_indent_job_params,
     wt_compare_job_params, wt_master_job_params, wt_layer_observation_params,
@@ -290,13 +291,13 @@ static char *read_file(const char *name, size_t *length)
     return bytes;
 }
 
-/* What a base gives: most parameters are moved off the one that the parameter before was. */
+/* Output of a base, cached because most parameters use the base of the previous one. */
 typedef struct kept {
     char *base, *bytes;
     size_t length;
 } kept;
 
-/* Forgets it unless it is of this base. */
+/* Clears the cache if it has another base. */
 static bool is_of_base(kept *k, const char *base)
 {
     if (k->base != NULL && strcmp(k->base, base) == 0)
@@ -308,8 +309,9 @@ static bool is_of_base(kept *k, const char *base)
     return false;
 }
 
-/* The bytes that the call gives: result, words on standard output, exit status. */
-static char *give(const char *subcommand, const char *options, const char *files, size_t *length)
+/* The output of a call: result, standard output, exit status. */
+static char *run_call(const char *subcommand, const char *options, const char *files,
+                      size_t *length)
 {
     char command[TEXT];
     const char *out = strcmp(subcommand, "run") == 0 ? "out.h5" : "out.tsv";
@@ -360,11 +362,11 @@ static bool is_flag(const char *name)
 static size_t try_option(size_t s, const char *option, const char *text, const char *with,
                          const char *without)
 {
-    static kept before; /* reachable at the end, so no leak */
+    static kept before; /* The memory is reachable at exit, so it is no leak. */
     char base[TEXT], options[TEXT + 512], further[256], call[TEXT + 64];
     size_t n;
     base_options(with, "", further, sizeof further);
-    char *const yes = strstr(further, " 'yes'"); /* a flag has no value here */
+    char *const yes = strstr(further, " 'yes'"); /* A flag has no value here. */
     if (yes != NULL)
         *yes = '\0';
     base_options(subcommands[s].base, without, base, sizeof base);
@@ -380,8 +382,8 @@ static size_t try_option(size_t s, const char *option, const char *text, const c
              text != NULL ? "'" : "", text != NULL ? text : "", text != NULL ? "'" : "");
     snprintf(call, sizeof call, "%s %s", subcommands[s].name, base);
     if (!is_of_base(&before, call))
-        before.bytes = give(subcommands[s].name, base, subcommands[s].files, &before.length);
-    char *after = give(subcommands[s].name, options, subcommands[s].files, &n);
+        before.bytes = run_call(subcommands[s].name, base, subcommands[s].files, &before.length);
+    char *after = run_call(subcommands[s].name, options, subcommands[s].files, &n);
     const bool wrong_call = n >= 2 && after[n - 2] == '2' && n < 4;
     const bool alive = !wrong_call && (n != before.length || memcmp(before.bytes, after, n) != 0);
     if (!alive)
@@ -390,7 +392,7 @@ static size_t try_option(size_t s, const char *option, const char *text, const c
     return !alive;
 }
 
-/* Every option in the help of a subcommand. */
+/* Tests every option in the help of a subcommand. */
 static void test_options(void **state)
 {
     (void)state;
@@ -428,7 +430,7 @@ static void test_options(void **state)
     }
     assert_int_equal(n_dead, 0);
     assert_true(n_tried > 60);
-    /* and what changes nothing is seen */
+    /* A value without an effect is detected. */
     assert_int_equal(try_option(N_SUBCOMMANDS - 1, "threads", "2", "", ""), 1);
 }
 
@@ -436,7 +438,7 @@ static void test_options(void **state)
 
 static const struct {
     const char *section;
-    const char *base; /* elements that the case has */
+    const char *base; /* elements of the case */
     const char *before, *after;
 } frames[] = {
     {"indentation",
@@ -485,7 +487,7 @@ static const struct {
 };
 enum { N_FRAMES = sizeof frames / sizeof frames[0] };
 
-/* Adds the elements of `elements` but those called `without`. */
+/* Adds `elements` except those with the name `without`. */
 static void add_elements(char *xml, size_t size, const char *elements, const char *without)
 {
     for (const char *p = elements; *p == '<';) {
@@ -499,14 +501,14 @@ static void add_elements(char *xml, size_t size, const char *elements, const cha
     }
 }
 
-/* Its frame has a <dma> of its own. */
+/* Its frame contains a <dma>. */
 static bool is_dma_part(const char *section)
 {
     return strcmp(section, "wlf") == 0 || strcmp(section, "fractional-zener") == 0 ||
            strcmp(section, "transverse") == 0;
 }
 
-/* The case that shows what section `s` does, with the moved element in it. */
+/* Returns a case in which section `s` has an effect, with the changed element. */
 static void make_case(size_t s, const char *name, const char *text, const char *with,
                       const char *without, char *xml, size_t size)
 {
@@ -526,7 +528,7 @@ static void make_case(size_t s, const char *name, const char *text, const char *
         char moved_element[512] = "";
         if (own && text != NULL)
             snprintf(moved_element, sizeof moved_element, "<%s>%s</%s>", name, text, name);
-        /* a section in a fixed order has nothing else before it */
+        /* The section has a fixed order and starts empty. */
         add_elements(xml, size, own ? with : "", "");
         add_elements(xml, size, moved_element, "");
         char rest[TEXT] = "";
@@ -534,7 +536,7 @@ static void make_case(size_t s, const char *name, const char *text, const char *
         add_elements(xml, size, rest, own ? without : "");
         strncat(xml, frames[f].after, size - strlen(xml) - 1);
     }
-    /* what no case gives unless it is asked for */
+    /* tables that a case gives only on request */
     if (strcmp(name, "at") == 0)
         strncat(xml, "<report><result>moduli_at</result></report>", size - strlen(xml) - 1);
     if (strcmp(name, "peak-points") == 0)
@@ -544,7 +546,7 @@ static void make_case(size_t s, const char *name, const char *text, const char *
     strncat(xml, "</case>", size - strlen(xml) - 1);
 }
 
-/* All tables of a run but the notes of the run itself. */
+/* All tables of a run, except the notes about the run itself. */
 static char *run_case(const char *xml, size_t *length)
 {
     wt_case *c = NULL;
@@ -594,7 +596,7 @@ static void test_cases(void **state)
                              "<%s>%s</%s>", word, value, word);
                 make_case(s, name, NULL, further, without, xml[0], sizeof xml[0]);
                 make_case(s, name, text, further, without, xml[1], sizeof xml[1]);
-                /* the base cannot stand without either, nor what goes with the moved one */
+                /* The base needs both options, and those of the changed one. */
                 if (*without != '\0')
                     make_case(s, name, NULL, further, "", xml[0], sizeof xml[0]);
                 size_t n;
@@ -614,7 +616,7 @@ static void test_cases(void **state)
     free(base.base);
     assert_int_equal(n_dead, 0);
     assert_true(n_tried > 35);
-    /* and what changes nothing is seen */
+    /* A value without an effect is detected. */
     size_t n[2];
     char xml[2][TEXT + 32];
     make_case(1, "", NULL, "", "", xml[0], TEXT);
@@ -625,7 +627,7 @@ static void test_cases(void **state)
     free(after);
 }
 
-/* ---- what the subcommands read --------------------------------------------------------------- */
+/* ---- inputs of the subcommands --------------------------------------------------------------- */
 
 static int make_inputs(void **state)
 {

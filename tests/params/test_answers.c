@@ -1,10 +1,10 @@
-/* One rule, one answer: every number at the ends of its range, just outside and nowhere, in a wrong
- * unit or empty, is taken or refused alike as an option, in a case and in a call from C. The values
- * follow from the records, so a new parameter needs no line here.
+/* An option, a case and a call from C apply the same rule: each accepts or refuses the same values.
+ * Tried values are the limits of the range, values outside it, NaN, a wrong unit and empty text.
+ * They follow from the records, so a new parameter needs no line here.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "call_text.h"
 #include "core/base/quantity.h"
-#include "near.h"
 #include "params/sections.h"
 
 #include <limits.h>
@@ -15,7 +15,7 @@
 
 enum { TEXT = 4096 };
 
-/* What must be given beside the parameter that is tried, in options and in cases. */
+/* Required parameters beside the tested one, in options and in cases. */
 static const struct {
     const char *name, *text;
 } good[] = {
@@ -23,7 +23,7 @@ static const struct {
     {"pressure", "1MPa"},
     {"velocity", "1m/s"},
     {"specific-wear-rate", "1e-12m^2/N"},
-    {"critical-energy", "1e10J/m^3"}, /* left out where its alternative is tried */
+    {"critical-energy", "1e10J/m^3"}, /* omitted if the alternative is tested */
     {"q0", "1e3rad/m"},
     {"q1", "1e6rad/m"},
     {"hurst", "0.8"},
@@ -34,9 +34,9 @@ static const struct {
     {"eg", "1e15Pa"},
     {"tau", "1us"},
     {"alpha", "0.4"},
-    {"layer-thickness", "1um"}, /* these two go together */
+    {"layer-thickness", "1um"}, /* These two belong together. */
     {"modulus-ratio", "1"},
-    {"mass-loss", "3mg"}, /* and so do these */
+    {"mass-loss", "3mg"}, /* These two belong together, too. */
     {"density", "1150kg/m^3"},
 };
 
@@ -50,7 +50,7 @@ static const char *good_text(const char *name, const char *tried)
     return NULL;
 }
 
-/* In a section of a case: what is an alternative in one is what another is about. */
+/* Value in a section of a case: the alternative in one section is the subject of another. */
 static const char *good_in(const char *section, const char *name, const char *tried)
 {
     return strcmp(section, "identify") == 0 && strcmp(name, "observed-thickness") == 0
@@ -60,7 +60,7 @@ static const char *good_in(const char *section, const char *name, const char *tr
 
 /* ---- as an option ---------------------------------------------------------------------------- */
 
-/* Files that do not exist end every call that was understood. */
+/* Every accepted call fails because its files do not exist. */
 static const struct {
     const char *name, *files;
     const wt_params *(*params[7])(void);
@@ -79,7 +79,7 @@ static const struct {
     {"run", "absent", {wt_run_params}},
 };
 
-/* What the energy of a layer knows nothing of is an option of friction alone. */
+/* Options of friction without an effect on the energy of a layer. */
 static bool is_of_friction(const char *name)
 {
     static const char *const names[] = {"decades"};
@@ -273,7 +273,7 @@ static wt_status call_compare(const void *structure, wt_error *err)
     return status;
 }
 
-/* A rubber and a surface with nothing in them: no call gets far. */
+/* A rubber and a surface without data, so that no call gets far. */
 static wt_rubber no_rubber;
 static wt_surface no_surface;
 static const double velocity[] = {1};
@@ -348,7 +348,7 @@ static const struct {
     {wt_run_params, call_run},
 };
 
-/* Whether a call refuses the structure for this parameter. */
+/* Returns true if a call refuses the structure because of this parameter. */
 static bool is_refused_call(size_t k, const wt_param *p, double value)
 {
     alignas(max_align_t) unsigned char structure[PARAM_STRUCTURE_SIZE_MAX] = {0};
@@ -380,16 +380,17 @@ static bool is_refused_call(size_t k, const wt_param *p, double value)
         memcpy(structure + p->offset, &value, sizeof value);
     }
     const wt_status status = calls[k].call(structure, &err);
-    memcpy(structure + p->offset, old, p->size); /* lists are freed as they were */
+    /* Restores the pointers, so that lists can be freed. */
+    memcpy(structure + p->offset, old, p->size);
     wt_params_clear(params, structure, &given);
     if (status == WT_OK)
         return false;
-    /* a thickness without end has a message of its own */
+    /* An infinite thickness has a different message. */
     return (strcmp(err.place, p->name) == 0 || isinf(value)) &&
            (status == WT_E_RANGE || status == WT_E_MISSING);
 }
 
-/* ---- the same everywhere --------------------------------------------------------------------- */
+/* ---- comparison of the interfaces ------------------------------------------------------------ */
 
 static bool is_number(const wt_param *p)
 {
@@ -410,8 +411,8 @@ static void complain(const char *format, ...)
     wrong++;
 }
 
-/* Tries one value in each place; `text` as an option and in a case, `value` in C. `in_c` is what C
- * is to say. */
+/* Tries one value in each interface: `text` as an option and in a case, `value` in C. `in_c` is the
+ * expected result in C. */
 static void try_value(const wt_param *p, const char *text, bool refused, double value, int in_c)
 {
     for (size_t s = 0; s < sizeof subcommands / sizeof subcommands[0]; s++)
@@ -441,7 +442,7 @@ static void try_number(const wt_param *p, double value, bool refused)
     char text[128];
     const char *unit = wt_quantity_unit(p->quantity);
     snprintf(text, sizeof text, "%.17g%s", value, strcmp(unit, "1") == 0 ? "" : unit);
-    /* a count has no negative in C */
+    /* A count is unsigned in C. */
     try_value(p, text, refused, value, p->kind == PARAM_COUNT && value < 0 ? -1 : refused);
 }
 
@@ -456,8 +457,8 @@ static void try_param(const wt_param *p)
     if (isfinite(l->high)) {
         try_number(p, l->high, !l->with_high);
         try_number(p, l->high + (whole ? 1 : 1e-6 * fabs(l->high)), true);
-    } else if (!whole) { /* what there can be of the quantity */
-        if (strcmp(p->name, "q0") != 0 && strcmp(p->name, "qr") != 0) /* below q1 */
+    } else if (!whole) { /* The limit is the plausible maximum of the quantity. */
+        if (strcmp(p->name, "q0") != 0 && strcmp(p->name, "qr") != 0) /* they must be below q1 */
             try_number(p, quantity_plausible_maximum(p->quantity), false);
         try_number(p, 1.000001 * quantity_plausible_maximum(p->quantity), true);
         try_number(p, 1e300, true);
@@ -465,9 +466,9 @@ static void try_param(const wt_param *p)
     try_value(p, "nan", true, (double)NAN, whole ? -1 : p->unset == NULL || p->kind == PARAM_LIST);
     try_value(p, "inf", true, (double)INFINITY, whole ? -1 : 1);
     try_value(p, "", true, 0, -1);
-    try_value(p, "1cd", true, 0, -1); /* of no quantity */
+    try_value(p, "1cd", true, 0, -1); /* unit of no quantity */
     if (p->kind == PARAM_NUMBER || whole)
-        try_value(p, "0.3 +- 0.1", true, 0, -1); /* an error that nothing would use, or no unit */
+        try_value(p, "0.3 +- 0.1", true, 0, -1); /* an error without use, or no unit */
 }
 
 static void test_numbers(void **state)
@@ -508,7 +509,7 @@ static void test_words(void **state)
                 char word[64];
                 if (is_number(p) || (p->flags & PARAM_NO_CASE) != 0)
                     continue;
-                if (p->kind == PARAM_FLAG) { /* an option without a value */
+                if (p->kind == PARAM_FLAG) { /* option without a value */
                     assert_true(is_refused_in_case(s, p, "maybe"));
                     assert_false(is_refused_in_case(s, p, "yes"));
                     assert_false(is_refused_in_case(s, p, "no"));

@@ -1,8 +1,9 @@
-/* Every record of a parameter is sound: names, words, limits and default agree, and one name means
- * one thing wherever it stands. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every record of a parameter is valid: names, text, limits and default agree, and a name has one
+ * meaning everywhere.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "dma/rubber.h"
 #include "friction/counter_surface.h"
-#include "near.h"
 #include "params/sections.h"
 
 #include <stdalign.h>
@@ -67,7 +68,7 @@ static void test_words(void **state)
     }
 }
 
-/* What a default is shown as can be given, so it lies within the limits. */
+/* The text of a default is valid input, so it lies within the limits. */
 static void test_defaults(void **state)
 {
     (void)state;
@@ -95,7 +96,7 @@ static void test_defaults(void **state)
     }
 }
 
-/* Limits are an interval; what only C knows may be wider there. */
+/* Limits are an interval; those that only C accepts may be wider. */
 static void test_one_name_one_meaning(void **state)
 {
     (void)state;
@@ -173,10 +174,10 @@ static void test_setting(void **state)
     assert_int_equal(set(&s, "number", "0.5m +- 10%", &given, &err), WT_E_ARG);
     assert_int_equal(set(&s, "number", "0.5m +- 0m", &given, &err), WT_OK);
     assert_int_equal(set(&s, "list", "1:10:log:3", &given, &err), WT_OK);
-    assert_int_equal(set(&s, "list", "1,2,3,4", &given, &err), WT_OK); /* in place of the first */
+    assert_int_equal(set(&s, "list", "1,2,3,4", &given, &err), WT_OK); /* replaces the first one */
     assert_int_equal(s.n_list, 4);
     assert_int_equal(set(&s, "list", "0.5,2", &given, &err), WT_E_RANGE);
-    s.texts = borrowed; /* a default that is not the table's to grow */
+    s.texts = borrowed; /* a default that the table must not extend */
     s.n_texts = 1;
     assert_int_equal(set(&s, "texts", "E'=MPa; E''=kPa", &given, &err), WT_OK);
     assert_int_equal(set(&s, "texts", "T=K", &given, &err), WT_OK);

@@ -10,11 +10,11 @@
 enum { CURVES = 30, SPOTS = 6, FURTHER = 3 };
 static const double level = 0.01, share_needed = 0.9;
 
-/* The curves of one draw: a sample and a file for each spot. */
+/* Curves of one draw: a sample and a file for each position. */
 typedef struct spots {
     int n;
     const afm_sample *sample[SPOTS];
-    afm_sample *own[SPOTS]; /* to be freed */
+    afm_sample *own[SPOTS]; /* allocated */
     const char *path[SPOTS];
 } spots;
 
@@ -53,7 +53,7 @@ static int make_spots(spots *to, const afm_sample *sample, const afm_scene *s,
     return bad ? -1 : 0;
 }
 
-/* The series of a DMA whose moduli are by the factor of the scene too small. */
+/* Writes the Prony series of a DMA whose moduli are too small by the factor of the scene. */
 static int write_spectrum(const afm_scene *s, const char *path)
 {
     const relaxation r = afm_relaxation(s);
@@ -73,7 +73,7 @@ static int write_spectrum(const afm_scene *s, const char *path)
     return fclose(file) != 0 || bad ? -1 : 0;
 }
 
-/* Described: most curves are accepted, and all of them together show no misfit. */
+/* True if most curves are accepted and all curves together show no lack of fit. */
 static void read_curves(const char *path, const afm_scene *s, const afm_sample *sample,
                         const spots *from, trial *t)
 {
@@ -95,7 +95,7 @@ static void read_curves(const char *path, const afm_scene *s, const afm_sample *
                 trial_add(t, Q_FACTOR, s->dma, place_row(found, &place_factor, i));
         }
         const estimate group = place_key(found, &place_budget[0]);
-        if (from->own[0] == NULL && group.value > 0) /* else the spots have no modulus in common */
+        if (from->own[0] == NULL && group.value > 0) /* otherwise the positions share no modulus */
             trial_add(t, Q_GROUP_MODULUS, from->sample[0]->modulus, group);
         const double chance = stream_number(found, place_modulus.table, PLACE_POOLED_CHANCE, NULL);
         const char *changes = stream_key(found, PLACE_DEPTH, PLACE_DEPTH_CHANGES);
@@ -139,7 +139,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     const char *spectrum = s->dma > 0 ? trial_file(t, "spectrum.tsv") : NULL;
     char told[128];
     snprintf(told, sizeof told, "%s", tip[s->tip]);
-    if (s->radius_stated > 0) /* of 50 nm */
+    if (s->radius_stated > 0) /* at a depth of 50 nm */
         snprintf(told, sizeof told, "pyramid:half-angle=35deg+-%.9g%%,radius=50nm+-%.9g%%",
                  100 * s->angle_stated, 100 * s->radius_stated);
     const char *arguments[SPOTS + 20] = {"indent"};

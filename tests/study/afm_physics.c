@@ -44,7 +44,7 @@ static double thick_force(const afm_tip *t, double a)
     if (a <= t->b)
         return 4 * a * a * a / (3 * t->radius);
     const double edge = sqrt(a * a - t->b * t->b), c = facets(t) / 2;
-    /* tip_depth a - a^3/(3R) + edge^3/(3R), put together so that little cancels */
+    /* tip_depth a - a^3/(3R) + edge^3/(3R), arranged to avoid cancellation */
     const double round = t->b > 0 ? t->b * t->b / (t->radius * (a + edge)) *
                                         (a * a - (a * a + a * edge + edge * edge) / 3)
                                   : 0;
@@ -61,7 +61,7 @@ double tip_force(const afm_tip *t, double a)
     return thick_force(t, a) * (t->thin != NULL ? thin_force(t->thin, a) : 1);
 }
 
-/* The root of a rising function between two ends. */
+/* Root of an increasing function between two limits. */
 #define BISECT(low, high, value_at_middle, wanted)                                                 \
     for (int k_ = 0; k_ < 200; k_++) {                                                             \
         const double middle = 0.5 * ((low) + (high));                                              \
@@ -105,7 +105,7 @@ double jkr_release(const jkr *j, double k)
             best = a;
         else if (best > ratio * a * ratio)
             break;
-    /* the minimum, by golden section; a corner of the tip is one, too */
+    /* minimum by golden section; it may be at an edge of the tip */
     double low = best / ratio, high = best * ratio;
     for (int i = 0; i < 100; i++) {
         const double g = 0.3819660112501051 * (high - low);
@@ -154,7 +154,7 @@ static relaxation cole_cole(double alpha, double centre)
 
 relaxation relaxation_cole_cole(double alpha, double tan_delta, int beyond)
 {
-    /* tan delta has its peak where E' is the geometric mean of the ends */
+    /* tan delta has its peak where E' is the geometric mean of the limits. */
     double low = beyond ? 4 : -9, high = -1.5 / alpha;
     relaxation r;
     for (int k = 0; k < 60; k++) {
@@ -190,18 +190,18 @@ relaxation relaxation_maxwell(double tan_delta)
     return r;
 }
 
-/* What the recursions of Lee-Radok and Ting remember of the way in. */
+/* Data that the recursions of Lee-Radok and Ting store during the approach. */
 typedef struct memory {
     const afm_tip *tip;
     const relaxation *r;
     double share, step, k;                       /* 1/(1 - nu^2) */
     double fade[RELAXATIONS], gain[RELAXATIONS]; /* exp(-x), (1 - exp(-x))/x */
-    size_t n;                                    /* steps of the way in */
+    size_t n;                                    /* steps of the approach */
     double *depth, *f;                           /* [n] */
     double (*h)[RELAXATIONS], (*d)[RELAXATIONS]; /* running integrals of f and of the depth */
 } memory;
 
-/* One more step inwards to a base position; the force. */
+/* Adds a step of the approach to a base position; returns the force. */
 static double step_in(memory *m, double base)
 {
     const relaxation *r = m->r;
@@ -228,7 +228,7 @@ static double step_in(memory *m, double base)
     return m->share * (past + now * m->f[at]);
 }
 
-/* Integral of E ddepth from step j to now, which is `since` steps after the last step in. */
+/* Integral of E ddepth from step j to now, which is `since` steps after the end of the approach. */
 static double open_integral(const memory *m, size_t j, double since, double depth,
                             const double *now)
 {
@@ -249,7 +249,8 @@ static double force_from(const memory *m, size_t j, double since)
     return m->share * f;
 }
 
-/* Force at a depth on the way out; 0 where contact is lost. `from`: no step in after it matters. */
+/* Force at a depth during retraction; 0 without contact. No approach step after `from` has an
+ * effect. */
 static double ting(const memory *m, size_t *from, double since, double depth, const double *now)
 {
     double above = open_integral(m, *from, since, depth, now);
@@ -266,7 +267,7 @@ static double ting(const memory *m, size_t *from, double since, double depth, co
     return 0;
 }
 
-/* A step outwards; d: running integrals of the depth, brought to now. */
+/* Adds a step of the retraction; d: running integrals of the depth, updated. */
 static double step_out(const memory *m, size_t *from, double since, double base, double before,
                        double force_before, double *depth, double *d)
 {
@@ -305,7 +306,8 @@ int lossy_forces(const afm_tip *tip, const relaxation *r, double poisson, double
     const int good = m.depth != NULL && m.f != NULL && m.h != NULL && m.d != NULL;
     for (size_t i = 0; good && i < n; i++) {
         if (tip->end == END_FLAT || (since == 0 && (i == 0 || base[i] >= base[i - 1]))) {
-            force[i] = fmax(step_in(&m, base[i]), 0); /* the contact of a flat end stays as it is */
+            /* The contact radius of a flat punch is constant. */
+            force[i] = fmax(step_in(&m, base[i]), 0);
             here = m.depth[m.n - 1];
             from = m.n - 1;
             memcpy(d, m.d[from], sizeof d);

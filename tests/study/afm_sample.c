@@ -59,8 +59,8 @@ static double layer_reduced(const afm_scene *s, double a)
                                   : reduced;
 }
 
-/* Out of contact, of an attraction A exp(gap / reach): the lever bends towards the sample, up to
- * where it snaps on; 1 in contact. */
+/* Cantilever deflection before contact, due to an attraction A exp(gap / reach), up to the snap-in;
+ * 1 in contact. */
 static double attracted(double a, double reach, double k, double base)
 {
     double force = 0;
@@ -73,7 +73,7 @@ static double attracted(double a, double reach, double k, double base)
     return force;
 }
 
-/* Of a tip that touches at once. */
+/* Deflection of a tip without snap-in. */
 static double smooth_force(const afm_scene *s, const afm_tip *tip, double k, double base, int out)
 {
     const double w = out ? s->work_out : s->work;
@@ -90,7 +90,8 @@ static double smooth_force(const afm_scene *s, const afm_tip *tip, double k, dou
     if (s->attraction > 0 && attracted(pull, s->attraction_reach, k, base) < pull)
         return -attracted(pull, s->attraction_reach, k, base);
     if (base + pull / k <= 0 ||
-        (!out && base <= 0 && !(s->attraction > 0))) /* the lever's own bending there left out */
+        /* without the deflection of the cantilever there */
+        (!out && base <= 0 && !(s->attraction > 0)))
         return s->reach > 0 ? -pull * exp((out ? base + pull / k : base) / s->reach) : 0;
 #define BASE(a) (tip_depth(tip, a) + (layer_reduced(s, a) * tip_force(tip, a) - pull) / k)
     while (BASE(high) < base)
@@ -103,8 +104,8 @@ static double smooth_force(const afm_scene *s, const afm_tip *tip, double k, dou
     return layer_reduced(s, low) * tip_force(tip, low) - pull;
 }
 
-/* Force without loss at a base position; on the way out contact lasts longer. Roughness: the mean
- * force of heights that are normal, at one position of the tip. */
+/* Elastic force at a base position; contact lasts longer during retraction. Roughness: mean force
+ * over normally distributed heights at one tip position. */
 static double elastic_force(const afm_scene *s, const afm_tip *tip, double k, double base, int out)
 {
     if (!(s->roughness > 0))
@@ -146,7 +147,7 @@ relaxation afm_relaxation(const afm_scene *s)
     return r;
 }
 
-/* In steps finer than the samples, from the first sample in contact on. */
+/* Uses steps finer than the samples, from the first sample in contact. */
 static int add_lossy(const afm_scene *s, const afm_tip *tip, afm_sample *to)
 {
     const int first = free_of(s), n = (AFM_SAMPLES - first) * FINE;
@@ -160,7 +161,7 @@ static int add_lossy(const afm_scene *s, const afm_tip *tip, afm_sample *to)
     }
     bad = bad || lossy_forces(tip, &r, poisson, to->spring_constant, base, (size_t)n,
                               (to->time[1] - to->time[0]) / FINE, force, NULL) != 0;
-    afm_scene clean = *s; /* adhesion adds to it what it adds without loss */
+    afm_scene clean = *s; /* Adhesion adds the same force as without loss. */
     clean.work = clean.work_out = 0;
     for (int i = first; !bad && i < AFM_SAMPLES; i++) {
         const int out = i >= AFM_BRANCH;
@@ -174,12 +175,12 @@ static int add_lossy(const afm_scene *s, const afm_tip *tip, afm_sample *to)
     return bad ? -1 : 0;
 }
 
-/* What piezo, lever and detector do to the force, and the truth at the largest depth. */
+/* Effects of piezo, cantilever and detector on the force, and the truth at the largest depth. */
 static void disturb(const afm_scene *s, afm_sample *to)
 {
     double elastic[AFM_SAMPLES];
     memcpy(elastic, to->force, sizeof elastic);
-    for (int i = 1; i < AFM_SAMPLES; i++) { /* of the piezo's velocity, and that of the tip */
+    for (int i = 1; i < AFM_SAMPLES; i++) { /* velocity of the piezo, and of the tip */
         const double moved = to->base[i] - to->base[i - 1],
                      by_tip = moved - (elastic[i] - elastic[i - 1]) / to->spring_constant;
         const double step = fabs(to->base[2] - to->base[1]);
@@ -216,7 +217,7 @@ afm_sample *afm_sample_make(const afm_scene *s)
     to->largest = top;
     to->modulus = layer_reduced(s, a) * (1 - poisson * poisson);
     for (int i = 0; i < AFM_SAMPLES;
-         i++) { /* contact 0.3 of a step after a sample; 1 s to the top */
+         i++) { /* contact 0.3 of a step after a sample; 1 s to the maximum */
         to->base[i] = (i < AFM_BRANCH ? i + 1 - free_samples - 0.3
                                       : 2 * AFM_BRANCH - 1 - i - free_samples - 0.3) *
                       step;
@@ -231,7 +232,7 @@ afm_sample *afm_sample_make(const afm_scene *s)
     }
     free(thin);
     disturb(s, to);
-    if (s->loss != LOSS_NONE && s->force_to > 0) { /* and |E*| is that at 1/(time to there) */
+    if (s->loss != LOSS_NONE && s->force_to > 0) { /* |E*| is that at 1/(loading time) */
         double found;
         int last = free_samples;
         const relaxation r = afm_relaxation(s);
@@ -275,7 +276,7 @@ static double next_noise(afm_noise kind, int i, noise_state *state, random_sourc
                              : 0.95 * state->slow + sqrt(1 - 0.95 * 0.95) * random_normal(random);
         return sqrt(0.7) * state->slow + sqrt(0.3) * white;
     }
-    for (int k = 0; k < OCTAVES; k++) { /* one process for each octave: 1/f between them */
+    for (int k = 0; k < OCTAVES; k++) { /* one process for each octave gives 1/f noise */
         const double rho = exp(-ldexp(1, -k));
         state->octave[k] =
             i == 0 ? random_normal(random)

@@ -1,11 +1,12 @@
-/* Force curves. Fixed before any method was chosen, but IC6 and IV6 (lever, noise), changed when
- * the method before refused them, and IJ7 (modulus, lever), when it was not covered; it still is
- * not. IC7, IC8, IV7, IV8 and IB5 to IB8 were fixed before the spectrum of the noise was; IS1 to
- * IS3, of spots, when the method was there; IV9 to IV11 after the error of a memory was chosen;
- * IT1 to IT14 with the tips and samples that they try, IG1 to IG3 with the ranges, IB9 to IB12 and
- * II1 to II8 with what they try; IM1 to IM17 with the error of a misfit, IC9, IC10 and IM0 after
- * it; IM18 to IM25 when the laws of adhesion were weighed, before they were drawn.
+/* Force curves. The scenes were fixed before any method was chosen, with these exceptions.
  *
+ * IC6, IV6 (cantilever, noise) were changed after the method of that time refused them, IJ7
+ * (modulus, cantilever) after its intervals failed; they still fail. IC7, IC8, IV7, IV8, IB5 to IB8
+ * precede the noise spectrum. IS1 to IS3 (positions) follow their method, IV9 to IV11 the error of
+ * the viscoelastic response. IT1 to IT14, IG1 to IG3, IB9 to IB12 and II1 to II8 belong to the
+ * tips, samples, ranges and effects that they test. IM1 to IM17 come with the error of a lack of
+ * fit, IC9, IC10 and IM0 after it. IM18 to IM25 were fixed with the laws of adhesion, before they
+ * were drawn.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "afm_scene.h"
 
@@ -13,10 +14,10 @@
 #define NOT_DESCRIBED RIGHT(NO)
 #define EITHER (RIGHT(YES) | RIGHT(NO))
 #define ANYTHING (EITHER | RIGHT(INCONCLUSIVE))
-#define NOT_REFUSED (RIGHT(YES) | RIGHT(INCONCLUSIVE)) /* too noisy to say more */
+#define NOT_REFUSED (RIGHT(YES) | RIGHT(INCONCLUSIVE)) /* too noisy for a verdict */
 #define NOT_MISSED (RIGHT(NO) | RIGHT(INCONCLUSIVE))
 
-/* With a baseline of 1.3 um. */
+/* Baseline of 1.3 um. */
 #define SOFT .modulus = 50e3, .spring_constant = 0.02, .depth = 400e-9
 
 const afm_scene afm_scenes[] = {
@@ -73,8 +74,8 @@ const afm_scene afm_scenes[] = {
     {NAMED("IV6", "tan delta 0.3, correlated 2 %, lever of 0.1 N/m"),
      .facts.intervals_promised = true, .facts.right = ANYTHING, .noise = 0.02,
      .kind = NOISE_CORRELATED, .loss = LOSS_COLE_COLE, .tan_delta = 0.3, .spring_constant = 0.1},
-    /* no promise: a pull and a loss together leave the change with depth open, which is then not
-     * stated */
+    /* Not promised: adhesion and loss together leave the change with depth undetermined, so that it
+     * is not stated. */
     {NAMED("IV7", "tan delta 0.1 with adhesion of 10 mJ/m^2"), .facts.right = EITHER,
      .noise = 0.005, .loss = LOSS_COLE_COLE, .tan_delta = 0.1, .work = 10e-3, .work_out = 10e-3},
     {NAMED("IV8", "tan delta 0.3 with adhesion of 10 mJ/m^2 in, 30 out"), .facts.right = EITHER,

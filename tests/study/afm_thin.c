@@ -1,7 +1,7 @@
 /* A thin sample on a rigid base, or a layer on other rubber, by the integral equation of the
- * contact: pi/2 g + int K g = the depth of the tip, its kernel the response of the sample to waves
- * less that of a thick one. Lengths are those of the thickness. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+ * contact: pi/2 g + int K g = depth of the tip. The kernel K is the response of the sample to
+ * waves, minus that of a thick one. Lengths are in units of the thickness.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "afm_physics.h"
 
 #include <math.h>
@@ -12,11 +12,11 @@ enum { NODES = 20, PANELS = 2, ALL = NODES * PANELS, WAVES = 300, RADII = 64 };
 static const double deepest_wave = 20, largest_radius = 1.3;
 
 struct thin_sample {
-    double step;                               /* of the contact radius [m] */
-    double depth[RADII + 1], force[RADII + 1]; /* over those of a thick sample */
+    double step;                               /* unit: contact radius [m] */
+    double depth[RADII + 1], force[RADII + 1]; /* relative to a thick sample */
 };
 
-/* Of Gauss and Legendre between 0 and 1. */
+/* Gauss-Legendre rule between 0 and 1. */
 static void rule(double *x, double *w)
 {
     for (int i = 0; i < NODES; i++) {
@@ -36,7 +36,7 @@ static void rule(double *x, double *w)
     }
 }
 
-/* What the sample gives way under a wave, less 1, of that of a thick one (Poisson's ratio 0.5). */
+/* Compliance of the sample for a wave relative to a thick one, minus 1 (Poisson's ratio 0.5). */
 static double response(double x, int unbonded)
 {
     const double e = exp(-2 * x);
@@ -45,8 +45,8 @@ static double response(double x, int unbonded)
     return -(2 * (1 + 2 * x + 2 * x * x) * e + 2 * e * e) / (1 + (2 + 4 * x * x) * e + e * e);
 }
 
-/* The same of a layer on rubber to which it sticks, of that of a thick layer (Burmister, J. Appl.
- * Phys. 16 (1945) 89); ratio: E of the layer over that of the ground. */
+/* The same for a layer bonded to rubber, relative to a thick layer (Burmister, J. Appl. Phys. 16
+ * (1945) 89); ratio: E of the layer over that of the rubber. */
 static double layer_response(double x, double ratio)
 {
     const double beta = (ratio - 1) / (ratio + 1), e = exp(-2 * x), all = beta * beta * e * e;
@@ -54,7 +54,7 @@ static double layer_response(double x, double ratio)
            (1 - (2 * beta + 4 * beta * x * x) * e + all);
 }
 
-/* Solves m y = b for two right sides, by elimination with pivots. */
+/* Solves m y = b for two right sides by elimination with pivoting. */
 static void eliminate(double m[ALL][ALL], double b[2][ALL], int n)
 {
     for (int c = 0; c < n; c++) {
@@ -85,8 +85,8 @@ static void eliminate(double m[ALL][ALL], double b[2][ALL], int n)
             b[s][c] /= m[c][c];
 }
 
-/* Depth and force over E/(1 - nu^2) at the contact radius a; the nodes are parted where the cap of
- * the tip ends, and closer there. */
+/* Depth and force over E/(1 - nu^2) at the contact radius a. The nodes are split at the edge of the
+ * tip cap, and denser there. */
 static void solve(const afm_tip *tip, double thickness, const double *kernel, double a,
                   double *depth, double *force)
 {
@@ -121,7 +121,7 @@ static void solve(const afm_tip *tip, double thickness, const double *kernel, do
             }
             m[i][j] = (i == j ? 1 : 0) + 2 / M_PI * sum * weight[j] / thickness;
         }
-    /* at the edge the density of the pressure must vanish: the equation itself, there */
+    /* At the edge the pressure density must vanish; the equation is evaluated there. */
     eliminate(m, shape, n);
     double edge[2] = {1 / M_PI, tip_depth(tip, a) / M_PI};
     for (int j = 0; j < n; j++) {
@@ -139,7 +139,7 @@ static void solve(const afm_tip *tip, double thickness, const double *kernel, do
     free(wave);
 }
 
-/* kernel: responses, without the weights of Simpson's rule; radius: the largest. */
+/* kernel: responses without the weights of Simpson's rule; radius: the largest. */
 static thin_sample *solve_all(const afm_tip *tip, double thickness, double kernel[WAVES + 1],
                               double radius)
 {
@@ -178,7 +178,7 @@ thin_sample *layer_make(const afm_tip *tip, double thickness, double ratio, doub
     return solve_all(tip, thickness, kernel, radius);
 }
 
-/* By the cubic through four points. */
+/* Cubic interpolation through four points. */
 static double between(const double *y, double at)
 {
     at = fmin(at, RADII);

@@ -1,6 +1,8 @@
-/* study_check NUMERIC STATISTICS: numbers, generators, integrals, reader and counting of the study.
- * STATISTICS holds data sets that were drawn elsewhere by the same formulas; what needs them is
- * skipped where it is not there. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tests the study itself: numbers, generators, integrals, reader and counts. STATISTICS contains
+ * data sets drawn by another program with the same formulas; without it their tests are skipped.
+ *
+ * study_check NUMERIC STATISTICS
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "check.h"
 #include "dma_sample.h"
 #include "program.h"
@@ -58,7 +60,7 @@ static void check_random(void)
     check_true("two streams have nothing in common", fabs(product) < 0.01);
 }
 
-/* Values of the formulas, computed elsewhere: broad at 20 degC. */
+/* Values of the formulas from another program: broad at 20 degC. */
 static void check_material(void)
 {
     static const double lg_storage[] = {6.345, 6.4744, 7.0501, 7.9693, 8.7129};
@@ -81,15 +83,15 @@ static void check_material(void)
     const double above = (law_shift(glass, 20, at + d) - law_shift(glass, 20, at)) / d;
     const double below = (law_shift(glass, 20, at) - law_shift(glass, 20, at - d)) / d;
     check_near("slope below the glass transition", below, glass->slope_below * above, 1e-3);
-    /* a fractional Zener solid is a Havriliak-Negami one with gamma 1 */
+    /* a fractional Zener solid is a Havriliak-Negami solid with gamma 1 */
     const rubber zener = rubber_make(RUBBER_FRACTIONAL_ZENER);
     double storage, loss;
     rubber_moduli(&zener, (const double[2]){1e9, 1e9}, &storage, &loss);
     check_near("E' of the fractional element at its time", storage, 2e6 + 0.75e9, 1e-12);
 }
 
-/* rms of ln (measured / own noiseless value) in a data set drawn elsewhere: f [Hz], E', E'' [Pa],
- * T [degC]. */
+/* rms of ln (measured / noiseless value) in a data set of another program: f [Hz], E', E'' [Pa], T
+ * [degC]. */
 static void check_set(const char *folder, const char *name, const char *scene_name, double noise)
 {
     char path[1024], line[256];
@@ -120,7 +122,7 @@ static void check_set(const char *folder, const char *name, const char *scene_na
     check_near(name, sqrt(sum / n), noise, 0.12);
 }
 
-/* A draw without errors is the truth; with them its scatter is what the scene says. */
+/* A draw without errors equals the truth; with errors its scatter is that of the scene. */
 static void check_sample(void)
 {
     const dma_scene *s = find_scene("D12");
@@ -180,7 +182,7 @@ static void check_stream(void)
     stream_free(s);
 }
 
-/* Draws that state an error `honesty` times the true one. */
+/* Draws that state `honesty` times the true error. */
 static int complaints_of(double honesty, int draws, tally *found)
 {
     facts s = find_scene("D1")->facts;
@@ -213,7 +215,7 @@ static void check_tally(void)
     check_true("nor those that are not stated", complaints_of((double)NAN, 50, &t) == 1);
 }
 
-/* Two draws each prove nothing; of all scenes together they do. */
+/* Two draws of one scene prove nothing; those of all scenes together do. */
 static void check_pool(void)
 {
     facts s = find_scene("D1")->facts;

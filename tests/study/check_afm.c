@@ -1,4 +1,5 @@
-/* The own contact laws against 12 digits. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Contact laws of the study against 12 digits.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "afm_physics.h"
 #include "check.h"
 
@@ -20,7 +21,7 @@ static char *read_all(const char *folder, const char *name)
     return text;
 }
 
-/* The number behind the next "KEY":, of those before `end`; nan if there is none. */
+/* Number after the next "KEY": before `end`; nan if there is none. */
 static double number(const char **at, const char *key, const char *end)
 {
     char quoted[64];
@@ -77,7 +78,7 @@ static void check_jkr(const char *text)
         if (released != NULL && (next == NULL || released < next)) {
             const double a = jkr_release(&law, k);
             check_near("pull-off of a lever", jkr_force(&law, a), number_in(released, "F_N", next),
-                       1e-7); /* where the base position has its minimum it is flat */
+                       1e-7); /* the derivative is zero at the minimum of the base position */
         }
         p = strstr(at, "\"points\"");
         for (double depth; !isnan(depth = number(&p, "delta_m", next)); points++) {
@@ -85,7 +86,7 @@ static void check_jkr(const char *text)
             check_near("adhesive depth", jkr_depth(&law, a) + 1e-8, depth + 1e-8, 1e-10);
             check_near("adhesive force", jkr_force(&law, a), number(&p, "F_N", next), 1e-10);
             const double far = number_in(p, "F_DMT_N", strchr(p, '}'));
-            if (!isnan(far) && depth > 0) /* the cap of the attraction: 2 pi w R */
+            if (!isnan(far) && depth > 0) /* limit of the attraction: 2 pi w R */
                 check_near("force of Derjaguin, Muller and Toporov",
                            law.reduced * tip_force(&tip, tip_contact_radius(&tip, depth)) -
                                2 * M_PI * law.work * tip.radius,
@@ -96,7 +97,7 @@ static void check_jkr(const char *text)
     check_true("adhesive points", points > 20);
 }
 
-/* Base positions of the motion: pieces of lines, or a squared sine. */
+/* Base positions with time: line segments or a squared sine. */
 static double motion(const char *at, const char *end, double t)
 {
     double times[RELAXATIONS], depths[RELAXATIONS];
@@ -149,7 +150,7 @@ static void check_layer_file(char *text)
     check_true("rows of layers", rows > 30);
 }
 
-/* The contact by the integral equation beside solutions of others in 11 digits. */
+/* Contact by the integral equation against published solutions with 11 digits. */
 static void check_layers(const char *folder)
 {
     char *text = read_all(folder, "layer.csv");
@@ -201,7 +202,7 @@ void check_afm(const char *folder)
     free(layer);
 }
 
-/* Another solution of the same integral equation, good to 1e-4. */
+/* Another solution of the same integral equation, accurate to 1e-4. */
 void check_thin(const char *folder)
 {
     char path[1024], line[256];

@@ -1,4 +1,5 @@
-/* The own integrals against 20 digits. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction integrals of the study against 20 digits.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "check.h"
 #include "contact.h"
 
@@ -92,7 +93,7 @@ static void check_case(const char *path, const char *name, int steps)
     check_near(what, truth.area[0], c.area, 1e-6);
 }
 
-/* One wave: the energy falls off as one exponential, and the balance is a logarithm. */
+/* One wave: the energy decays as one exponential, and the steady-state thickness is a logarithm. */
 static void check_layer(void)
 {
     static const rubber plain = {
@@ -126,6 +127,6 @@ void check_contact(const char *folder)
     check_case(path, "fractional_zener", 100);
     check_case(path, "one_term", 100);
     check_case(path, "prony_14_decades", 100);
-    check_case(path, "v_1e6", 500); /* contact is lost within a few per cent of q */
+    check_case(path, "v_1e6", 500); /* the contact area vanishes within a few per cent of q */
     check_layer();
 }

@@ -1,4 +1,5 @@
-/* Whole studies through run and collect. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Observes whole studies through run and collect.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "collection_observe.h"
 #include "collection_sample.h"
 
@@ -6,10 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What is neither more nor less than this is no difference; the default of collect. */
+/* Smallest relative difference that counts; the default of collect. */
 static const double margin = 0.2;
 
-/* Where a row of a study belongs. */
+/* Subject of a row of a study. */
 typedef struct study_place {
     int compound, severity;
 } study_place;
@@ -37,8 +38,8 @@ static bool find_case(const stream *found, const char *table, int row, study_pla
     return false;
 }
 
-/* A "yes" is right if the ratio is not 1, a "no" if it is within the margin. */
-static void take_verdict(trial *t, quantity q, double ratio, const stream *found, const char *table,
+/* "Yes" is right if the ratio is not 1, "no" if it is within the margin. */
+static void read_verdict(trial *t, quantity q, double ratio, const stream *found, const char *table,
                          const char *column, int row)
 {
     const bool yes = stream_is(found, table, column, row, PLACE_YES) != 0,
@@ -52,7 +53,7 @@ static void take_verdict(trial *t, quantity q, double ratio, const stream *found
         t->draw->verdict = NO;
 }
 
-/* ---- what collect says ----------------------------------------------------------------------- */
+/* ---- output of collect ----------------------------------------------------------------------- */
 
 static int read_cases(const collection_scene *s, const study_truth *truth, const stream *found,
                       trial *t)
@@ -73,7 +74,7 @@ static int read_cases(const collection_scene *s, const study_truth *truth, const
             t, Q_CHANGE,
             truth->with_layer[at.compound][at.severity][REFERENCE] / bare->friction[REFERENCE] - 1,
             place_row(found, &place_collected_change, row));
-        take_verdict(t, Q_SAID_DIFFERS, ratio, found, table, PLACE_DIFFERS, row);
+        read_verdict(t, Q_SAID_DIFFERS, ratio, found, table, PLACE_DIFFERS, row);
     }
     return n == COMPOUNDS * SEVERITIES ? 0 : -1;
 }
@@ -132,7 +133,7 @@ static int place_of(const char *const *names, int n, const stream *found, const 
     return -1;
 }
 
-/* Of a compound two severities, or of a severity two compounds. */
+/* Two severities of a compound, or two compounds of a severity. */
 static int read_translations(const collection_scene *s, const stream *found, trial *t)
 {
     const int n = stream_rows(found, place_pair.table);
@@ -149,14 +150,14 @@ static int read_translations(const collection_scene *s, const stream *found, tri
         const double ratio = c >= 0 ? s->cases[c][first].ratio / s->cases[c][second].ratio
                                     : s->cases[first][k].ratio / s->cases[second][k].ratio;
         trial_add(t, Q_RATIO_PAIR, ratio, place_row(found, &place_pair, row));
-        take_verdict(t, Q_SAID_PAIR, ratio, found, place_pair.table, PLACE_PAIR_DIFFER, row);
+        read_verdict(t, Q_SAID_PAIR, ratio, found, place_pair.table, PLACE_PAIR_DIFFER, row);
     }
     return n == 2 * COMPOUNDS ? 0 : -1;
 }
 
-/* Where the values behind a constant are one, "differs" is wrong. Two severities wear so
- * differently that "one" would be. */
-static void take_shared(trial *t, quantity q, double truth, const stream *found, int row)
+/* If the true values are equal, "differs" is wrong. The two severities have so different wear rates
+ * that "one" would be wrong for them. */
+static void read_shared_value(trial *t, quantity q, double truth, const stream *found, int row)
 {
     const char *table = place_shared.table;
     const bool is_one = stream_is(found, table, PLACE_SUFFICES, row, PLACE_ONE) != 0,
@@ -170,8 +171,8 @@ static void take_shared(trial *t, quantity q, double truth, const stream *found,
         t->draw->verdict = NO;
 }
 
-/* By least squares over three rates a decade apart. The second compound has the spectrum of the
- * first, so that it is one of all. */
+/* Least squares over three rates a decade apart. The second compound has the spectrum of the first,
+ * so that all share the value. */
 static double rate_factor(const study_prepared *p)
 {
     const double *e = p->compound[0].modulus;
@@ -186,11 +187,12 @@ static int read_shared(const study_prepared *p, const study_truth *truth, const 
     for (int row = 0; row < n; row++) {
         const int k = place_of(study_severity, SEVERITIES, found, table, PLACE_PAIR_OF, row);
         if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_WEAR))
-            take_shared(t, Q_SHARED_WEAR, k >= 0 ? truth->wear_rate[k] : (double)NAN, found, row);
+            read_shared_value(t, Q_SHARED_WEAR, k >= 0 ? truth->wear_rate[k] : (double)NAN, found,
+                              row);
         else if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_SHEAR))
-            take_shared(t, Q_SHARED_SHEAR, truth->shear_stress, found, row);
+            read_shared_value(t, Q_SHARED_SHEAR, truth->shear_stress, found, row);
         else if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_RATE_FACTOR))
-            take_shared(t, Q_SHARED_RATE, rate_factor(p), found, row);
+            read_shared_value(t, Q_SHARED_RATE, rate_factor(p), found, row);
         else
             return -1;
     }
@@ -214,17 +216,17 @@ static void read_collected(const collection_scene *s, const study_prepared *p,
     stream_free(found);
 }
 
-/* ---- what a case says ------------------------------------------------------------------------ */
+/* ---- results of a case ----------------------------------------------------------------------- */
 
-/* A table of a result; to be freed. NULL if there is none. */
-static stream *take_table(const char *result, const char *name, const char *path, trial *t)
+/* Table of a result; free it. NULL if there is none. */
+static stream *read_result_table(const char *result, const char *name, const char *path, trial *t)
 {
     const char *const arguments[] = {"table", result, name, "--format", "stream", "-o", path, NULL};
     return trial_run(t, arguments) ? stream_read(path) : NULL;
 }
 
-/* "Does not" and "contradicts" are wrong: the layer of the record is that of the theory. */
-static void take_certain(trial *t, quantity q, bool wrong, bool is_certain)
+/* "Does not" and "contradicts" are wrong, because the layer of the record follows the theory. */
+static void read_certain(trial *t, quantity q, bool wrong, bool is_certain)
 {
     const double stated = is_certain ? 0 : (double)NAN;
     trial_add(t, q, wrong ? 1 : 0, (estimate){0, stated, stated});
@@ -232,15 +234,15 @@ static void take_certain(trial *t, quantity q, bool wrong, bool is_certain)
         t->draw->verdict = NO;
 }
 
-/* The record is made by the theory, so that it never fails to explain. */
+/* The record follows the theory, so that it always explains it. */
 static bool read_validation(const study_truth *truth, const char *result, const char *path,
                             trial *t)
 {
-    stream *found = take_table(result, PLACE_VALIDATION, path, t);
+    stream *found = read_result_table(result, PLACE_VALIDATION, path, t);
     const verdict said =
         found != NULL ? place_friction_verdict(found, PLACE_VALIDATION) : NO_VERDICT;
     if (said != NO_VERDICT) {
-        take_certain(t, Q_SAID_RECORD, said == NO, said != INCONCLUSIVE);
+        read_certain(t, Q_SAID_RECORD, said == NO, said != INCONCLUSIVE);
         trial_add(t, Q_FRICTION_RATIO, 1, place_key(found, &place_friction_ratio));
         trial_add(t, Q_NEEDED_SHEAR, truth->shear_stress, place_key(found, &place_needed_shear));
     }
@@ -248,20 +250,20 @@ static bool read_validation(const study_truth *truth, const char *result, const 
     return said != NO_VERDICT;
 }
 
-/* Without a layer (`soft` is not set) there is no change and no time of it. */
+/* Without a layer (`soft` is not set) there is no change and no time. */
 static bool read_running_in(const study_truth *truth, bool soft, int c, int k, const char *result,
                             const char *path, trial *t)
 {
-    stream *found = take_table(result, PLACE_VALIDATION_RUNNING_IN, path, t);
+    stream *found = read_result_table(result, PLACE_VALIDATION_RUNNING_IN, path, t);
     const verdict said =
         found != NULL ? place_friction_verdict(found, PLACE_VALIDATION_RUNNING_IN) : NO_VERDICT;
     const char *wear =
         found != NULL ? stream_key(found, PLACE_VALIDATION_RUNNING_IN, PLACE_WEAR_AGREES) : NULL;
     if (said != NO_VERDICT)
-        take_certain(t, Q_SAID_RUNNING_IN, said == NO, said != INCONCLUSIVE);
+        read_certain(t, Q_SAID_RUNNING_IN, said == NO, said != INCONCLUSIVE);
     if (said != NO_VERDICT && wear != NULL && soft) {
         const bool wrong = strncmp(wear, PLACE_CONTRADICTS, strlen(PLACE_CONTRADICTS)) == 0;
-        take_certain(t, Q_SAID_WEAR, wrong,
+        read_certain(t, Q_SAID_WEAR, wrong,
                      strncmp(wear, PLACE_INCONCLUSIVE, strlen(PLACE_INCONCLUSIVE)) != 0);
     }
     if (said != NO_VERDICT && soft) {
@@ -280,13 +282,13 @@ static bool read_running_in(const study_truth *truth, bool soft, int c, int k, c
 static bool read_record(const collection_scene *s, const study_truth *truth, int c, int k,
                         const char *result, const char *path, trial *t)
 {
-    stream *found = take_table(result, place_steady.table, path, t);
+    stream *found = read_result_table(result, place_steady.table, path, t);
     const bool whole = found != NULL && stream_rows(found, place_steady.table) == STUDY_VELOCITIES;
     for (int v = 0; whole && v < STUDY_VELOCITIES; v++)
         trial_add(t, Q_STEADY, truth->with_layer[c][k][study_step(s, v)],
                   place_row(found, &place_steady, v));
     stream_free(found);
-    found = whole ? take_table(result, place_wear_rate.table, path, t) : NULL;
+    found = whole ? read_result_table(result, place_wear_rate.table, path, t) : NULL;
     const bool worn = found != NULL && stream_rows(found, place_wear_rate.table) > 0;
     if (worn)
         trial_add(t, Q_WEAR_RATE, truth->wear_rate[k], place_row(found, &place_wear_rate, 0));
@@ -294,11 +296,11 @@ static bool read_record(const collection_scene *s, const study_truth *truth, int
     return worn;
 }
 
-/* Does friction take the wavenumbers of which the truth is known? */
+/* True if friction uses the wavenumbers for which the truth is known. */
 static bool is_surface(const char *result, const char *path, trial *t)
 {
     const double near = 1e-3;
-    stream *found = take_table(result, PLACE_ROUGHNESS, path, t);
+    stream *found = read_result_table(result, PLACE_ROUGHNESS, path, t);
     const int n = found != NULL ? stream_rows(found, PLACE_ROUGHNESS) : 0;
     const bool is =
         n > 1 &&
@@ -331,7 +333,7 @@ static bool run_case(const collection_scene *s, const study_prepared *p, const s
     char name[24];
     snprintf(name, sizeof name, "%s-%s.xml", study_compound[c], study_severity[k]);
     const char *path = trial_file(t, name);
-    /* of a running-in as many replicates as errors take, for a run of it to be short */
+    /* a running-in uses the replicates of the error estimate, so that a run is short */
     const char *const arguments[] = {
         "run",         path,        "-o", result,
         "--no-report", "--threads", "1",  s->running_in ? "--replicates" : NULL,

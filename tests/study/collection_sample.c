@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "collection_sample.h"
 #include "dma_sample.h"
-#include "made_surface.h"
+#include "synthetic_surface.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,24 +14,25 @@ const char *const study_severity[SEVERITIES] = {"mild", "severe"};
 
 static const double pi = 3.14159265358979323846;
 
-/* What the cases state, with these relative errors, by which the truth is off. */
+/* Inputs of the cases, with relative errors by which the truth differs. */
 static const double pressure[SEVERITIES] = {0.2e6, 0.6e6}, wear_rate[SEVERITIES] = {5e-13, 1e-12},
                     critical_energy[COMPOUNDS] = {3e11, 5e11}, shear_stress = 3e6;
 static const double of_pressure = 0.03, of_wear = 0.1, of_energy = 0.1, of_shear = 0.05,
                     of_lever = 0.05, of_track_area = 0.1;
-static const double indented_at = 20, slid_at = 30; /* degC; the first is the reference, too */
+static const double indented_at = 20, slid_at = 30; /* [degC]; the first is the reference, too */
 
 /* ---- force curves ---------------------------------------------------------------------------- */
 
 static const double lever = 0.3, depth = 70e-9, poisson = 0.5, curve_noise = 0.005;
-static const double loading[STUDY_RATES] = {0.7, 0.07, 0.007}; /* s: 0.1, 1 and 10 um/s */
-/* The moduli of the second compound over those of the first. */
+static const double loading[STUDY_RATES] = {0.7, 0.07, 0.007}; /* [s]: 0.1, 1 and 10 um/s */
+/* Ratio of the moduli of the second and the first compound. */
 static const double stiffer[COMPOUNDS] = {1, 1.5};
 enum { FREE = 600, FINE = 4 };
 
-/* The times up to a thousandfold of the slowest loading, two terms as one: what is slower is
- * elastic, what is faster is relaxed at once. A glassy term of 1 us still adds to the force of the
- * fastest loading: without those down to 0.1 us it lacks 0.24 %, and its modulus 0.1 %. */
+/* Times up to a thousand times the slowest loading; two terms are merged into one. Slower terms
+ * are elastic, faster ones have relaxed. A glassy term of 1 us still contributes to the force of
+ * the fastest loading: without the terms down to 0.1 us the force lacks 0.24 % and the modulus
+ * 0.1 %. */
 static relaxation slow_part(const rubber *r)
 {
     const double fastest = 1e-8, slowest = 1e3;
@@ -51,8 +52,8 @@ static relaxation slow_part(const rubber *r)
     return to;
 }
 
-/* Depth and force of a triangle in time, contact 0.3 of a sample after one; `base` and `force` of
- * the sample are these. */
+/* Depth and force of a triangular motion, contact 0.3 of a sample after one; `base` and `force` are
+ * those of the sample. */
 static afm_sample *make_curve(const relaxation *r, double seconds)
 {
     const afm_tip tip = afm_pyramid(20e-9, 35, 4);
@@ -108,7 +109,7 @@ study_prepared *study_prepare(void)
     return p;
 }
 
-/* The lever bends by the force, and is taken for one of the stated spring constant. */
+/* The force bends the cantilever; the file has the stated spring constant. */
 static void write_curve(const afm_sample *from, double factor, double true_lever,
                         random_source *random, int number, FILE *file)
 {
@@ -124,7 +125,7 @@ static void write_curve(const afm_sample *from, double factor, double true_lever
     afm_sample_write(&here, &scene, random, number, file);
 }
 
-/* A file for each spot, with a curve at each rate. */
+/* A file for each position, with a curve at each rate. */
 static int write_spot(const study_compound_truth *c, double factor, double true_lever,
                       random_source *random, const char *path)
 {
@@ -149,25 +150,25 @@ const dma_scene study_isotherms = {.law = {900, -90, 0, (double)NAN, 1, 0},
                                    .frequencies = 13,
                                    .noise_storage = 0.01,
                                    .noise_loss = 0.01};
-/* The law of the surface, and the maps: two places, each seen wide and near. */
+/* The power law of the surface and the maps: two positions, each at two magnifications. */
 static const double roll_off = 1e4, hurst = 0.8, c0 = 1e-18, map_step[2] = {22e-6, 0.55e-6};
 enum { SURFACE = 256, MODES = 126, POINTS = 112, ASIDE = 20 };
 
-/* A part of a made surface, away from its edges, as Gwyddion Simple Field. */
+/* A part of a synthetic surface, away from its edges, as Gwyddion Simple Field. */
 static int write_map(double step, random_source *random, const char *path)
 {
-    const made_surface surface = {.n = SURFACE,
-                                  .length = SURFACE * step,
-                                  .seed = (uint64_t)(random_uniform(random) * 0x1p52),
-                                  .modes = MODES,
-                                  .c0 = c0,
-                                  .roll_off = roll_off,
-                                  .hurst = hurst,
-                                  .exponential = true};
+    const synthetic_surface surface = {.n = SURFACE,
+                                       .length = SURFACE * step,
+                                       .seed = (uint64_t)(random_uniform(random) * 0x1p52),
+                                       .modes = MODES,
+                                       .c0 = c0,
+                                       .roll_off = roll_off,
+                                       .hurst = hurst,
+                                       .exponential = true};
     FILE *out = fopen(path, "wb");
     if (out == NULL)
         return -1;
-    double *z = make_surface(&surface);
+    double *z = surface_create(&surface);
     const int head = fprintf(out,
                              "Gwyddion Simple Field 1.0\nXRes = %d\nYRes = %d\nXReal = %.9g\n"
                              "YReal = %.9g\nXYUnits = m\nZUnits = m\n",
@@ -202,7 +203,7 @@ int study_write_common(const study_prepared *p, random_source *random, const stu
 
 /* ---- contact --------------------------------------------------------------------------------- */
 
-enum { REFERENCE = 2 }; /* the velocity that forms the layer */
+enum { REFERENCE = 2 }; /* velocity that forms the layer */
 
 static bool is_by_transport(int compound)
 {
@@ -261,7 +262,8 @@ study_truth study_draw(const collection_scene *s, const study_prepared *p, rando
 
 /* ---- record and case ------------------------------------------------------------------------- */
 
-enum { LAPS = 60, SAMPLES = 4 }; /* at each velocity; a running-in is longer and has a row a lap */
+/* at each velocity; a running-in is longer and has a row per lap */
+enum { LAPS = 60, SAMPLES = 4 };
 static const double track_radius = 0.0125, load = 5, settled_times = 4;
 
 int study_step(const collection_scene *s, int step)
@@ -280,7 +282,7 @@ static bool has_running_in(const growth_truth *growth, int step)
     return step == 0 && growth->settled > 0;
 }
 
-/* Of a step. */
+/* Number of laps of a step. */
 static int lap_count(const growth_truth *growth, int step)
 {
     const double laps = settled_times * growth->settled / lap_time(REFERENCE);
@@ -336,7 +338,7 @@ static const char *base_name(const char *path)
     return slash != NULL ? slash + 1 : path;
 }
 
-/* The curves of a zone, and what the case says of them; `of` names the case. */
+/* Curves of a zone, and their element in the case; `of` names the case. */
 static int write_zone(const study_case *s, const study_compound_truth *compound, const char *of,
                       const char *zone, double true_lever, random_source *random, trial *t,
                       FILE *out)

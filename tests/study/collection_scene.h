@@ -1,4 +1,5 @@
-/* Whole studies of several rubbers and severities. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Whole studies of several compounds and severities.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_COLLECTION_SCENE_H
 #define STUDY_COLLECTION_SCENE_H
 
@@ -6,8 +7,8 @@
 
 /* A case of a study. */
 typedef struct study_case {
-    double ratio;        /* modulus of the track over that of the bulk; 1: no layer */
-    int spots;           /* in bulk and track each */
+    double ratio;        /* modulus ratio of track and bulk; 1: no layer */
+    int spots;           /* number in bulk and in track */
     double spot_scatter; /* standard deviation of ln E */
 } study_case;
 
@@ -17,7 +18,7 @@ enum { COMPOUNDS = 2, SEVERITIES = 2, STUDY_SPOTS_MAX = 6 };
  * surface and a record of friction and wear. */
 typedef struct collection_scene {
     facts facts;
-    double lap_noise; /* relative scatter of the friction of a lap */
+    double lap_noise; /* relative scatter of the coefficient of a lap */
     bool running_in;  /* the record begins on fresh rubber, at the velocity that forms the layer */
     study_case cases[COMPOUNDS][SEVERITIES]; /* mild, severe */
 } collection_scene;

@@ -1,5 +1,5 @@
-/* Whole studies of several rubbers and severities. Fixed before the method was tried on any of
- * them. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Whole studies of several compounds and severities, fixed before the method was tried on them.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "collection_scene.h"
 
 const collection_scene collection_scenes[] = {

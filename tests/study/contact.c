@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the integrals over the wavenumber need at one of them. */
+/* Values of the integrals over the wavenumber at one wavenumber. */
 typedef struct wave {
-    double weight; /* of Simpson's rule in ln q, and q itself */
+    double weight; /* weight of Simpson's rule in ln q, and q itself */
     double q, variance_density, loss_angle;
     double bare_density, bare_loss; /* the same without a layer */
     double power;                   /* j(q) */
@@ -18,8 +18,8 @@ static double density(const contact *c, double q)
     return q <= c->qr ? c->c0 : c->c0 * pow(q / c->qr, -2 * (1 + c->hurst));
 }
 
-/* J1 and J2 of the angle: with cos(phi) = 1/cosh(u) what is integrated is smooth and falls off at
- * both ends, so that equal steps are exact to rounding. */
+/* J1 and J2 of the angle. With cos(phi) = 1/cosh(u) the integrand is smooth and decays at both
+ * limits, so that equal steps are exact to rounding. */
 static void angular(const contact *c, const rubber_state *state, double omega, double *j1,
                     double *j2)
 {
@@ -34,9 +34,9 @@ static void angular(const contact *c, const rubber_state *state, double omega, d
     }
 }
 
-/* Modulus that a wave sees over that of the rubber: a bonded layer on it, both incompressible
+/* Modulus of a bonded layer on rubber for a wave, relative to the rubber; both incompressible
  * (Burmister 1943). */
-static double seen(const contact *c, double q)
+static double layer_modulus_ratio(const contact *c, double q)
 {
     if (!(c->layer_ratio > 0) || !(c->layer_thickness > 0))
         return 1;
@@ -46,14 +46,14 @@ static double seen(const contact *c, double q)
            (1 + 4 * n * x * e - n * n * e * e);
 }
 
-/* Waves of one piece, in steps of half an interval; returns how many. */
+/* Waves of one segment, in steps of half an interval; returns their number. */
 static int add_piece(const contact *c, const rubber_state *state, double velocity, double from,
                      double to, int steps, wave *waves)
 {
     const double half = log(to / from) / (2 * steps);
     for (int k = 0; k <= 2 * steps; k++) {
         const double q = from * exp(half * k);
-        /* the density at the end of a piece is that of this piece */
+        /* the density at the end of a segment is that of this segment */
         const double cq = q * q * q * density(c, fmin(q, to));
         double j1, j2;
         angular(c, state, q * velocity, &j1, &j2);
@@ -66,13 +66,13 @@ static int add_piece(const contact *c, const rubber_state *state, double velocit
     return 2 * steps + 1;
 }
 
-/* Running integral of the variance over a piece, and with it the contact area and j(q). */
+/* Running integral of the variance over a segment, with the contact area and j(q). */
 static double run_piece(double variance, double velocity, double half, int n, wave *waves,
                         double *area)
 {
     for (int k = 0; k < n; k++) {
         double g = variance;
-        if (k % 2 == 1) { /* the parabola through three points, to its middle */
+        if (k % 2 == 1) { /* parabola through three points, up to its middle */
             const double *a = &waves[k - 1].variance_density, *b = &waves[k].variance_density,
                          *c = &waves[k + 1].variance_density;
             g = variance + half / 12 * (5 * *a + 8 * *b - *c);
@@ -85,7 +85,7 @@ static double run_piece(double variance, double velocity, double half, int n, wa
     return variance;
 }
 
-/* Power per area that is lost below a depth. */
+/* Dissipated power per area below a depth. */
 static double power_below(const wave *waves, int n, double depth)
 {
     double sum = 0;
@@ -94,7 +94,7 @@ static double power_below(const wave *waves, int n, double depth)
     return sum;
 }
 
-/* Where formation and wear balance. */
+/* Steady state of formation and wear. */
 static double thickness(const contact *c, double velocity, const wave *waves, int n)
 {
     const double needed = c->critical_energy * c->wear_rate * c->pressure * velocity;
@@ -108,7 +108,7 @@ static double thickness(const contact *c, double velocity, const wave *waves, in
     return exp(low);
 }
 
-/* Both pieces; 4 steps + 2 waves. Returns how many. */
+/* Both segments; 4 steps + 2 waves. Returns their number. */
 static int fill(const contact *c, const rubber_state *state, double v, int steps, wave *waves)
 {
     const int n = add_piece(c, state, v, c->q0, c->qr, steps, waves);
@@ -120,7 +120,7 @@ static void load(const contact *c, double v, int steps, wave *waves, double *are
 {
     const int n = 2 * steps + 1;
     for (int k = 0; k < 2 * n; k++) {
-        const double softer = seen(c, waves[k].q);
+        const double softer = layer_modulus_ratio(c, waves[k].q);
         waves[k].variance_density = waves[k].bare_density * softer * softer;
         waves[k].loss_angle = waves[k].bare_loss * softer;
     }

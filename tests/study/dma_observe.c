@@ -1,4 +1,5 @@
-/* Isotherms through master, friction and layer. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Observes isotherms through master, friction and layer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma_observe.h"
 #include "dma_sample.h"
 
@@ -7,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How many places along a curve are compared. */
+/* Number of compared points of a curve. */
 #define ALONG 9
 
-/* Do C1 and C2 say what the law is at a temperature? */
+/* True if C1 and C2 state the law at a temperature. */
 static bool is_wlf(const stream *t, double temperature)
 {
     const char *law = stream_key(t, place_shift.table, PLACE_LAW);
@@ -18,8 +19,7 @@ static bool is_wlf(const stream *t, double temperature)
     return law == NULL || strcmp(law, PLACE_LAW_WLF) == 0 || temperature >= joint;
 }
 
-/* The law at a temperature as a reader of C1, C2, their errors and their correlation works it out.
- */
+/* The law at a temperature from C1, C2, their errors and their correlation. */
 static estimate law_of_constants(const stream *t, const dma_scene *s, double temperature)
 {
     const estimate c1 = place_key(t, &place_c1), c2 = place_key(t, &place_c2);
@@ -29,20 +29,19 @@ static estimate law_of_constants(const stream *t, const dma_scene *s, double tem
     const double value = -c1.value * d / below;
     const double g1 = -d / below, g2 = c1.value * d / (below * below);
     const double half = sqrt(g1 * g1 * e1 * e1 + g2 * g2 * e2 * e2 + 2 * g1 * g2 * together);
-    if (!(below > 0) || !is_wlf(t, temperature)) /* beyond the pole there is no law */
+    if (!(below > 0) || !is_wlf(t, temperature)) /* no law beyond the pole */
         return (estimate){(double)NAN, (double)NAN, (double)NAN};
     return (estimate){value, value - half, value + half};
 }
 
-/* Superposition does not hold: there is no truth to put beside intervals, but those of the shifts.
- */
+/* Superposition does not hold: only the shifts have true values. */
 static bool is_failing(const dma_scene *s)
 {
     return (s->facts.right & ~RIGHT(INCONCLUSIVE)) == RIGHT(NO);
 }
 
-/* Relative to the isotherm of the reference, both at the temperatures that they really had. Of two
- * processes with laws of their own there is no one shift: any between theirs is right. */
+/* Shift relative to the reference isotherm, both at their true temperatures. Two processes with
+ * different laws have no single shift; any value between the two is right. */
 static double true_shift(const dma_scene *s, double temperature, double reference, double found)
 {
     const shift_law law[] = {s->law, dma_second_law(s)};
@@ -94,7 +93,7 @@ static int ascending(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
-/* What moduli are stated of: at the reference temperature, E or G. */
+/* Quantity of the stated moduli: at the reference temperature, E or G. */
 static rubber_state stated_state(const dma_scene *s, const rubber *r)
 {
     rubber_state state = dma_state(s, r, s->reference);
@@ -102,7 +101,7 @@ static rubber_state stated_state(const dma_scene *s, const rubber *r)
     return state;
 }
 
-/* The stated interval of the row whose frequency is nearest. */
+/* Stated interval of the row with the nearest frequency. */
 static void compare_row(const stream *t, const dma_scene *s, const rubber *r, double omega,
                         trial *to)
 {
@@ -122,12 +121,12 @@ static void compare_row(const stream *t, const dma_scene *s, const rubber *r, do
     trial_add(to, Q_LOSS, loss, place_row(t, &place_loss, nearest));
 }
 
-/* The sum of the terms; its error is that of the curve beside it, if one is stated. */
+/* Sum of the terms; its error is that of the curve with it, if stated. */
 static void compare_prony(const stream *t, const dma_scene *s, const rubber *r, double omega,
                           trial *to)
 {
     if (stream_rows(t, PLACE_PRONY) == 0)
-        return; /* one quantity alone tells no series */
+        return; /* one modulus alone determines no series */
     const rubber_state state = stated_state(s, r);
     double storage, loss, sum_storage = place_key(t, &place_equilibrium).value, sum_loss = 0;
     for (int row = 0; row < stream_rows(t, PLACE_PRONY); row++) {
@@ -137,7 +136,8 @@ static void compare_prony(const stream *t, const dma_scene *s, const rubber *r, 
         sum_loss += term;
     }
     state_moduli(&state, omega, &storage, &loss);
-    const observation *curve = &to->draw->observations[to->draw->n - 2]; /* of compare_row */
+    /* argument of compare_row */
+    const observation *curve = &to->draw->observations[to->draw->n - 2];
     const estimate es = curve[0].found, el = curve[1].found;
     const double ds = (es.high - es.low) / 2 * sum_storage / es.value;
     const double dl = (el.high - el.low) / 2 * sum_loss / el.value;
@@ -146,7 +146,7 @@ static void compare_prony(const stream *t, const dma_scene *s, const rubber *r, 
     trial_add(to, Q_PRONY_LOSS, loss, (estimate){sum_loss, sum_loss - dl, sum_loss + dl});
 }
 
-/* At frequencies spread evenly over the logarithms of those of the master curve, the ends too. */
+/* Frequencies at equal logarithmic distances over the master curve, with both ends. */
 static void compare_curve(const stream *t, const dma_scene *s, const rubber *r, trial *to)
 {
     const int n = stream_rows(t, place_storage.table);
@@ -239,7 +239,7 @@ static void compare_layer(const char *path, const contact_truth *truth, trial *t
     stream_free(t);
 }
 
-/* A command line in the making. */
+/* Builder of a command line. */
 typedef struct line {
     const char *words[50];
     int n;
@@ -247,7 +247,7 @@ typedef struct line {
     int n_numbers;
 } line;
 
-static void say(line *l, const char *option, const char *value)
+static void append_argument(line *l, const char *option, const char *value)
 {
     if (value == NULL)
         return;
@@ -255,14 +255,14 @@ static void say(line *l, const char *option, const char *value)
     l->words[l->n++] = value;
 }
 
-static void say_number(line *l, const char *option, double value, const char *unit)
+static void append_number(line *l, const char *option, double value, const char *unit)
 {
     char *text = l->numbers[l->n_numbers++];
     snprintf(text, sizeof l->numbers[0], "%.15g%s", value, unit);
-    say(l, option, text);
+    append_argument(l, option, text);
 }
 
-/* " +- 7%" after a unit, or nothing. */
+/* " +- 7%" after a unit, or "". */
 typedef struct share {
     char words[32];
 } share;
@@ -275,46 +275,47 @@ static share stated_error(double error)
     return s;
 }
 
-static void say_uncertain(line *l, const char *option, double value, const char *unit, double error)
+static void append_uncertain(line *l, const char *option, double value, const char *unit,
+                             double error)
 {
     char words[48];
     snprintf(words, sizeof words, "%s%s", unit, stated_error(error).words);
-    say_number(l, option, value, words);
+    append_number(l, option, value, words);
 }
 
-static void say_contact(line *l, const contact *c)
+static void append_contact(line *l, const contact *c)
 {
     char *roughness = l->numbers[l->n_numbers++];
     snprintf(roughness, sizeof l->numbers[0],
              "self-affine:q0=%.15grad/m,qr=%.15grad/m,q1=%.15grad/m,hurst=%.15g,c0=%.15gm^4%s",
              c->q0, c->qr, c->q1, c->hurst, c->c0, stated_error(c->error).words);
-    say(l, "--roughness", roughness);
-    say_uncertain(l, "--pressure", c->pressure, "Pa", c->error);
-    say_number(l, "--sliding-temperature", c->temperature, "degC");
-    say_number(l, "--poisson-ratio", c->poisson, "");
-    say(l, "--threads", "1");
+    append_argument(l, "--roughness", roughness);
+    append_uncertain(l, "--pressure", c->pressure, "Pa", c->error);
+    append_number(l, "--sliding-temperature", c->temperature, "degC");
+    append_number(l, "--poisson-ratio", c->poisson, "");
+    append_argument(l, "--threads", "1");
 }
 
-static void say_velocities(line *l, const contact *c)
+static void append_velocities(line *l, const contact *c)
 {
     char *text = l->numbers[l->n_numbers++];
     size_t used = 0;
     for (int i = 0; i < c->velocities && used < sizeof l->numbers[0]; i++)
         used += (size_t)snprintf(text + used, sizeof l->numbers[0] - used, "%s%.15gm/s",
                                  i > 0 ? "," : "", c->velocity[i]);
-    say(l, "--velocity", text);
+    append_argument(l, "--velocity", text);
 }
 
-static void say_isotherms(line *l, const dma_scene *s, const char *sweep)
+static void append_isotherms(line *l, const dma_scene *s, const char *sweep)
 {
-    say(l, "--dma", sweep);
-    say_number(l, "--reference-temperature", s->reference, "degC");
-    say(l, "--vertical-shift", s->vertical);
+    append_argument(l, "--dma", sweep);
+    append_number(l, "--reference-temperature", s->reference, "degC");
+    append_argument(l, "--vertical-shift", s->vertical);
 }
 
 static bool run(line *l, const char *output, trial *t)
 {
-    say(l, "-o", output);
+    append_argument(l, "-o", output);
     l->words[l->n++] = "--no-provenance";
     l->words[l->n] = NULL;
     return trial_run(t, l->words);
@@ -328,29 +329,29 @@ static void observe_contact(const dma_scene *s, const contact_truth *truth, cons
     const char *friction = trial_file(t, "friction.tsv"), *kept = trial_file(t, "kept.tsv");
     const char *layer = trial_file(t, "layer.tsv");
     line from_sweep = {.words = {"friction"}, .n = 1}, from_master = from_sweep;
-    say_contact(&from_sweep, c);
-    say_uncertain(&from_sweep, "--shear-stress", c->shear_stress, "Pa", c->error);
-    say_velocities(&from_sweep, c);
-    say_isotherms(&from_sweep, s, sweep);
+    append_contact(&from_sweep, c);
+    append_uncertain(&from_sweep, "--shear-stress", c->shear_stress, "Pa", c->error);
+    append_velocities(&from_sweep, c);
+    append_isotherms(&from_sweep, s, sweep);
     if (run(&from_sweep, friction, t))
         compare_friction(friction, c, truth, false, t);
-    say_contact(&from_master, c);
-    say_uncertain(&from_master, "--shear-stress", c->shear_stress, "Pa", c->error);
-    say_velocities(&from_master, c);
-    say(&from_master, "--material", master);
+    append_contact(&from_master, c);
+    append_uncertain(&from_master, "--shear-stress", c->shear_stress, "Pa", c->error);
+    append_velocities(&from_master, c);
+    append_argument(&from_master, "--material", master);
     if (run(&from_master, kept, t))
         compare_friction(kept, c, truth, true, t);
     line wear = {.words = {"layer"}, .n = 1};
-    say_contact(&wear, c);
-    say_isotherms(&wear, s, sweep);
-    say_number(&wear, "--velocity", c->velocity[c->layer_compute_energy], "m/s");
-    say_uncertain(&wear, "--specific-wear-rate", c->wear_rate, "m^2/N", c->error);
-    say_uncertain(&wear, "--critical-energy", c->critical_energy, "J/m^3", c->error);
+    append_contact(&wear, c);
+    append_isotherms(&wear, s, sweep);
+    append_number(&wear, "--velocity", c->velocity[c->layer_compute_energy], "m/s");
+    append_uncertain(&wear, "--specific-wear-rate", c->wear_rate, "m^2/N", c->error);
+    append_uncertain(&wear, "--critical-energy", c->critical_energy, "J/m^3", c->error);
     if (run(&wear, layer, t))
         compare_layer(layer, truth, t);
 }
 
-/* What the contact really is where it is known with errors. */
+/* True contact where its inputs have errors. */
 static contact_truth draw_contact(const dma_scene *s, const rubber *r, random_source *random)
 {
     contact c = *s->contact;
@@ -396,9 +397,9 @@ static void observe(int scene, const void *what, random_source *random, trial *t
     if (measured == NULL)
         abort();
     sample_draw(s, &p->rubber, random, measured);
-    say_number(&l, "--reference-temperature", s->reference, "degC");
-    say(&l, "--vertical-shift", s->vertical);
-    say(&l, "--shift-by", s->by);
+    append_number(&l, "--reference-temperature", s->reference, "degC");
+    append_argument(&l, "--vertical-shift", s->vertical);
+    append_argument(&l, "--shift-by", s->by);
     if (sample_write(s, measured, sweep) != 0) {
         trial_broke(t, "the isotherms cannot be written");
     } else if (run(&l, master, t)) {

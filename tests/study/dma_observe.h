@@ -1,4 +1,5 @@
-/* Isotherms through master, friction and layer. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Observes isotherms through master, friction and layer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_DMA_OBSERVE_H
 #define STUDY_DMA_OBSERVE_H
 

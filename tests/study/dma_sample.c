@@ -24,7 +24,7 @@ static void draw_frequencies(const dma_scene *s, random_source *random, isotherm
             to->frequency[to->n++] = pow(10, first + (last - first) * k / (n - 1));
 }
 
-/* How much louder this point is than the scene's noise. */
+/* Noise of this point relative to that of the scene. */
 static double loudness(const dma_scene *s, const isotherm *at, int k)
 {
     const double u = at->n > 1 ? 2.0 * k / (at->n - 1) - 1 : 0;

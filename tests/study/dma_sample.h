@@ -1,4 +1,5 @@
-/* One draw of a scene: what the instrument measured. SPDX-License-Identifier: GPL-3.0-or-later */
+/* One draw of a scene: the measured isotherms.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_DMA_SAMPLE_H
 #define STUDY_DMA_SAMPLE_H
 
@@ -17,7 +18,7 @@ typedef struct sample {
 } sample;
 
 void sample_draw(const dma_scene *s, const rubber *r, random_source *random, sample *to);
-/* The table that an instrument would export; 0 or -1. */
+/* Writes the table of an instrument; returns 0 or -1. */
 int sample_write(const dma_scene *s, const sample *from, const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-/* A rubber, and how its isotherms are measured.
+/* A rubber and the measurement of its isotherms.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_DMA_SCENE_H
 #define STUDY_DMA_SCENE_H
@@ -15,42 +15,42 @@ typedef struct dma_scene {
 
     rubber_kind rubber;
     shift_law law;
-    double reference; /* degC */
+    double reference; /* [degC] */
 
-    double first, last, step; /* of the temperatures */
-    double lg_first, lg_last; /* of the frequencies in Hz */
+    double first, last, step; /* temperatures */
+    double lg_first, lg_last; /* log10 of the frequencies in Hz */
     int frequencies;
 
     double noise_storage, noise_loss; /* relative */
-    double temperature_error;         /* K, of each isotherm */
+    double temperature_error;         /* [K], of each isotherm */
     double geometry_error;            /* relative, of each isotherm */
-    double departure;                 /* decade: of b, times sin((T - 20)/25) */
+    double departure;                 /* [decade], of b, times sin((T - 20)/25) */
     double correlation;               /* AR(1) of neighbouring points of one isotherm */
-    double loud;                      /* noise of the third and the eighth isotherm */
-    double outliers, outlier_size;    /* share of the points, and of ln E */
+    double loud;                      /* noise factor of the third and the eighth isotherm */
+    double outliers, outlier_size;    /* share of the points, and size in ln E */
     double missing;                   /* share of the points */
-    double bathtub;                   /* noise at the ends of an isotherm over that in the middle */
-    bool ragged;                      /* each isotherm has its own frequencies */
+    double bathtub;                   /* noise ratio of the ends and the middle of an isotherm */
+    bool ragged;                      /* each isotherm has different frequencies */
     bool exchanged;                   /* E' in the column of E'' */
-    double crystallises;              /* below 10 degC; 1 is strong */
+    double crystallises;              /* crystallization below 10 degC; 1 is strong */
 
-    const char *vertical; /* of --vertical-shift; NULL: the default */
-    const char *by;       /* of --shift-by; NULL: both moduli */
+    const char *vertical; /* value of --vertical-shift; NULL: the default */
+    const char *by;       /* value of --shift-by; NULL: both moduli */
     const contact *contact;
-    bool other_layout; /* of the file */
-    bool shear;        /* G = E/3 is measured, and what is stated is of G */
+    bool other_layout; /* layout of the file */
+    bool shear;        /* G = E/3 is measured, and the results are of G */
 } dma_scene;
 
 extern const dma_scene dma_scenes[];
 extern const int n_dma_scenes;
 
-/* What is measured as a part of E. */
+/* Measured modulus as a share of E. */
 double dma_part_of_e(const dma_scene *s);
-/* lg b that the material has at a temperature, the error of the geometry left out. */
+/* lg b of the material at a temperature, without the geometry error. */
 double dma_vertical(const dma_scene *s, double temperature);
-/* That of the second process. */
+/* Law of the second process. */
 shift_law dma_second_law(const dma_scene *s);
-/* The material at a temperature, its shift relative to the reference of the scene. */
+/* Material at a temperature, with its shift relative to the reference of the scene. */
 rubber_state dma_state(const dma_scene *s, const rubber *r, double temperature);
 
 #endif

@@ -1,5 +1,6 @@
-/* Isotherms. Those with a letter and a number are of the theory text; the widths and coverages
- * beside them are what its right method reaches. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Isotherms. Scenes with a letter and a number are those of the theory text; the widths and
+ * coverages with them are reached by its correct method.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma_scene.h"
 
 #include <math.h>
@@ -36,7 +37,7 @@ static const contact contact_d6 = {.q0 = 1e3,
                                    .wear_rate = 1e-12,
                                    .critical_energy = 1e10};
 
-/* What is put in has errors too, and they are stated. */
+/* Inputs with errors, which are stated. */
 static const contact contact_inputs = {.q0 = 1e3,
                                        .qr = 1e4,
                                        .q1 = 1e6,
@@ -52,7 +53,7 @@ static const contact contact_inputs = {.q0 = 1e3,
                                        .critical_energy = 2e10,
                                        .error = 0.07};
 
-/* At another temperature than the reference: the error of the law goes into friction. */
+/* At another temperature than the reference, the error of the law contributes to friction. */
 static const contact contact_warm = {.q0 = 2e3,
                                      .qr = 4e3,
                                      .q1 = 2e6,
@@ -68,7 +69,7 @@ static const contact contact_warm = {.q0 = 2e3,
                                      .wear_rate = 5e-13,
                                      .critical_energy = 1e10};
 
-/* What most scenes have, so that a row says what is its own. */
+/* Common members of most scenes, so that a row states the differences. */
 #define BASE_LAW .law = {900, -90, 0, NONE, 1, 0}, .reference = 20
 #define TWO_LAW .law = {700, -80, 0, NONE, 1, 0}, .reference = 20
 #define NOISE(share) .noise_storage = (share), .noise_loss = (share)
@@ -78,7 +79,7 @@ static const contact contact_warm = {.q0 = 2e3,
 #define GOOD .facts.right = RIGHT(YES)
 #define BAD .facts.right = RIGHT(NO)
 #define OPEN .facts.right = RIGHT(INCONCLUSIVE)
-/* What the full run supports (table.tsv). */
+/* Promises that the full run supports (table.tsv). */
 #define VERDICT_PROMISED .facts.verdict_promised = true
 #define PROMISED .facts.intervals_promised = true, VERDICT_PROMISED
 #define FREE .vertical = "free"
@@ -90,7 +91,7 @@ static const contact contact_warm = {.q0 = 2e3,
     .first = -30, .last = 60, .step = 10, .lg_first = -1, .lg_last = 2, .frequencies = 25
 
 const dma_scene dma_scenes[] = {
-    /* intervals; the vertical shift of the default, or free */
+    /* intervals; default or free vertical shift */
     {NAMED("D1", "broad, 1 %"), PROMISED, .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01), GOOD,
      .contact = &contact_d1,
      .facts.given =
@@ -164,7 +165,7 @@ const dma_scene dma_scenes[] = {
      .first = -30, .last = 60, .step = 10, .lg_first = 0, .lg_last = 1, .frequencies = 11,
      NOISE(.01), FREE, OPEN},
 
-    /* further ones, with the vertical shift of the default */
+    /* more scenes, with the default vertical shift */
     {NAMED("exchanged", "V4 by the default"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
      .exchanged = true, BAD},
     {NAMED("crystallises", "V5 by the default"), .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01),
@@ -237,7 +238,7 @@ const dma_scene dma_scenes[] = {
      .rubber = RUBBER_TWO, TWO_LAW, G13, NOISE(.0002), .vertical = "physical", GOOD,
      .contact = &contact_d6},
 
-    /* much is not measured: an end of the spectrum, or the law */
+    /* unmeasured parts: an end of the spectrum, or the law */
     {NAMED("short", "four cold isotherms: the slow end of the spectrum four to five decades away"),
      .rubber = RUBBER_BROAD, BASE_LAW, .first = -10, .last = 20, .step = 10, FREQUENCIES10,
      NOISE(.01), .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE)},
@@ -259,7 +260,7 @@ const dma_scene dma_scenes[] = {
      .temperature_error = .3, .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE),
      .contact = &contact_d6},
 
-    /* a second process with a law less and less its own: what is missed grows with the shift */
+    /* a second process with an increasingly different law; the error grows with the shift */
     {NAMED("second_400", "B 900 and 400 K, 2 %"), SECOND(900, -90, 400, NONE, 1, 0), NOISE(.02)},
     {NAMED("second_500", "B 900 and 500 K, 2 %"), SECOND(900, -90, 500, NONE, 1, 0), NOISE(.02)},
     {NAMED("second_600", "B 900 and 600 K, 1 %"), SECOND(900, -90, 600, NONE, 1, 0), NOISE(.01)},
@@ -275,7 +276,7 @@ const dma_scene dma_scenes[] = {
     {NAMED("crystallises_little", "a quarter of V5, 1 %"), VERDICT_PROMISED, .rubber = RUBBER_BROAD,
      BASE_LAW, G10, NOISE(.01), .crystallises = .25, BAD},
 
-    /* held out: not looked at while the methods were chosen */
+    /* held out: unused while the methods were chosen */
     {NAMED("held_two", "two, another law and grid, 2 %, 0.15 K"), PROMISED, .rubber = RUBBER_TWO,
      .law = {1100, -70, 0, NONE, 1, 0}, .reference = 34, .first = -10, .last = 100, .step = 11,
      .lg_first = -1.5, .lg_last = 1.5, .frequencies = 10, NOISE(.02), .temperature_error = .15,
@@ -297,7 +298,7 @@ const dma_scene dma_scenes[] = {
      .law = {900, -90, 500, NONE, 1, 0}, .reference = 20, .first = -40, .last = 70, .step = 10,
      .lg_first = -1, .lg_last = 2, .frequencies = 13, NOISE(.01), BAD},
 
-    /* one quantity alone */
+    /* one modulus alone */
     {NAMED("storage_alone", "D1 by the storage modulus alone"), .rubber = RUBBER_BROAD, BASE_LAW,
      G10, NOISE(.01), .by = "storage", OPEN},
     {NAMED("loss_alone", "D1 by the loss modulus alone"), .rubber = RUBBER_BROAD, BASE_LAW, G10,

@@ -19,7 +19,8 @@ static void *prepare(int scene)
     return NULL;
 }
 
-/* With a drive [rad/s], not 0: of its row alone, whose frequency is found to less than `same`. */
+/* With a drive [rad/s] not 0: only the row of the drive, whose frequency is found to less than
+ * `same`. */
 static void read_moduli(const char *path, const place of[2], const relaxation *r, double drive,
                         trial *t)
 {
@@ -40,7 +41,7 @@ static void read_moduli(const char *path, const place of[2], const relaxation *r
     stream_free(found);
 }
 
-/* The series of the rubber, which is what the means are set beside. */
+/* Prony series of the rubber, against which the means are tested. */
 static int write_series(const relaxation *r, const char *path)
 {
     FILE *file = fopen(path, "w");
@@ -59,7 +60,7 @@ static int write_series(const relaxation *r, const char *path)
     return fclose(file) != 0 || bad ? -1 : 0;
 }
 
-/* A sample of the rubber, softer or stiffer than all of it. */
+/* A sample of the rubber, softer or stiffer than the mean. */
 static relaxation sample_of(const relaxation *r, double factor)
 {
     relaxation one = *r;

@@ -8,7 +8,7 @@
 static const double share = 1 / 0.75, load = 0.5, held = 8; /* 1/(1 - nu^2), [s] */
 enum { FINE = 4 };
 
-/* Terms four a decade over ten decades. */
+/* Four terms a decade over ten decades. */
 static relaxation power_law(double exponent)
 {
     relaxation r = {.n = 41};
@@ -16,7 +16,7 @@ static relaxation power_law(double exponent)
         r.tau[i] = pow(10, -5 + 0.25 * (double)i);
         r.e[i] = pow(r.tau[i], -exponent);
     }
-    r.rest = exponent < 0.3 ? pow(1e5, -exponent) / exponent : 0; /* what would relax later */
+    r.rest = exponent < 0.3 ? pow(1e5, -exponent) / exponent : 0; /* the terms that relax later */
     return r;
 }
 
@@ -52,14 +52,14 @@ relaxation dwell_relaxation(const dwell_scene *s, random_source *random)
     return r;
 }
 
-/* The rubber under the tip: each term as it is now. */
+/* Rubber under the tip: the present value of each term. */
 typedef struct state {
     const relaxation *r;
     const afm_tip *tip;
     double k, f, memory[RELAXATIONS];
 } state;
 
-/* A step of time with the base at a place (hold_force: at the force that it has); the force. */
+/* A time step with the base at a position (hold_force: at its present force); returns the force. */
 static double go(state *s, double step, double *base, int hold_force, double force)
 {
     const relaxation *r = s->r;
@@ -95,7 +95,7 @@ static double go(state *s, double step, double *base, int hold_force, double for
     return found;
 }
 
-/* In time: a process of 20 ms, or one for each octave from 1 ms on. */
+/* Correlated in time: a process of 20 ms, or one for each octave from 1 ms. */
 enum { OCTAVES = 14 };
 static double noise_after(afm_noise kind, double step, double *slow, random_source *random)
 {
@@ -126,7 +126,8 @@ static void make_clean(const dwell_scene *s, const relaxation *r, clean *to)
                      : s->pyramid           ? 0.5
                                             : 5};
     const double top =
-        depth + 1e6 * share * tip_force(&tip, tip_contact_radius(&tip, depth)) / at.k; /* about */
+        /* approximate */
+        depth + 1e6 * share * tip_force(&tip, tip_contact_radius(&tip, depth)) / at.k;
     const double rate = top / load, step_in = load / DWELL_IN, step_held = hold / DWELL_HELD;
     double time = 0, stop = 0, base = -rate * step_in * (DWELL_FREE - 0.3), force = 0;
     for (int i = 0; i < DWELL_SAMPLES; i++) {

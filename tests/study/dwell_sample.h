@@ -1,4 +1,4 @@
-/* A force curve that is held, and what an instrument makes of it.
+/* Held force curve with the errors of the instrument.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_DWELL_SAMPLE_H
 #define STUDY_DWELL_SAMPLE_H
@@ -12,8 +12,8 @@ enum { DWELL_SAMPLES = DWELL_FREE + DWELL_IN + DWELL_HELD + DWELL_OUT };
 
 /* E(t) of a draw [Pa]. */
 relaxation dwell_relaxation(const dwell_scene *s, random_source *random);
-/* Stepped from Maxwell terms, with noise and drift, as a table of a text stream: -1 if it cannot be
- * written. */
+/* Curve from Maxwell terms in time steps, with noise and drift, written as a table of a text
+ * stream; returns -1 if it cannot be written. */
 int dwell_sample_write(const dwell_scene *s, const relaxation *r, random_source *random,
                        const char *path);
 

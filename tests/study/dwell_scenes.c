@@ -1,5 +1,5 @@
-/* Dwells; fixed before the fit saw any of them but POWER. SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Dwells. All but POWER were fixed before the fit was tried on them.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dwell_scene.h"
 
 #define STATED .facts.intervals_promised = true

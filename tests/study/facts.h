@@ -1,4 +1,4 @@
-/* What every scene has: what can be stated of it, what is right, what is promised.
+/* Common properties of scenes: quantities with intervals, right verdicts and promises.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_FACTS_H
 #define STUDY_FACTS_H
@@ -7,83 +7,85 @@
 
 #define GIVEN_MAX 5
 
-/* Whatever an interval can be stated of. */
+/* Quantities with an interval. */
 typedef enum quantity {
-    Q_SHIFT,       /* lg aT of an isotherm, as it was measured */
+    Q_SHIFT,       /* lg aT of a measured isotherm */
     Q_LAW,         /* lg aT of the law between the isotherms */
-    Q_LAW_OUTSIDE, /* and 10 K beyond them */
+    Q_LAW_OUTSIDE, /* the same 10 K beyond them */
     Q_C1,
     Q_C2,
-    Q_STORAGE, /* of the material at the reference temperature, along the master curve */
+    Q_STORAGE, /* modulus at the reference temperature, along the master curve */
     Q_LOSS,
     Q_EQUILIBRIUM,
-    Q_PRONY_STORAGE, /* of the series */
+    Q_PRONY_STORAGE, /* modulus of the series */
     Q_PRONY_LOSS,
     Q_HYSTERESIS,
     Q_AREA,
     Q_FRICTION,
     Q_THICKNESS,
-    Q_HYSTERESIS_KEPT, /* from the stored master curve instead of the isotherms */
+    Q_HYSTERESIS_KEPT, /* from the stored master curve in place of the isotherms */
     Q_AREA_KEPT,
-    Q_MODULUS,       /* of one force curve */
-    Q_FACTOR,        /* on the spectrum of the DMA, of one */
-    Q_DEPTH,         /* modulus at a depth, of all curves */
-    Q_GROUP_MODULUS, /* of all curves, with what they share */
-    Q_RATIO,         /* modulus of the track over that of the bulk */
+    Q_MODULUS,       /* modulus of one force curve */
+    Q_FACTOR,        /* factor of one curve on the spectrum of the DMA */
+    Q_DEPTH,         /* modulus at a depth, from all curves */
+    Q_GROUP_MODULUS, /* modulus of all curves, with shared errors */
+    Q_RATIO,         /* modulus ratio of track and bulk */
     Q_LAYERED_FRICTION,
-    Q_DWELL_STORAGE, /* of one held curve, at a frequency */
+    Q_DWELL_STORAGE, /* modulus of one held curve at a frequency */
     Q_DWELL_LOSS,
-    Q_DENSITY, /* C(q) of a surface, at a wavenumber */
+    Q_DENSITY, /* C(q) of a surface at a wavenumber */
     Q_HURST,
     Q_ROLL_OFF,
     Q_C0,
-    Q_BEYOND,     /* C(q) by the law, at the end that was asked for */
-    Q_RMS_HEIGHT, /* of the spectrum, from its first row to its last */
+    Q_BEYOND,     /* C(q) by the law at the requested limit */
+    Q_RMS_HEIGHT, /* from the spectrum, over all its rows */
     Q_RMS_SLOPE,
     Q_ANISOTROPY, /* amplitude of order 2 */
-    Q_TEXTURE,    /* its direction */
-    Q_STEADY,     /* friction coefficient behind a running-in */
-    Q_RUNNING_IN, /* cycles before it */
+    Q_TEXTURE,    /* direction of the anisotropy */
+    Q_STEADY,     /* friction coefficient after a running-in */
+    Q_RUNNING_IN, /* cycles before the steady state */
     Q_DRIFT,
     Q_WEAR_RATE,
-    Q_CRITICAL_ENERGY, /* of a layer */
+    Q_CRITICAL_ENERGY, /* critical energy of a layer */
     Q_FRICTION_RATIO,  /* measured over predicted */
-    Q_NEEDED_SHEAR,    /* stress that a record asks for */
-    Q_CHANGE,          /* of the friction by a layer */
-    Q_RATIO_PAIR,      /* modulus ratio of a case over that of another */
-    Q_SHARED_WEAR,     /* wear rate of all cases of a severity */
-    Q_SHARED_SHEAR,    /* shear stress of all cases */
-    Q_SHARED_RATE,     /* modulus over a decade of rate, of all cases of a compound, or of all */
-    /* "Yes" and "no" as intervals that hold the truth if they are right; "inconclusive" states none
-     */
+    Q_NEEDED_SHEAR,    /* shear stress that a record requires */
+    Q_CHANGE,          /* change of friction by a layer */
+    Q_RATIO_PAIR,      /* ratio of the modulus ratios of two cases */
+    Q_SHARED_WEAR,     /* wear rate shared by the cases of a severity */
+    Q_SHARED_SHEAR,    /* shear stress shared by all cases */
+    /* modulus change over a decade of rate, shared by the cases of a compound or by all */
+    Q_SHARED_RATE,
+    /* "Yes" and "no" count as intervals that contain the truth if they are right; "inconclusive"
+     * states none. */
     Q_SAID_DIFFERS,
     Q_SAID_PAIR,
     Q_SAID_RECORD,
     Q_SAID_SHARED,
     Q_SAID_RUNNING_IN,
-    Q_SAID_WEAR,    /* the time of a running-in agrees with the wear, or contradicts it */
-    Q_SETTLED,      /* time after which friction stands */
+    Q_SAID_WEAR,    /* The time of a running-in agrees with the wear, or contradicts it. */
+    Q_SETTLED,      /* time after which friction is steady */
     Q_TIME_RATIO,   /* measured over predicted */
-    Q_CHANGE_RATIO, /* of friction in the running-in, likewise */
-    Q_NEEDED_WEAR,  /* rate that a running-in asks for */
+    Q_CHANGE_RATIO, /* the same for the change of friction in the running-in */
+    Q_NEEDED_WEAR,  /* wear rate that a running-in requires */
     Q_NEEDED_ENERGY,
-    Q_ALLOWED, /* ln of the thickness of a layer that curves allow, in nm */
-    Q_BOTH,    /* and of that which they and another source allow */
+    Q_ALLOWED, /* ln of the layer thickness [nm] that the curves allow */
+    Q_BOTH,    /* the same for the curves and another source together */
     Q_COUNT
 } quantity;
 
 typedef struct quantity_facts {
     const char *name;
-    bool relative; /* errors are compared as parts of the truth */
+    bool relative; /* errors are relative to the truth */
 } quantity_facts;
 extern const quantity_facts quantities[Q_COUNT];
 
-/* Yes: superposition holds; the track is another rubber than the bulk; the
- * contact law describes the curves. */
+/* YES: superposition holds, the track is another rubber than the bulk, or the contact law describes
+ * the curves. */
 typedef enum verdict { INCONCLUSIVE, YES, NO, NO_VERDICT, VERDICT_COUNT } verdict;
 #define RIGHT(v) (1u << (v))
 
-/* What statistics-scenes gives: coverage in percent, median half width; nan where it gives none. */
+/* Expected values of statistics-scenes: coverage in percent, median half width; nan where there are
+ * none. */
 typedef struct given {
     quantity quantity;
     double coverage, half_width;
@@ -91,14 +93,14 @@ typedef struct given {
 
 typedef struct facts {
     const char *name, *about;
-    unsigned right; /* which verdicts are */
-    /* The author of the method switches these on: the short run then fails when chance cannot
-     * explain what it finds. */
+    unsigned right; /* set of right verdicts */
+    /* Set by the author of the method. The short run then fails if chance cannot explain its
+     * outcome. */
     bool intervals_promised, verdict_promised;
-    bool sometimes_silent; /* some draws state nothing, and rightly; less than half of them */
+    bool sometimes_silent; /* some draws correctly state no interval; less than half of them */
     given given[GIVEN_MAX];
 } facts;
-/* How the row of a scene begins. */
+/* First members of a scene. */
 #define NAMED(scene, words) .facts.name = (scene), .facts.about = (words)
 
 #endif

@@ -3,9 +3,10 @@
 
 #include <math.h>
 
-/* Intervals of the wavenumber; thicknesses at which friction is solved for. */
+/* Number of wavenumber intervals; number of thicknesses at which friction is computed. */
 enum { INTERVALS = 60, SOLVED = 100 };
-/* How thin the first thickness is, and how near the balance the last one, of the balance. */
+/* First thickness, and distance of the last one from the steady state, relative to the steady
+ * state. */
 static const double nearest = 1e-4;
 
 typedef struct growing {
@@ -14,13 +15,14 @@ typedef struct growing {
     double balance, wear, needed; /* Qw [m/s]; U_c Qw */
 } growing;
 
-/* Places between 0 and the balance, ever closer to both: equal steps of ln (d / (balance - d)). */
+/* Thicknesses between 0 and the steady state, denser at both: equal steps of ln (d / (balance -
+ * d)). */
 static double place(const growing *g, double u)
 {
     return g->balance / (1 + exp(log(nearest) * (2 * u - 1)));
 }
 
-/* By rates: what is integrated of d thickness / (Qf - Qw). */
+/* By rates: integral of d thickness / (Qf - Qw). */
 static double rate_step(const growing *g, double u)
 {
     const double there = place(g, u),
@@ -28,7 +30,7 @@ static double rate_step(const growing *g, double u)
     return -2 * log(nearest) * there * (1 - there / g->balance) / speed;
 }
 
-/* By transport: what was worn until damage at this depth is 1, J(d) - J(d + worn) = U_c Qw. */
+/* By transport: wear until the damage at this depth is 1, J(d) - J(d + worn) = U_c Qw. */
 static double worn_until(const growing *g, double depth)
 {
     const double wanted = contact_power_below(g->power, depth) - g->needed;
@@ -44,7 +46,7 @@ static double worn_until(const growing *g, double depth)
 
 static void find_times(const growing *g, bool transport, growth_truth *t)
 {
-    /* the first thickness at the speed of none */
+    /* reaches the first thickness at the rate of the bare surface */
     const double at_once = contact_power_below(g->power, 0) / g->c->critical_energy - g->wear;
     double time = place(g, 0) / at_once;
     t->begins = transport ? worn_until(g, 0) / g->wear : 0;
@@ -56,7 +58,7 @@ static void find_times(const growing *g, bool transport, growth_truth *t)
     }
 }
 
-/* Of a layer with its own shear stress. */
+/* Friction of a layer with its own shear stress. */
 static double friction_with(const growing *g, double thickness, double ratio)
 {
     contact c = *g->c;
@@ -96,7 +98,7 @@ static void find_settled(growth_truth *t)
     int k = GROWTH_POINTS - 1;
     while (k > 0 && fabs(t->friction[k] - t->end) < 0.05 * most)
         k--;
-    if (k == 0) { /* a layer that is there at once */
+    if (k == 0) { /* layer from the start */
         t->settled = t->time[0];
         return;
     }

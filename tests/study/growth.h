@@ -1,4 +1,5 @@
-/* Friction while a layer grows. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction during the growth of a layer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_GROWTH_H
 #define STUDY_GROWTH_H
 
@@ -6,18 +7,18 @@
 
 #include <stdbool.h>
 
-/* Thicknesses that are followed, towards the balance. */
+/* Number of thicknesses up to the steady state. */
 enum { GROWTH_POINTS = 160 };
 typedef struct growth_truth {
-    double start, end;                                   /* friction; start: of the bare rubber */
+    double start, end;                                   /* friction; start: on bare rubber */
     double begins;                                       /* time before any layer [s]; 0: none */
-    double time[GROWTH_POINTS], friction[GROWTH_POINTS]; /* behind it */
-    double settled; /* when 5 % of the largest change that is left at any time are left [s] */
+    double time[GROWTH_POINTS], friction[GROWTH_POINTS]; /* values after it */
+    double settled; /* time when 5 % of the largest change remain [s] */
 } growth_truth;
 
-/* At the first velocity. `ratio`: E, and shear stress, of the layer over those of the rubber.
- * `transport`: what is modified is where damage has come to 1, else formation against wear by their
- * rates. False if there is no layer. */
+/* Values at the first velocity. `ratio` is that of E and shear stress of layer and rubber. With
+ * `transport` rubber is modified where damage reaches 1, else formation and wear have rates.
+ * Returns false without a layer. */
 bool growth_solve(const contact *c, const rubber_state *state, double ratio, bool transport,
                   growth_truth *truth);
 double growth_friction(const growth_truth *truth, double time);

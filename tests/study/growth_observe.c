@@ -1,4 +1,4 @@
-/* A case with a layer and the running-in of records through weartrack validate.
+/* Observes a case with a layer and the running-in of records through weartrack validate.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "growth_observe.h"
 #include "growth_sample.h"
@@ -59,7 +59,8 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     arguments[n++] = "-o";
     arguments[n++] = written;
     arguments[n++] = "--no-provenance";
-    arguments[n++] = "--replicates"; /* as many as errors take, for a run of it to be short */
+    /* number of replicates of the error estimate, so that a run is short */
+    arguments[n++] = "--replicates";
     arguments[n++] = "60";
     arguments[n] = NULL;
     if (!good)

@@ -1,4 +1,5 @@
-/* The case and the records of a scene. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Case and records of a scene.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "growth_sample.h"
 #include "sliding_case.h"
 
@@ -6,7 +7,7 @@
 #include <stdio.h>
 
 enum { SAMPLES = 8, LAPS = 600 };
-enum { WITHIN = 16 }; /* places of which a sample is the mean, as an instrument averages */
+enum { WITHIN = 16 }; /* points averaged to a sample, as in an instrument */
 static const double velocity = 0.3, is_stated_ratio = 0.6;
 
 static const contact stated = {.q0 = 2e3,
@@ -47,7 +48,7 @@ bool growth_make(const growth_scene *s, random_source *random, growth_made *m)
     return true;
 }
 
-/* What was worn off under so much load, as a balance says it. */
+/* Mass lost under this load, as weighed. */
 static void write_weighed(const growth_scene *s, const growth_made *m, FILE *out)
 {
     static const double load = 5, density = 1150;
@@ -96,7 +97,7 @@ static double mean_friction(const growth_scene *s, const growth_made *m, double 
     return sum / WITHIN;
 }
 
-/* One row of a lap. */
+/* Writes one row of a lap. */
 static void write_row(const growth_scene *s, const growth_made *m, int i, double lap, double off,
                       FILE *out)
 {

@@ -1,4 +1,5 @@
-/* The case and the records of a scene of running-in. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Case and records of a running-in scene.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_GROWTH_SAMPLE_H
 #define STUDY_GROWTH_SAMPLE_H
 
@@ -9,12 +10,12 @@
 typedef struct growth_made {
     contact truth;
     growth_truth growth;
-    double length; /* of the record [s] */
+    double length; /* time of the record [s] */
 } growth_made;
 
-/* What a scene has, or 1 for 0. */
+/* Member of a scene, or 1 for 0. */
 double growth_or_one(double x);
-/* False if there is no layer. */
+/* Returns false without a layer. */
 bool growth_make(const growth_scene *s, random_source *random, growth_made *m);
 bool growth_write_case(const growth_scene *s, const growth_made *m, const char *path);
 bool growth_write_record(const growth_scene *s, const growth_made *m, const char *path,

@@ -1,11 +1,12 @@
-/* The running-in of a record against a growing layer. Fixed before the method was tried on any of
- * them; which are promised was not. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Running-in of a record against a growing layer. The scenes were fixed before the method was tried
+ * on them; the promises were not.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "growth_scene.h"
 
 #define PROMISED .facts.intervals_promised = true, .facts.verdict_promised = true
-/* Where few draws tell a time, or none. */
+/* Few draws determine a time, or none. */
 #define VERDICT_ALONE .facts.verdict_promised = true
-/* As a recorder writes them, few of them in the change. */
+/* Rows as of a recorder, few of them during the change. */
 #define ROWS                                                                                       \
     .of_inputs = 0.03, .of_layer = 0.05, .of_ratio = 0.03, .noise = 0.001, .laps = 400, .lengths = 8
 #define NOT_NO .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE)

@@ -1,5 +1,5 @@
-/* A thickness and a wear rate through weartrack identify. SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Observes a thickness and a wear rate through weartrack identify.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "identify_observe.h"
 #include "collection_sample.h"
 #include "contact.h"
@@ -37,7 +37,7 @@ static void *prepare(int scene)
 
 static void read_found(const contact *truth, const char *path, trial *t)
 {
-    enum { BY_WEAR = 1 }; /* the first row is of the thickness alone */
+    enum { BY_WEAR = 1 }; /* the first row uses the thickness alone */
     stream *found = stream_read(path);
     if (found == NULL || stream_rows(found, place_energy.table) != 2) {
         trial_broke(t, "another number of rows");
@@ -51,8 +51,8 @@ static void read_found(const contact *truth, const char *path, trial *t)
 
 /* ---- several cases --------------------------------------------------------------------------- */
 
-/* The isotherms are those of whole studies: a verdict needs all of the error. */
-static const double of_temperature = 0.2; /* K */
+/* Isotherms as in whole studies, because a verdict needs the whole error. */
+static const double of_temperature = 0.2; /* [K] */
 
 static bool write_isotherms(const rubber *r, random_source *random, const char *path)
 {
@@ -65,7 +65,7 @@ static bool write_isotherms(const rubber *r, random_source *random, const char *
     return written;
 }
 
-/* What is measured of a layer, with the errors that are stated of it. */
+/* Measured values of a layer, with the stated errors. */
 static bool write_case(const identify_scene *s, const char *sweep, const contact *truth,
                        double thickness, int number, random_source *random, const char *path)
 {
@@ -96,8 +96,8 @@ static bool write_case(const identify_scene *s, const char *sweep, const contact
     return fclose(out) == 0 && !bad;
 }
 
-/* "Differs" is wrong of what is one, and "one" of what is not. */
-static void take_said(trial *t, bool is_one, const stream *found, const char *column)
+/* "Differs" is wrong for equal values, and "one" for different ones. */
+static void read_verdict(trial *t, bool is_one, const stream *found, const char *column)
 {
     const char *table = place_common_energy.table;
     const bool one = stream_is(found, table, column, 0, PLACE_ONE) != 0,
@@ -115,9 +115,9 @@ static void read_collected(const identify_scene *s, const contact *truth, const 
     if (found == NULL || stream_rows(found, place_common_energy.table) != 1) {
         trial_broke(t, "another number of pairs");
     } else {
-        take_said(t, one_energy, found, PLACE_ONE_ENERGY);
-        take_said(t, one_wear, found, PLACE_ONE_WEAR);
-        take_said(t, one_energy && one_wear, found, PLACE_ONE_PAIR);
+        read_verdict(t, one_energy, found, PLACE_ONE_ENERGY);
+        read_verdict(t, one_wear, found, PLACE_ONE_WEAR);
+        read_verdict(t, one_energy && one_wear, found, PLACE_ONE_PAIR);
         if (one_energy && one_wear) {
             trial_add(t, Q_CRITICAL_ENERGY, truth->critical_energy,
                       place_row(found, &place_common_energy, 0));
@@ -127,7 +127,7 @@ static void read_collected(const identify_scene *s, const contact *truth, const 
     stream_free(found);
 }
 
-/* The surface is one for all, what presses is set for each. */
+/* All share the surface; each pressure is set separately. */
 static void collect_cases(const identify_scene *s, const contact *common, random_source *random,
                           trial *t)
 {

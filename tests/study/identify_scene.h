@@ -1,17 +1,18 @@
-/* A layer of known thickness under known wear. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A layer of known thickness with a known wear rate.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_IDENTIFY_SCENE_H
 #define STUDY_IDENTIFY_SCENE_H
 
 #include "facts.h"
 
-/* Relative errors, which are stated, of what is measured. */
+/* Stated relative errors of measured values. */
 typedef struct identify_scene {
     facts facts;
     double of_thickness, of_wear;
-    double of_inputs;       /* of pressure and C0 */
-    double critical_energy; /* U_c [J/m^3], times e^(0.2 z) */
-    int cases;              /* 0: one, by itself; else each in a case of its own, and collected */
-    double energy_factor, wear_factor; /* of every second case over the others; 0: 1 */
+    double of_inputs;                  /* of pressure and C0 */
+    double critical_energy;            /* U_c [J/m^3], with a factor e^(0.2 z) */
+    int cases;                         /* number of collected cases; 0: one single case */
+    double energy_factor, wear_factor; /* ratio of every second case to the others; 0: 1 */
 } identify_scene;
 
 enum { IDENTIFY_CASES = 4 };

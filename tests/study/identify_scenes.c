@@ -1,4 +1,4 @@
-/* Layers of known thickness. Fixed before the method was tried on any of them.
+/* Layers of known thickness, fixed before the method was tried on them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "identify_scene.h"
 

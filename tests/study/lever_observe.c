@@ -1,5 +1,6 @@
-/* Curves by levers and tips with errors that are drawn once for all of them, through indent and
- * compare. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Observes curves through indent and compare, with calibration errors of cantilevers and tips drawn
+ * once for all curves.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "lever_observe.h"
 #include "afm_sample.h"
 #include "lever_scene.h"
@@ -14,7 +15,7 @@ static const double bulk_modulus = 5e6, usual_ratio = 1.4, usual_scatter = 0.04,
                     second_lever = 1.2, half_angle = 35, radius = 20e-9;
 static const char *const zones[2] = {"bulk", "track"};
 
-/* What is true over what is stated. */
+/* Ratios of true and stated values. */
 typedef struct calibration {
     double stated; /* spring constant [N/m] */
     double lever, sensitivity, angle, radius;
@@ -32,8 +33,8 @@ static calibration draw_calibration(const lever_scene *s, int zone, random_sourc
     return c;
 }
 
-/* The detector tells the bending by the sensitivity that is stated, and the force is that times the
- * spring constant that is. */
+/* The file has the deflection by the stated sensitivity and the force by the stated spring
+ * constant. */
 static afm_sample *make_sample(const lever_scene *s, int zone, const calibration *c,
                                random_source *random, afm_scene *here)
 {
@@ -59,7 +60,7 @@ static afm_sample *make_sample(const lever_scene *s, int zone, const calibration
     return sample;
 }
 
-/* A file for each spot. */
+/* Writes a file for each position. */
 static int write_zone(const lever_scene *s, int zone, const calibration *c, random_source *random,
                       const char *const *paths)
 {
@@ -104,7 +105,7 @@ static void read_budget(const lever_scene *s, int zone, const char *path, trial 
     const double ratio = s->ratio > 0 ? s->ratio : usual_ratio;
     stream *found = stream_read(path);
     const estimate e = found != NULL ? place_key(found, &place_budget[zone]) : (estimate){0};
-    /* without an accepted curve there is none: a tip so far off is seen in each of them */
+    /* without an accepted curve there is none: every curve reveals so wrong a tip */
     if (found == NULL)
         trial_broke(t, "nothing was written");
     else if (!(e.value > 0))
@@ -163,7 +164,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
         }
         if (!run_indent(s, zone, &c, paths, made[zone], t))
             return;
-        if (s->lever > 0 || s->sensitivity > 0 || s->angle > 0) /* else there is none */
+        if (s->lever > 0 || s->sensitivity > 0 || s->angle > 0) /* otherwise there is none */
             read_budget(s, zone, made[zone], t);
     }
     const char *const arguments[] = {"compare", made[0],           made[1], "-o",

@@ -19,7 +19,7 @@ const lever_scene lever_scenes[] = {
      .two = true},
     {NAMED("IK6", "spring constant 3 %, spots 15 %"), .facts.intervals_promised = true,
      .facts.right = DIFFERS, .lever = 0.03, .scatter = 0.15},
-    /* What differs between bulk and track beside the rubber, and nobody says. */
+    /* Unstated differences of bulk and track other than the rubber. */
     {NAMED("IN1", "a tip worn to 80 nm in the track"), .facts.verdict_promised = true,
      .facts.right = ALIKE, .ratio = 1, .worn = 4},
     {NAMED("IN1.noisy", "the same under 3 % of noise"), .facts.verdict_promised = true,

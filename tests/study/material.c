@@ -35,7 +35,7 @@ static double cole_cole(double l, double strength, double tau, double alpha)
     return strength * sin(M_PI * alpha) / M_PI / (x + 1 / x + 2 * cos(M_PI * alpha));
 }
 
-/* The spectrum H at lg tau, of one process. */
+/* Spectrum H of one process at lg tau. */
 static double spectrum(rubber_kind kind, int process, double l)
 {
     const double glass = 3e8 * bell((l + 9.5) / 2.2);
@@ -143,7 +143,7 @@ bool rubber_write(const rubber *r, const char *path)
             "## frequency_max: 1e13 standard_error=0 numerical_error=0 unit=rad/s\n"
             "## deformation: tension\n# relaxation_time[s]\tmodulus[Pa]\n",
             r->equilibrium);
-    for (size_t i = r->n; i-- > 0;) /* rising times */
+    for (size_t i = r->n; i-- > 0;) /* increasing times */
         fprintf(out, "%.12g\t%.12g\n", r->tau[i], r->strength[i]);
     fprintf(out, "##\n");
     return ferror(out) == 0 && fclose(out) == 0;

@@ -1,7 +1,7 @@
-/* What weartrack master says of measured isotherms, one row for each set:
+/* Results of weartrack master for measured isotherms, one row for each set:
  *   study_measured WEARTRACK FOLDER [OPTION]...
- * FOLDER is that of the DMA files of the shared data, options go to master. Exit status 77: they
- * are not there. SPDX-License-Identifier: GPL-3.0-or-later */
+ * FOLDER has the DMA files of the shared data; options go to master. Exit status 77 without them.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "places.h"
 #include "program.h"
 
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* With the law that was published, lg aT = -B (1/(Tr - Tinf) - 1/(T - Tinf)), if there is one. */
+/* Published law lg aT = -B (1/(Tr - Tinf) - 1/(T - Tinf)), if there is one. */
 typedef struct set {
     const char *name, *files;
     double b, t_inf;
@@ -31,8 +31,8 @@ static const set sets[] = {
     {"hydrogel", "rheocompass/cnf*.csv", 0, 0},
 };
 
-/* rms of the shifts against the published law, the reference isotherm, which has none, left out. */
-static double misfit(const stream *s, const set *from)
+/* rms of the shifts against the published law, without the reference isotherm. */
+static double lack_of_fit(const stream *s, const set *from)
 {
     const double reference =
         stream_number(s, place_shift.table, PLACE_REFERENCE, NULL) - 273.15 - from->t_inf;
@@ -62,7 +62,7 @@ static void print_set(const char *path, const set *from)
     for (int row = 0; row < n; row++)
         determined += !isnan(place_row(s, &place_shift, row).value);
     printf("\t%d\t%d\t%.4g\t%.2g\t%.4g\t%.2g\t%.3g\t%s", n, determined, c1.value,
-           c1.high - c1.value, c2.value, c2.high - c2.value, misfit(s, from),
+           c1.high - c1.value, c2.value, c2.high - c2.value, lack_of_fit(s, from),
            said != NULL ? said : "-");
     stream_free(s);
 }

@@ -98,14 +98,14 @@ const place place_needed_energy = {running_in, "critical_energy_needed", NULL,
 
 static const double normal95 = 1.959963984540054;
 
-/* Low and high where they stand, else the standard error to both sides. */
+/* Lower and upper limits if they exist, else the standard error to both sides. */
 static estimate stated(double value, double error, double low, double high)
 {
     if (isnan(low) && isnan(high) && !isnan(error)) {
         low = value - normal95 * error;
         high = value + normal95 * error;
     }
-    /* an upper limit alone is an interval too */
+    /* An upper limit alone is an interval, too. */
     if (isnan(low) && !isnan(high))
         low = -(double)INFINITY;
     return (estimate){value, low, high};
@@ -122,7 +122,7 @@ estimate place_row(const stream *s, const place *p, int row)
                   cell(s, p, p->high, row));
 }
 
-/* An attribute of the key, or a key of its own. */
+/* Attribute of the key, or separate key. */
 static double attribute(const stream *s, const place *p, const char *name)
 {
     if (name == NULL)

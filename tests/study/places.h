@@ -1,4 +1,5 @@
-/* Where the command's tables say what: the one place that names tables, columns and keys.
+/* Names of tables, columns and keys in results of the command. No other file of the study states
+ * them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_PLACES_H
 #define STUDY_PLACES_H
@@ -6,9 +7,8 @@
 #include "facts.h"
 #include "stream.h"
 
-/* A number with its standard error, or with the ends of its interval where that is what stands
- * there. `error`, `low` and `high` are columns, or attributes of the key or keys of their own; NULL
- * if there are none. */
+/* A number with its standard error or the limits of its interval. `error`, `low` and `high` are
+ * columns, attributes of the key, or separate keys; NULL if there are none. */
 typedef struct place {
     const char *table;
     const char *value, *error, *low, *high;
@@ -18,7 +18,7 @@ extern const place place_shift, place_law, place_storage, place_loss;
 extern const place place_hysteresis, place_area, place_friction;
 extern const place place_c1, place_c2, place_equilibrium, place_thickness;
 extern const place place_modulus, place_factor;         /* of curves */
-extern const place place_depth;                         /* of all of them, a row for each depth */
+extern const place place_depth;                         /* of all curves, a row for each depth */
 extern const place place_budget[2];                     /* of bulk and track */
 extern const place place_ratio;                         /* over all rates, the first row */
 extern const place place_dwell[2], place_dwell_mean[2]; /* E' and E'', a row for each frequency */
@@ -31,20 +31,20 @@ extern const place place_anisotropy, place_texture;
 
 extern const place place_steady, place_running_in, place_running_in_time,
     place_drift;                    /* of a record, a row for a step */
-extern const place place_wear_rate; /* a row for each way to tell it */
+extern const place place_wear_rate; /* a row for each method */
 
 extern const place place_common_energy, place_common_wear; /* of shared_pairs */
-extern const place place_energy, place_energy_wear; /* of identification, a row for each way */
+extern const place place_energy, place_energy_wear; /* of identification, a row for each method */
 extern const place place_friction_ratio, place_needed_shear; /* of validation */
 
 extern const place place_collected_ratio, place_collected_thickness, place_collected_change;
 extern const place place_collected_modulus, place_collected_friction, place_pair;
 extern const place place_shared; /* a constant in each row */
-#define PLACE_SAMPLE "sample"    /* in the first five, with the condition: which case it is */
+#define PLACE_SAMPLE "sample"    /* in the first five, with the condition: names the case */
 #define PLACE_CONDITION "condition"
 #define PLACE_ZONE "place" /* "bulk" or another */
 #define PLACE_RATE "indentation_rate"
-#define PLACE_PAIR_OF "of" /* what both have in common */
+#define PLACE_PAIR_OF "of" /* the property that both share */
 #define PLACE_PAIR_FIRST "first"
 #define PLACE_PAIR_SECOND "second"
 #define PLACE_PAIR_DIFFER "differ"
@@ -59,18 +59,18 @@ extern const place place_shared; /* a constant in each row */
 #define PLACE_ONE_PAIR "one_pair"
 #define PLACE_PAUSED "paused_time"
 #define PLACE_SHARED_DIFFERS "differs"
-#define PLACE_ROUGHNESS "roughness" /* what friction takes of a surface */
+#define PLACE_ROUGHNESS "roughness" /* quantity of a surface that friction uses */
 
 extern const place place_settled_measured, place_time_ratio,
     place_change_ratio; /* of a running-in */
 extern const place place_needed_wear, place_needed_energy;
 #define PLACE_LAYER "track_layer"
-#define PLACE_LAYER_LOW "thickness_low" /* [m]; not there: no such end */
+#define PLACE_LAYER_LOW "thickness_low" /* [m]; absent without a lower limit */
 #define PLACE_LAYER_HIGH "thickness_high"
 #define PLACE_LAYER_BOTH_LOW "both_low"
 #define PLACE_LAYER_BOTH_HIGH "both_high"
 #define PLACE_LAYER_AGREE "agree"     /* begins with yes, no or inconclusive */
-#define PLACE_LAYER_ALLOWED "allowed" /* begins with none where no thickness is */
+#define PLACE_LAYER_ALLOWED "allowed" /* begins with "none" if no thickness is allowed */
 #define PLACE_NONE "none"
 #define PLACE_VALIDATION "validation"
 #define PLACE_VALIDATION_RUNNING_IN "validation_running_in"
@@ -78,8 +78,8 @@ extern const place place_needed_wear, place_needed_energy;
 #define PLACE_CONTRADICTS "contradicts"
 #define PLACE_VALIDATION_VERDICT "verdict"  /* begins with explains, does not or inconclusive */
 #define PLACE_STEADY_CYCLES "steady_cycles" /* in `place_steady.table` */
-#define PLACE_WAVENUMBER "wavenumber"       /* [rad/m], beside the density */
-#define PLACE_SOURCE "source"               /* likewise: where a row is from */
+#define PLACE_WAVENUMBER "wavenumber"       /* [rad/m], with the density */
+#define PLACE_SOURCE "source"               /* with the density: source of the row */
 #define PLACE_BY_LAW "law"
 #define PLACE_CURVE "verdict" /* in `place_modulus.table`, of a curve: */
 #define PLACE_ACCEPTED "accepted"
@@ -89,8 +89,8 @@ extern const place place_needed_wear, place_needed_energy;
 #define PLACE_DEPTH "modulus_depth"
 #define PLACE_DEPTH_CHANGES "changes_bulk" /* begins with yes, no or inconclusive */
 #define PLACE_DEPTH_MISFIT_CHANCE "misfit_p_bulk"
-#define PLACE_TEMPERATURE "temperature"     /* [K], beside shift and law */
-#define PLACE_FREQUENCY "angular_frequency" /* [rad/s], beside the moduli */
+#define PLACE_TEMPERATURE "temperature"     /* [K], with shift and law */
+#define PLACE_FREQUENCY "angular_frequency" /* [rad/s], with the moduli */
 #define PLACE_VELOCITY "velocity"
 #define PLACE_PRONY "prony"
 #define PLACE_PRONY_TIME "relaxation_time"
@@ -99,30 +99,30 @@ extern const place place_needed_wear, place_needed_energy;
 /* In `place_shift.table`. */
 #define PLACE_REFERENCE "reference_temperature" /* [K] */
 #define PLACE_CORRELATION "wlf_correlation"
-#define PLACE_LAW "law" /* which one it is; WLF if nothing says so */
+#define PLACE_LAW "law" /* name of the law; WLF without it */
 #define PLACE_LAW_WLF "WLF"
-#define PLACE_JOINT "joint" /* [K] below which it is another one */
+#define PLACE_JOINT "joint" /* [K]; another law below it */
 #define PLACE_VERDICT "superposition"
-#define PLACE_FAILS "fail" /* how the verdict begins */
+#define PLACE_FAILS "fail" /* first word of the verdict */
 #define PLACE_HOLDS "holds"
 #define PLACE_INCONCLUSIVE "inconclusive"
 #define PLACE_UNTESTED "not tested"
 
 /* In `place_ratio.table`. */
-#define PLACE_DIFFERS "differs" /* the verdict, which begins so: */
+#define PLACE_DIFFERS "differs" /* the verdict, which begins with: */
 #define PLACE_YES "yes"
 #define PLACE_NO "no"
-#define PLACE_MODULUS_RATIO "modulus_ratio" /* with its standard error, as friction takes it */
+#define PLACE_MODULUS_RATIO "modulus_ratio" /* with its standard error, as input of friction */
 #define PLACE_MODULUS_RATIO_DF "modulus_ratio_df"
 
-/* An estimate as it is stated; low and high are nan where no interval is. */
+/* Stated estimate; low and high are nan without an interval. */
 typedef struct estimate {
     double value, low, high;
 } estimate;
 
 estimate place_row(const stream *s, const place *p, int row);
 estimate place_key(const stream *s, const place *p);
-/* What a table of a validation says of the measured friction: YES of "explains". */
+/* Verdict of a validation on the measured friction: YES for "explains". */
 verdict place_friction_verdict(const stream *found, const char *table);
 
 #endif

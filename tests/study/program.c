@@ -10,8 +10,8 @@
 #define ARGUMENTS_MAX 60
 #define SECONDS_MAX 120
 
-/* In the child: only what a signal handler may call too. */
-static void become(const char *program, const char *const *arguments, const char *errors)
+/* Runs in the child: only async-signal-safe functions. */
+static void exec_program(const char *program, const char *const *arguments, const char *errors)
 {
     const char *all[ARGUMENTS_MAX + 2] = {program};
     const struct rlimit limit = {SECONDS_MAX, SECONDS_MAX};
@@ -32,7 +32,7 @@ int program_run(const char *program, const char *const *arguments, const char *e
     int status;
     const pid_t child = fork();
     if (child == 0)
-        become(program, arguments, errors);
+        exec_program(program, arguments, errors);
     if (child < 0 || waitpid(child, &status, 0) != child)
         return -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

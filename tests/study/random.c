@@ -46,7 +46,7 @@ double random_uniform(random_source *source)
     return ((double)(next(source) >> 11) + 0.5) * 0x1p-53;
 }
 
-/* The polar method; its second number is thrown away, so that a source is its state alone. */
+/* Polar method; its second number is discarded, so that the state of the generator is complete. */
 double random_normal(random_source *source)
 {
     for (;;) {

@@ -9,11 +9,11 @@ typedef struct random_source {
     uint64_t state[4];
 } random_source;
 
-/* Another stream for each name and number; the same one every time. */
+/* Reproducible stream for each name and number. */
 random_source random_for(uint64_t seed, const char *name, uint64_t number);
-double random_uniform(random_source *source); /* in ]0, 1[ */
+double random_uniform(random_source *source); /* uniform in ]0, 1[ */
 double random_normal(random_source *source);
-/* Of a value with a relative error. */
+/* Factor of a value with a relative error. */
 double random_about(double value, double error, random_source *source);
 
 #endif

@@ -1,4 +1,5 @@
-/* Records of friction through weartrack record. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Observes records of friction through weartrack record.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record_observe.h"
 #include "record_scene.h"
 
@@ -8,17 +9,17 @@
 
 static const double pi = 3.14159265358979323846, coefficient = 0.8, lap_time = 0.5, load = 5,
                     radius = 0.012, density = 1150, zero = 0.1;
-/* The friction of a velocity step over that of the one before. */
+/* Friction of a velocity step relative to the previous one. */
 static const double per_step = 1.1;
 enum { STEP_LAPS = 200 };
 
 typedef struct made_record {
-    int laps, end;  /* all, and those of the running-in */
+    int laps, end;  /* all rows, and those of the running-in */
     double *lap;    /* [laps] mean coefficient */
-    double steady;  /* what it is behind the running-in, of the first step */
+    double steady;  /* after the running-in, of the first step */
     double drift;   /* of a lap */
     double scatter; /* of a lap */
-    int pause_at;   /* laps before it */
+    int pause_at;   /* laps before the pause */
     double paused;  /* s */
 } made_record;
 
@@ -49,7 +50,7 @@ static made_record make_record(const record_scene *s, random_source *random)
     r.scatter = (s->scatter > 0 ? s->scatter : 0.02) * r.steady;
     r.end = s->form == NO_RUNNING_IN ? 0 : (int)(length * r.laps);
     r.drift = s->drift * r.scatter / r.laps;
-    if (s->pause != NO_PAUSE) { /* anywhere within, of five laps to half of the record */
+    if (s->pause != NO_PAUSE) { /* anywhere, from five laps to half of the record */
         r.pause_at = (int)((0.05 + 0.9 * random_uniform(random)) * r.laps);
         r.paused = lap_time * 5 * pow(0.1 * r.laps, random_uniform(random));
     }
@@ -66,8 +67,7 @@ static made_record make_record(const record_scene *s, random_source *random)
     return r;
 }
 
-/* A disc that stands for a time. What the load cell shows of a disc at rest is no friction of
- * sliding. */
+/* A disc at rest for a time. The load cell then shows no sliding friction. */
 static void write_paused(const record_scene *s, const made_record *r, FILE *out)
 {
     const int samples = 25;
@@ -89,7 +89,7 @@ static void write_paused(const record_scene *s, const made_record *r, FILE *out)
     }
 }
 
-/* Samples of a lap: a wave that goes round with it. */
+/* Samples of a lap: a wave with the period of the lap. */
 static void write_disc(const record_scene *s, const made_record *r, FILE *out)
 {
     const double samples = s->samples > 0 ? s->samples - 0.4 : 25;
@@ -109,13 +109,13 @@ static void write_disc(const record_scene *s, const made_record *r, FILE *out)
         at += s->changing_rate ? (2 * lap < r->laps ? 1 : 0.2) : 1 / samples;
     }
     const double last = r->lap[r->laps - 1];
-    if (!s->changing_rate) /* the last lap is whole only if one begins behind it */
+    if (!s->changing_rate) /* the last lap is complete only if another one begins */
         fprintf(out, "%.9g,%.9g,%.9g,%.9g\n", lap_time * at, at,
                 s->steps > 0 ? 10 * pow(3, s->steps - 1) : last, s->steps > 0 ? last : load);
 }
 
-/* Sine of the position, friction against the motion, a force that is not 0 at rest. The first and
- * the last way are half ones. */
+/* Sine of the position, friction against the motion, a nonzero force at rest. The first and the
+ * last stroke are half strokes. */
 static void write_strokes(const record_scene *s, const made_record *r, FILE *out)
 {
     const int samples = 40;
@@ -155,14 +155,14 @@ static void read_step(const record_scene *s, const made_record *r, const stream 
     trial_add(t, Q_STEADY, truth, place_row(found, &place_steady, row));
     if (s->form == NO_RUNNING_IN)
         trial_add(t, Q_DRIFT, 0, drift);
-    else if (s->pause != NO_PAUSE) /* of sliding */
+    else if (s->pause != NO_PAUSE) /* time of sliding */
         trial_add(t, Q_RUNNING_IN, lap_time * r->end,
                   place_row(found, &place_running_in_time, row));
     else if (s->form != EXPONENTIAL)
         trial_add(t, Q_RUNNING_IN, r->end, place_row(found, &place_running_in, row));
 }
 
-/* What a technician measures has the error that is stated of it. */
+/* Measured value with its stated error. */
 static int add_wear(const record_scene *s, const made_record *r, random_source *random,
                     char words[2][64], const char **arguments, double *truth)
 {

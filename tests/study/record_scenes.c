@@ -1,4 +1,4 @@
-/* Records of friction. Fixed before the method was tried on any of them.
+/* Records of friction, fixed before the method was tried on them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record_scene.h"
 

@@ -1,4 +1,5 @@
-/* A case of rubber that slides. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A case of sliding rubber.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_SLIDING_CASE_H
 #define STUDY_SLIDING_CASE_H
 
@@ -6,8 +7,8 @@
 
 #include <stdio.h>
 
-/* The case up to <sliding>: the rubber of the study as its lines, and the counter surface with the
- * relative error of its density. NULL: it cannot be written. */
+/* Writes the case up to <sliding>: the rubber as its lines, and the counter surface with the
+ * relative error of its density. NULL on failure. */
 FILE *sliding_case_begin(const char *path, const contact *stated, double error);
 
 #endif

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The file with its lines cut apart, and where the lines of each table are. */
+/* The file split into lines, and the first line of each table. */
 struct stream {
     char *text;
     char **lines;
@@ -76,7 +76,7 @@ static const char *after(const char *line, const char *start)
     return strncmp(line, start, n) == 0 ? line + n : NULL;
 }
 
-/* The line after the one that begins the table; -1 if there is none. */
+/* Line after the start of the table; -1 if there is none. */
 static int table_start(const stream *s, const char *table)
 {
     for (int i = 0; i < s->n; i++) {
@@ -115,7 +115,7 @@ double stream_number(const stream *s, const char *table, const char *key, const 
     return end != text ? value : (double)NAN;
 }
 
-/* The line with the names of the columns; -1 if there is none. */
+/* Line with the column names; -1 if there is none. */
 static int names_line(const stream *s, const char *table)
 {
     int i = table_start(s, table);
@@ -124,7 +124,7 @@ static int names_line(const stream *s, const char *table)
     return i >= 0 && i < s->n && after(s->lines[i], "# ") != NULL ? i : -1;
 }
 
-/* The line of a row; blank lines between rows are none. */
+/* Line of a row; blank lines are not rows. */
 static int row_line(const stream *s, const char *table, int row)
 {
     const int names = names_line(s, table);
@@ -146,7 +146,7 @@ int stream_rows(const stream *s, const char *table)
     return n;
 }
 
-/* NULL if there is no such table, column or row. */
+/* NULL without such a table, column or row. */
 static const char *cell_at(const stream *s, const char *table, const char *column, int row)
 {
     const int names = names_line(s, table), line = row_line(s, table, row);

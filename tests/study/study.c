@@ -1,8 +1,8 @@
-/* Does a stated interval hold the truth? Draws data sets from known truth, gives them to the
- * command as an instrument and a user would, and counts: study --program WEARTRACK [--draws N]
- * [--seed S] [--scenes REGEX] [--threads N] [--keep FOLDER] Tables on standard output; the exit
- * status is 1 if a promised scene fails or the command breaks. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Coverage of stated intervals. The program draws data sets from a known truth, passes them to the
+ * command as a user would, and counts the intervals that contain the truth: study --program
+ * WEARTRACK [--draws N] [--seed S] [--scenes REGEX] [--threads N] [--keep FOLDER] Tables go to
+ * standard output. The exit status is 1 if a promised scene or the command fails.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "afm_observe.h"
 #include "collection_observe.h"
 #include "dma_observe.h"
@@ -34,7 +34,7 @@ typedef struct options {
     regex_t scenes;
 } options;
 
-/* A scene that was chosen, and its draws. */
+/* A selected scene and its draws. */
 typedef struct job {
     const family *family;
     int scene;
@@ -47,10 +47,10 @@ typedef struct work {
     const options *options;
     job *jobs;
     int n_jobs;
-    atomic_int next; /* draw of all draws of all jobs */
+    atomic_int next; /* index of a draw over all jobs */
 } work;
 
-static void *labour(void *argument)
+static void *run_worker(void *argument)
 {
     work *w = argument;
     const int draws = w->options->draws;
@@ -62,13 +62,13 @@ static void *labour(void *argument)
     return NULL;
 }
 
-static void labour_together(work *w)
+static void run_workers(work *w)
 {
     pthread_t threads[THREADS_MAX];
     int started = 0;
     for (int i = 1; i < w->options->threads && started < THREADS_MAX; i++)
-        started += pthread_create(&threads[started], NULL, labour, w) == 0;
-    labour(w);
+        started += pthread_create(&threads[started], NULL, run_worker, w) == 0;
+    run_worker(w);
     for (int i = 0; i < started; i++)
         pthread_join(threads[i], NULL);
 }
@@ -84,7 +84,7 @@ static void make_job(const family *f, int scene, int draws, job *to)
         abort();
 }
 
-/* The jobs of all scenes that were asked for; the number of them. */
+/* Creates the jobs of the selected scenes; returns their number. */
 static int make_jobs(const options *o, const family *families, int n_families, job **to)
 {
     int n = 0, all = 0;
@@ -189,7 +189,7 @@ static int positive(const char *text)
     return *end == '\0' && value > 0 && value <= 1000000 ? (int)value : 0;
 }
 
-/* 0, or the exit status. */
+/* Returns 0 or the exit status. */
 static int read_options(int argc, char **argv, options *o)
 {
     const char *scenes_wanted = ".";
@@ -237,7 +237,7 @@ int main(int argc, char **argv)
     job *jobs = NULL;
     const int n = make_jobs(&o, families, sizeof families / sizeof families[0], &jobs);
     work w = {.options = &o, .jobs = jobs, .n_jobs = n};
-    labour_together(&w);
+    run_workers(&w);
     const int complaints = w.n_jobs > 0 ? print(&w) : usage("no scene has such a name");
     for (int i = 0; i < w.n_jobs; i++) {
         free(jobs[i].draws);

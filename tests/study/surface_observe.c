@@ -1,9 +1,10 @@
-/* Measured surfaces: waves with exponential squared amplitudes and random phases, cut out of what
- * goes on beyond them. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Measured surfaces: waves with exponentially distributed squared amplitudes and random phases. The
+ * scans are parts of larger surfaces.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface_observe.h"
 #include "surface_scene.h"
 
-#include "made_surface.h"
+#include "synthetic_surface.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -23,31 +24,31 @@ static void *prepare(int scene)
     return NULL;
 }
 
-static made_surface surface_of(const surface_scene *s, random_source *random, double length)
+static synthetic_surface surface_of(const surface_scene *s, random_source *random, double length)
 {
     const double roll_off = s->roll_off > 0 ? s->roll_off : 6e5,
                  hurst = s->hurst > 0 ? s->hurst : 0.8;
-    /* of all scenes alike at the roll-off of most */
+    /* The power law is the same for every roll-off. */
     const double c0 = 1e-25 * pow(roll_off / 6e5, -2 * (1 + hurst));
-    return (made_surface){.n = 256,
-                          .length = length,
-                          .seed = (uint64_t)(random_uniform(random) * 0x1p52),
-                          .modes = 126,
-                          .c0 = c0,
-                          .roll_off = roll_off,
-                          .hurst = hurst,
-                          .stretch = s->stretch,
-                          .texture = s->texture,
-                          .exponential = true};
+    return (synthetic_surface){.n = 256,
+                               .length = length,
+                               .seed = (uint64_t)(random_uniform(random) * 0x1p52),
+                               .modes = 126,
+                               .c0 = c0,
+                               .roll_off = roll_off,
+                               .hurst = hurst,
+                               .stretch = s->stretch,
+                               .texture = s->texture,
+                               .exponential = true};
 }
 
-/* A part of it as Gwyddion Simple Field. */
-static int write_scan(const surface_scene *s, const made_surface *surface, random_source *random,
-                      const char *path)
+/* Writes a part of it as Gwyddion Simple Field. */
+static int write_scan(const surface_scene *s, const synthetic_surface *surface,
+                      random_source *random, const char *path)
 {
     const size_t nx = s->profiles > 0 ? LINE : POINTS, ny = s->profiles > 0 ? 1 : POINTS;
     const double step = surface->length / (double)surface->n;
-    double *z = make_surface(surface), square = 0;
+    double *z = surface_create(surface), square = 0;
     FILE *out = fopen(path, "wb");
     if (out == NULL) {
         free(z);
@@ -75,20 +76,20 @@ static int write_scan(const surface_scene *s, const made_surface *surface, rando
     return fclose(out) != 0 || bad ? -1 : 0;
 }
 
-/* The square root of 2 pi int C q^power dq over the rows. */
-static double true_rms(const made_surface *truth, double first, double last, double power)
+/* Square root of 2 pi int C q^power dq over the rows. */
+static double true_rms(const synthetic_surface *truth, double first, double last, double power)
 {
-    enum { STEPS = 4000 }; /* of ln q: the law is smooth but for its roll-off */
+    enum { STEPS = 4000 }; /* step of ln q; the law is smooth except for its roll-off */
     const double step = log(last / first) / STEPS;
     double sum = 0;
     for (int i = 0; i <= STEPS; i++) {
         const double q = first * exp(step * i), weight = i == 0 || i == STEPS ? 0.5 : 1;
-        sum += weight * made_density(truth, q) * pow(q, power + 1) * step;
+        sum += weight * surface_density(truth, q) * pow(q, power + 1) * step;
     }
     return sqrt(2 * M_PI * sum);
 }
 
-static void read_spectrum(const char *path, const surface_scene *s, const made_surface *truth,
+static void read_spectrum(const char *path, const surface_scene *s, const synthetic_surface *truth,
                           trial *t)
 {
     stream *found = stream_read(path);
@@ -99,10 +100,11 @@ static void read_spectrum(const char *path, const surface_scene *s, const made_s
         const bool by_law =
             stream_is(found, place_density.table, PLACE_SOURCE, i, PLACE_BY_LAW) != 0;
         if (by_law && i + 1 < n)
-            continue; /* all rows of the law are off together: the last says what they are */
-        trial_add(t, by_law ? Q_BEYOND : Q_DENSITY,
-                  made_density(truth, stream_cell(found, place_density.table, PLACE_WAVENUMBER, i)),
-                  place_row(found, &place_density, i));
+            continue; /* the errors of all rows of the law are correlated; the last row is tested */
+        trial_add(
+            t, by_law ? Q_BEYOND : Q_DENSITY,
+            surface_density(truth, stream_cell(found, place_density.table, PLACE_WAVENUMBER, i)),
+            place_row(found, &place_density, i));
     }
     if (n > 0) {
         const double first = stream_cell(found, place_density.table, PLACE_WAVENUMBER, 0),
@@ -112,7 +114,7 @@ static void read_spectrum(const char *path, const surface_scene *s, const made_s
         trial_add(t, Q_RMS_SLOPE, true_rms(truth, first, last, 3),
                   place_key(found, &place_rms_slope));
         trial_add(t, Q_HURST, truth->hurst, place_key(found, &place_hurst));
-        /* profiles tell too few bins for a roll-off */
+        /* profiles have too few bins for a roll-off */
         if (!(s->roll_off > 0) && s->profiles == 0) {
             trial_add(t, Q_ROLL_OFF, truth->roll_off, place_key(found, &place_roll_off));
             trial_add(t, Q_C0, truth->c0, place_key(found, &place_c0));
@@ -135,14 +137,14 @@ static void observe(int scene, const void *prepared, random_source *random, tria
                                      : 1,
               near_by = wide + s->near_by, all = near_by + s->nearest;
     const double smaller = s->smaller > 0 ? s->smaller : 10;
-    made_surface truth = surface_of(s, random, side);
+    synthetic_surface truth = surface_of(s, random, side);
     (void)prepared;
     for (int i = 0; i < all; i++) {
         char name[24];
-        made_surface here = surface_of(s, random,
-                                       i < wide      ? side
-                                       : i < near_by ? side / smaller
-                                                     : side / (smaller * smaller));
+        synthetic_surface here = surface_of(s, random,
+                                            i < wide      ? side
+                                            : i < near_by ? side / smaller
+                                                          : side / (smaller * smaller));
         here.c0 *= exp(s->scatter * random_normal(random));
         snprintf(name, sizeof name, "scan%d.gsf", i + 1);
         arguments[4 + i] = trial_file(t, name);

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* A complaint has to be as improbable as this. */
+/* Probability below which a deviation is reported. */
 static const double by_chance = 1e-4;
 static const double covered_right = 0.95, verdicts_right = 0.9, yes_wrong = 0.05;
 
@@ -23,7 +23,7 @@ static double median(double *values, size_t n)
     return (values[(n - 1) / 2] + values[n / 2]) / 2;
 }
 
-/* What is summed over the estimates. */
+/* Sums over the estimates. */
 typedef struct sums {
     int all, stated, covered, finite;
     double square, square_stated;
@@ -48,7 +48,7 @@ static void take(const observation *o, sums *to)
     const double half = (e->high - e->low) / 2 / (relative ? fabs(e->value) : 1);
     if (isfinite(half)) {
         to->half_widths[to->n_half_widths++] = half;
-        /* by the half that the truth lies in: those of a factor differ */
+        /* uses the half in which the truth lies, because intervals of a factor are asymmetric */
         const double towards = e->value > o->truth ? e->value - e->low : e->high - e->value;
         to->square_stated += pow(1.96 * (e->value - o->truth) / towards, 2);
     }
@@ -74,8 +74,8 @@ tally tally_make(const draw *draws, int n, quantity q)
         s.n_half_widths > 0 ? sqrt(s.square_stated / (double)s.n_half_widths) : (double)NAN;
     t.half_width = median(s.half_widths, s.n_half_widths);
     if (s.stated > 0) {
-        /* the estimates of one draw are not independent; one draw more of each kind, so that an
-         * error is never 0 */
+        /* the estimates of one draw are correlated; one more draw of each kind avoids a zero
+         * error */
         const double p = (double)s.covered / s.stated, m = t.draws_stated;
         const double safe = (p * m + 1) / (m + 2);
         t.coverage = p;
@@ -116,7 +116,8 @@ static int complain(FILE *words, const char *where, const char *about, const cha
     return 1;
 }
 
-/* Draws whose intervals hold the truth; one with several estimates counts as their share. */
+/* Number of draws whose intervals contain the truth; a draw with several estimates counts as their
+ * share. */
 static int draws_covered(const tally *t)
 {
     return t->draws_stated > 0 ? (int)floor(t->coverage * t->draws_stated + 0.5) : 0;

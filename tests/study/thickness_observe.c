@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SPOTS = 4, CURVES = 8 }; /* of a zone; on a spot */
+enum { SPOTS = 4, CURVES = 8 }; /* positions in a zone; curves at a position */
 static const char *const zones[2] = {"bulk", "track"};
 static const double bulk_modulus = 5e6;
 static const double nanometre = 1e-9;
@@ -31,7 +31,7 @@ static int write_spot(const thickness_scene *s, const thin_sample *layer, int zo
     return (file != NULL && fclose(file) != 0) || bad ? -1 : 0;
 }
 
-/* The table of a zone; NULL if the command did not make it. */
+/* Table of a zone; NULL if the command failed. */
 static const char *indent_zone(const thickness_scene *s, const thin_sample *layer, int zone,
                                random_source *random, trial *t)
 {
@@ -67,17 +67,17 @@ static const char *indent_zone(const thickness_scene *s, const thin_sample *laye
     return trial_run(t, arguments) ? made : NULL;
 }
 
-/* ---- what it says ---------------------------------------------------------------------------- */
+/* ---- output ---------------------------------------------------------------------------------- */
 
 static bool begins(const char *said, const char *word)
 {
     return said != NULL && strncmp(said, word, strlen(word)) == 0;
 }
 
-/* ln of the ends; one that is not there is as far off as nothing reaches. */
+/* ln of the limits; an absent limit is beyond any thickness. */
 static estimate range_of(const stream *found, const char *low, const char *high)
 {
-    const double far = 20; /* in ln, of a nanometre */
+    const double far = 20; /* ln of nanometres */
     estimate e = {0, log(stream_number(found, PLACE_LAYER, low, NULL) / nanometre),
                   log(stream_number(found, PLACE_LAYER, high, NULL) / nanometre)};
     if (isnan(e.low))
@@ -97,15 +97,15 @@ static void read_layer(const char *path, const thickness_scene *s, trial *t)
     if (allowed == NULL || agree == NULL) {
         trial_broke(t, "no thickness in what was written");
     } else {
-        /* a track of one rubber is a layer thicker than anything */
+        /* a track of one rubber is thicker than any indentation */
         const double whole = 15, truth = s->thickness > 0 ? log(s->thickness / nanometre) : whole;
         estimate e = range_of(found, PLACE_LAYER_LOW, PLACE_LAYER_HIGH);
-        if (begins(allowed, PLACE_NONE)) /* stated, and holds nothing */
+        if (begins(allowed, PLACE_NONE)) /* stated, but contains no value */
             e.low = e.high = e.value = -1;
         if (begins(allowed, PLACE_INCONCLUSIVE))
             e.low = e.high = (double)NAN;
         trial_add(t, Q_ALLOWED, truth, e);
-        if (s->other == 1) /* in which the other is right */
+        if (s->other == 1) /* range in which the other source is right */
             trial_add(t, Q_BOTH, truth,
                       stream_key(found, PLACE_LAYER, PLACE_LAYER_BOTH_LOW) != NULL
                           ? range_of(found, PLACE_LAYER_BOTH_LOW, PLACE_LAYER_BOTH_HIGH)
@@ -118,19 +118,19 @@ static void read_layer(const char *path, const thickness_scene *s, trial *t)
     stream_free(found);
 }
 
-/* ---- a draw ---------------------------------------------------------------------------------- */
+/* ---- one draw -------------------------------------------------------------------------------- */
 
 static const facts *scene_facts(int scene)
 {
     return &thickness_scenes[scene].facts;
 }
 
-/* The layer, which all spots have. */
+/* The layer, which all positions share. */
 static void *prepare(int scene)
 {
     const thickness_scene *s = &thickness_scenes[scene];
     const afm_tip tip = afm_true_tip(&s->curves);
-    const double deepest = 300e-9; /* [m], more than any curve */
+    const double deepest = 300e-9; /* [m], larger than any indentation */
     return s->thickness > 0 ? layer_make(&tip, s->thickness, s->ratio,
                                          fmin(5 * s->thickness, tip_contact_radius(&tip, deepest)))
                             : NULL;

@@ -1,4 +1,4 @@
-/* Curves of bulk and track through indent and compare, with a thickness beside them.
+/* Observes curves of bulk and track through indent and compare, with a stated thickness.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_THICKNESS_OBSERVE_H
 #define STUDY_THICKNESS_OBSERVE_H

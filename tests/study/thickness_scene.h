@@ -1,5 +1,6 @@
-/* A track with a layer on rubber of the bulk, indented beside it, and a thickness that another
- * source states. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A track with a layer on the rubber of the bulk, indented in both zones, and a thickness from
+ * another source.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_THICKNESS_SCENE_H
 #define STUDY_THICKNESS_SCENE_H
 
@@ -7,13 +8,13 @@
 
 typedef struct thickness_scene {
     facts facts;
-    afm_scene curves;       /* of the bulk, and what the track has from it: tip, noise, depth */
-    double ratio;           /* E of the layer over that of the bulk */
-    double thickness;       /* [m]; 0: the whole track */
-    double spot_scatter;    /* of ln E */
-    double other;           /* thickness of the other source over the true one, */
-    double other_error;     /* and its relative standard error; 0: there is none */
-    double other_thickness; /* [m], where the whole track is one rubber */
+    afm_scene curves;       /* scene of the bulk, and of the track for tip, noise and depth */
+    double ratio;           /* modulus ratio of layer and bulk */
+    double thickness;       /* [m]; 0: the whole track is modified */
+    double spot_scatter;    /* scatter of ln E */
+    double other;           /* stated over true thickness of the other source */
+    double other_error;     /* its relative standard error; 0: not stated */
+    double other_thickness; /* [m], if the whole track is modified */
 } thickness_scene;
 
 extern const thickness_scene thickness_scenes[];

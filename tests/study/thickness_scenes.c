@@ -1,8 +1,9 @@
-/* Thickness by curves. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Layer thickness from curves.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "thickness_scene.h"
 
 #define PROMISED .facts.intervals_promised = true, .facts.verdict_promised = true
-/* The other source is right, or off. */
+/* The other source is right or wrong. */
 #define RIGHT_SOURCE .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE)
 #define WRONG_SOURCE .facts.right = RIGHT(NO) | RIGHT(INCONCLUSIVE)
 #define WHITE .curves.noise = .005

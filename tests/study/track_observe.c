@@ -1,4 +1,4 @@
-/* Tables of indented curves through compare, and what it says on to friction.
+/* Observes tables of force curves through compare, and its result in friction.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "track_observe.h"
 #include "track_scene.h"
@@ -8,11 +8,12 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CURVES_MAX = 128, CURVES = 4 /* in a cell */ };
+enum { CURVES_MAX = 128, CURVES = 4 /* curves of a cell */ };
 static const double curve_scatter = 0.04, bulk_modulus = 8e6, middle_rate = 0.6;
 static const double warmer = 10, warmer_error = 1, warm_slope = -.012, warm_slope_error = .002;
-static const double unsaid = 17, wlf_c1 = 6.5, wlf_c2 = 110; /* K, of 20 degC */
-static const double lever[2] = {.3, .36}; /* [N/m] of separate levers, as they were calibrated */
+static const double unsaid = 17, wlf_c1 = 6.5, wlf_c2 = 110; /* [K], 20 degC */
+/* calibrated spring constants of separate cantilevers [N/m] */
+static const double lever[2] = {.3, .36};
 static const double sensitivity_gain[2] = {1.3, 1.2};
 static const char *const zones[2] = {"bulk", "track"};
 
@@ -24,12 +25,12 @@ typedef struct curve {
 typedef struct sample {
     curve curves[2][CURVES_MAX];
     int n[2];
-    double offset[2]; /* of ln E, by what the curves of a zone share */
+    double offset[2]; /* random errors of ln E, by the level that shares them */
 } sample;
 
 /* ---- drawing --------------------------------------------------------------------------------- */
 
-/* Of unit variance; that of Student's t with 3 degrees of freedom is 3. */
+/* Unit variance; Student's t with 3 degrees of freedom has a variance of 3. */
 static double scatter(const track_scene *s, random_source *random)
 {
     const double z = random_normal(random);
@@ -41,7 +42,7 @@ static double scatter(const track_scene *s, random_source *random)
     return z / sqrt(3 * square);
 }
 
-static bool is_unsaid_warmer(warmth w)
+static bool is_unstated_warmer(warmth w)
 {
     return w == WARMER_UNSAID || w == WARMER_UNSAID_ALONE;
 }
@@ -55,7 +56,7 @@ static void draw_offsets(const track_scene *s, random_source *random, double *of
         spring[zone] = s->lever_error[zone] * random_normal(random);
         offset[zone] = spring[from] + sensitivity_gain[zone] * sensitivity[from];
     }
-    if (is_unsaid_warmer(s->warmth))
+    if (is_unstated_warmer(s->warmth))
         offset[1] -= s->rate_slope * M_LN10 * wlf_c1 * unsaid / (wlf_c2 + unsaid);
     else if (s->warmth == WARMER || s->warmth == WARMER_SLOPE_KNOWN)
         offset[1] += (warmer + warmer_error * random_normal(random)) *
@@ -82,7 +83,7 @@ static void draw_spot(const track_scene *s, int zone, int spot, random_source *r
     }
 }
 
-/* The curves of a spot again, as those of another one. */
+/* Curves of one position again, as those of another one. */
 static void copy_spot(sample *of, int zone, int spot, int to_zone, int as)
 {
     for (int i = 0, n = of->n[zone]; i < n; i++)
@@ -106,14 +107,14 @@ static void draw_sample(const track_scene *s, random_source *random, sample *to)
         copy_spot(to, 0, 1, 1, s->spots[1] + 1);
 }
 
-/* ---- as the command is told ------------------------------------------------------------------ */
+/* ---- arguments of the command ---------------------------------------------------------------- */
 
-static const char *spots_words(const track_scene *s)
+static const char *format_spots(const track_scene *s)
 {
     return s->maps ? "file: each file is a spot, none were named" : "named";
 }
 
-/* What weartrack indent would have written. */
+/* Writes the table of weartrack indent. */
 static int write_zone(const track_scene *s, const sample *drawn, int zone, const char *path)
 {
     FILE *file = fopen(path, "w");
@@ -125,7 +126,7 @@ static int write_zone(const track_scene *s, const sample *drawn, int zone, const
     fprintf(file,
             "## spring_constant: %.9g standard_error=%.9g numerical_error=0 unit=N/m\n"
             "## spots: %s\n",
-            k, k * s->lever_error[zone], spots_words(s));
+            k, k * s->lever_error[zone], format_spots(s));
     fputs("# file[text]\tcurve[1]\tspot[text]\tverdict[text]\treason[text]\tmodulus[Pa]\t"
           "contact_point[m]\tnoise[N]\tpiezo_rate[m/s]\tindentation_rate[m/s]\tload_time[s]\t"
           "sensitivity_gain[1]\tequivalent_frequency[rad/s]\n",
@@ -151,7 +152,7 @@ typedef struct words {
     int n;
 } words;
 
-static void say(words *w, const char *option, const char *value)
+static void append_argument(words *w, const char *option, const char *value)
 {
     w->word[w->n++] = option;
     if (value != NULL)
@@ -160,14 +161,13 @@ static void say(words *w, const char *option, const char *value)
 
 static bool run(words *w, const char *output, trial *t)
 {
-    say(w, "-o", output);
-    say(w, "--no-provenance", NULL);
+    append_argument(w, "-o", output);
+    append_argument(w, "--no-provenance", NULL);
     w->word[w->n] = NULL;
     return trial_run(t, w->word);
 }
 
-/* The rubber as a DMA tells it: moduli that rise with the rate as those of the curves, and a law.
- */
+/* The rubber as in a DMA: the same rise of the moduli with the rate, and a shift law. */
 static int write_rubber(const track_scene *s, const char *path)
 {
     static const char *const numbers[] = {"log_a",
@@ -184,7 +184,7 @@ static int write_rubber(const track_scene *s, const char *path)
                                           "overlap",
                                           "noise_factor",
                                           "outliers"};
-    const int shifts = 7; /* the first of them are the shift itself */
+    const int shifts = 7; /* the first terms are the shift itself */
     const int plain = sizeof numbers / sizeof numbers[0];
     FILE *file = fopen(path, "w");
     if (file == NULL)
@@ -196,7 +196,7 @@ static int write_rubber(const track_scene *s, const char *path)
             "## equilibrium_modulus: %.9g standard_error=0 numerical_error=0 unit=Pa\n"
             "## reference_temperature: 293.15 standard_error=0 numerical_error=0 unit=K\n"
             "## deformation: tension\n# relaxation_time[s]\tmodulus[Pa]\n",
-            one * pow(fall, last + 1) / (1 - fall)); /* all that relaxes later */
+            one * pow(fall, last + 1) / (1 - fall)); /* all slower terms */
     for (int i = first; i <= last; i++)
         fprintf(file, "1e%d\t%.9g\n", i, one * pow(fall, i));
     fprintf(file,
@@ -226,29 +226,29 @@ static bool run_compare(const track_scene *s, const char *const *files, const ch
     char sensitivity[32];
     snprintf(sensitivity, sizeof sensitivity, "%g", s->sensitivity_error);
     if (s->sensitivity_error > 0)
-        say(&w, "--sensitivity-error", sensitivity);
+        append_argument(&w, "--sensitivity-error", sensitivity);
     char scatter[32];
     snprintf(scatter, sizeof scatter, "%g", s->spot_scatter[0]);
     if (s->scatter_is_stated)
-        say(&w, "--between-spot-sd", scatter);
+        append_argument(&w, "--between-spot-sd", scatter);
     if (s->warmth == WARMER_UNSAID) {
         const char *rubber = trial_file(t, "rubber.tsv");
         if (write_rubber(s, rubber) != 0)
             trial_broke(t, "the rubber cannot be written");
-        say(&w, "--master", rubber);
+        append_argument(&w, "--master", rubber);
     } else if (s->warmth != WARMER_UNSAID_ALONE && s->warmth != NOT_WARMER_UNSAID) {
-        say(&w, "--indentation-temperature", "20degC");
+        append_argument(&w, "--indentation-temperature", "20degC");
         if (s->warmth != NOT_WARMER)
-            say(&w, "--track-temperature", "30degC +- 1K");
+            append_argument(&w, "--track-temperature", "30degC +- 1K");
     }
     if (s->warmth == WARMER_SLOPE_KNOWN)
-        say(&w, "--temperature-slope", "-0.012 +- 0.002");
+        append_argument(&w, "--temperature-slope", "-0.012 +- 0.002");
     return run(&w, made, t);
 }
 
-/* ---- on to friction -------------------------------------------------------------------------- */
+/* ---- effect on friction ---------------------------------------------------------------------- */
 
-/* A rubber without errors, so that those of the ratio are all there are. */
+/* A rubber without errors, so that only those of the ratio count. */
 static int write_material(const char *path)
 {
     FILE *file = fopen(path, "w");
@@ -269,7 +269,7 @@ static int write_material(const char *path)
     return fclose(file) != 0 || bad ? -1 : 0;
 }
 
-/* With a layer of this modulus ratio; nan if there is none in what was written. */
+/* Friction with a layer of this modulus ratio; nan if the result has none. */
 static estimate layered_friction(const char *material, const char *ratio, const char *degrees,
                                  trial *t)
 {
@@ -279,9 +279,9 @@ static estimate layered_friction(const char *material, const char *ratio, const 
                         "--replicates", "200", "--threads", "1", "--roughness",
                         "self-affine:q0=1e3rad/m,qr=5e3rad/m,q1=1e6rad/m,hurst=0.8,c0=1e-17m^4"},
                .n = 17};
-    say(&w, "--modulus-ratio", ratio);
+    append_argument(&w, "--modulus-ratio", ratio);
     if (degrees != NULL)
-        say(&w, "--modulus-ratio-df", degrees);
+        append_argument(&w, "--modulus-ratio-df", degrees);
     estimate found = {(double)NAN, (double)NAN, (double)NAN};
     if (!run(&w, made, t))
         return found;
@@ -310,7 +310,7 @@ static void compare_friction(const track_scene *s, const stream *comparison, tri
     trial_add(t, Q_LAYERED_FRICTION, is.value, layered_friction(material, measured, df, t));
 }
 
-/* ---- what it says ---------------------------------------------------------------------------- */
+/* ---- output ---------------------------------------------------------------------------------- */
 
 static verdict read_verdict(const stream *found)
 {
@@ -331,8 +331,8 @@ static void compare_ratio(const char *path, const track_scene *s, trial *t)
         trial_broke(t, "no comparison in what was written");
     } else {
         t->draw->verdict = read_verdict(found);
-        /* with a ratio for each rate, that of all is none */
-        if (s->ratio_slope == 0 && !is_unsaid_warmer(s->warmth))
+        /* a ratio for each rate leaves no common ratio */
+        if (s->ratio_slope == 0 && !is_unstated_warmer(s->warmth))
             trial_add(t, Q_RATIO, s->ratio, place_row(found, &place_ratio, 0));
         if (s->through_friction)
             compare_friction(s, found, t);

@@ -1,4 +1,5 @@
-/* Tables of indented curves through compare. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Observes tables of force curves through compare.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_TRACK_OBSERVE_H
 #define STUDY_TRACK_OBSERVE_H
 

@@ -1,11 +1,12 @@
-/* Moduli of curves in and beside a wear track. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Moduli of curves in and outside a wear track.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_TRACK_SCENE_H
 #define STUDY_TRACK_SCENE_H
 
 #include "facts.h"
 
-/* What the command is told of it: one temperature, both, the slope of ln E against temperature
- * beside them, no temperature but the DMA, or nothing. */
+/* Temperatures that the command gets: one; both; both with the slope of ln E against temperature;
+ * none but the DMA; or none. */
 typedef enum warmth {
     NOT_WARMER,
     WARMER,
@@ -15,28 +16,30 @@ typedef enum warmth {
     NOT_WARMER_UNSAID
 } warmth;
 
-/* ln E = zone (ln(ratio) + ratio_slope ln(rate/0.6 um/s)) + rate_slope ln(rate/0.6 um/s) + spot
- *        + curve + levers. */
+/* ln E = zone (ln(ratio) + ratio_slope ln(rate/0.6 um/s)) + rate_slope ln(rate/0.6 um/s) + position
+ * + curve + cantilevers. */
 typedef struct track_scene {
     facts facts;
     double ratio;
-    double ratio_slope;             /* the ratio depends on the rate; 0.6 um/s has `ratio` */
+    double ratio_slope;             /* the ratio depends on the rate; `ratio` is at 0.6 um/s */
     int spots[2];                   /* bulk, track */
     double spot_scatter[2];         /* standard deviation of ln E */
-    bool scatter_is_stated;         /* that of the bulk, to the command */
-    bool heavy_tails;               /* spots and curves scatter as Student's t with 3 degrees */
+    bool scatter_is_stated;         /* the command gets that of the bulk */
+    bool heavy_tails;               /* positions and curves scatter as Student's t with 3 degrees */
     double rate_slope, rates[2][2]; /* um/s */
-    bool one_rate_a_spot;           /* spots of odd number have the first rate alone, the others
-                                       the second */
-    bool cells_missing;             /* none to three curves in a cell instead of four */
-    bool maps;                      /* each spot is a file of curves at places of their own */
-    int copies;                     /* of these spots the track has the file again */
-    bool copy_across;               /* the first spot of the bulk is in the track, too */
-    double lever_error[2];          /* relative, of the spring constants */
-    double sensitivity_error;       /* relative; stated */
+    /* odd positions have the first rate only, even ones the second */
+    bool one_rate_a_spot;
+    bool cells_missing; /* none to three curves per cell in place of four */
+    bool maps;          /* each position is a file of curves at different points */
+    /* number of these positions whose file is copied to the track */
+    int copies;
+    bool copy_across;         /* the track contains the first position of the bulk, too */
+    double lever_error[2];    /* relative error of the spring constants */
+    double sensitivity_error; /* stated relative error */
     bool levers_separate;
-    warmth warmth; /* the track 10 +- 1 K warmer, d ln E/dT -.012 +- .002; unsaid 17 K, by the law
-                      that takes the rate slope to another temperature */
+    /* track warmer by 10 +- 1 K, d ln E/dT -.012 +- .002; unstated 17 K, by the law that relates
+     * the rate slope to temperature */
+    warmth warmth;
     bool through_friction;
 } track_scene;
 

@@ -1,5 +1,5 @@
-/* Track against bulk; coverages and widths of ln(ratio) as the theory text gives them, and scenes
- * of our own where it gives none. Each of them with a layer and without one.
+/* Track against bulk. Coverages and widths of ln(ratio) are those of the theory text; other scenes
+ * have none. Each scene is drawn with and without a layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "track_scene.h"
 
@@ -14,13 +14,13 @@
     .spots = {bulk, track}, .spot_scatter = {bulk_scatter, track_scatter}
 #define FOUR SPOTS(4, 4, .06, .06), .rate_slope = .06
 
-/* What is right where the layer is there, and where it is not. */
+/* Right verdicts with a layer, and without one. */
 #define SEEN RIGHT(YES)
 #define PERHAPS RIGHT(YES) | RIGHT(INCONCLUSIVE)
 #define UNKNOWN RIGHT(INCONCLUSIVE)
 #define NOT_YES RIGHT(NO) | RIGHT(INCONCLUSIVE)
 
-/* Where the right answer is that nothing can be said, there is no interval. */
+/* No interval where "inconclusive" is the right verdict. */
 #define SILENT .facts.verdict_promised = true, NOT_GIVEN
 #define STATED .facts.verdict_promised = true, .facts.intervals_promised = true
 #define PAIR(name, words, there, absent, ...)                                                      \
@@ -53,7 +53,7 @@ const track_scene track_scenes[] = {
     PAIR("T11", "track 10 +- 1 K warmer, slope known", SEEN, NOT_YES, FOUR, COMMON_RATES,
          .warmth = WARMER_SLOPE_KNOWN, STATED, GIVEN(95, (double)NAN)),
 
-    /* of our own */
+    /* scenes without a theory text */
     PAIR("T10.many", "one spot in the track, twelve in the bulk", SEEN, NOT_YES,
          SPOTS(12, 1, .06, .06), .rate_slope = .06, COMMON_RATES, STATED, NOT_GIVEN),
     PAIR("T10.uneven", "one spot in the track that scatters 12 %, twelve in the bulk of 6 %",
@@ -65,7 +65,7 @@ const track_scene track_scenes[] = {
          .through_friction = true, STATED, GIVEN(96, .106)),
     PAIR("T2.three", "3 + 3 spots, 6 %", PERHAPS, NOT_YES, SPOTS(3, 3, .06, .06), .rate_slope = .06,
          COMMON_RATES, STATED, NOT_GIVEN),
-    /* Not promised: that two spots scatter more than the others cannot be known from two. */
+    /* Not promised: a larger scatter of two positions cannot be known from two. */
     PAIR("T4.wide", "2 + 6 spots, the two scatter 25 %, the others 5 %", PERHAPS, NOT_YES,
          SPOTS(2, 6, .25, .05), .rate_slope = .06, COMMON_RATES, NOT_GIVEN),
     PAIR("T4.narrow", "2 + 6 spots, the two scatter 5 %, the others 25 %", PERHAPS, NOT_YES,
@@ -91,7 +91,7 @@ const track_scene track_scenes[] = {
          .lever_error = {.1, .1}, .sensitivity_error = .05, STATED, NOT_GIVEN),
     PAIR("T11.unknown", "track 10 K warmer, slope not known", UNKNOWN, UNKNOWN, FOUR, COMMON_RATES,
          .warmth = WARMER, SILENT),
-    /* No interval is promised: nobody knows that it is warmer. */
+    /* No interval is promised, because the command does not know the temperature. */
     PAIR("T11.unsaid", "track 17 K warmer, no temperature said, the DMA given", PERHAPS, NOT_YES,
          FOUR, COMMON_RATES, .warmth = WARMER_UNSAID, SILENT),
     PAIR("T11.unsaid.alone", "track 17 K warmer, no temperature said, no DMA", PERHAPS, NOT_YES,

@@ -36,8 +36,8 @@ void trial_broke(trial *t, const char *words)
         snprintf(t->draw->words, sizeof t->draw->words, "%s", words);
 }
 
-/* 1 is an error of data that is explained, 3 one of a part of them; others are misuse of the
- * command, or a crash. */
+/* 1: explained error of data; 3: an explained error of a part; others: wrong use of the command, or
+ * a crash. */
 static void note_failure(trial *t, int status, const char *errors)
 {
     char line[sizeof t->draw->words];

@@ -1,4 +1,4 @@
-/* One draw of a scene through the command, each stated interval beside the truth.
+/* One draw of a scene through the command; each stated interval is compared with the truth.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef STUDY_TRIAL_H
 #define STUDY_TRIAL_H
@@ -13,7 +13,7 @@ typedef struct observation {
     estimate found;
 } observation;
 
-/* What came of the command: well, an error that it explained, or something it should never do. */
+/* Outcome of the command: success, an explained error, or a failure that must never occur. */
 typedef enum outcome { OUTCOME_GOOD, OUTCOME_REFUSED, OUTCOME_BROKEN, OUTCOME_COUNT } outcome;
 
 #define OBSERVATIONS_MAX 200
@@ -22,18 +22,18 @@ typedef struct draw {
     observation observations[OBSERVATIONS_MAX];
     verdict verdict;
     outcome outcome;
-    double seconds;  /* of the command */
-    char words[200]; /* the first line of the first error */
+    double seconds;  /* duration of the command */
+    char words[200]; /* first line of the first error */
 } draw;
 
 typedef struct stage {
     const char *program; /* weartrack */
-    const char *folder;  /* to work in */
+    const char *folder;  /* work folder */
     uint64_t seed;
-    bool keep; /* the files stay */
+    bool keep; /* keeps the files */
 } stage;
 
-#define TRIAL_FILES_MAX 80 /* of a whole study */
+#define TRIAL_FILES_MAX 80 /* enough for a whole study */
 typedef struct trial {
     const stage *stage;
     const char *scene;
@@ -43,23 +43,23 @@ typedef struct trial {
     draw *draw;
 } trial;
 
-/* Scenes of one kind: what is drawn and how it is observed. */
+/* Scenes of one kind, with functions that draw and observe them. */
 typedef struct family {
     int n;
     const facts *(*facts)(int scene);
-    void *(*prepare)(int scene); /* what all draws of a scene need; to be freed */
+    void *(*prepare)(int scene); /* allocated data that all draws of a scene share */
     void (*observe)(int scene, const void *prepared, random_source *random, trial *t);
 } family;
 
 void model_variant_fit(const family *f, int scene, const void *prepared, const stage *st,
                        int number, draw *to);
 
-/* The path of a file of this trial, which goes with it. */
+/* Path of a file of this trial, which is removed with it. */
 const char *trial_file(trial *t, const char *name);
-/* Arguments after the program, the last one NULL. True if the command was well. */
+/* Arguments after the program; the last one is NULL. Returns true on success. */
 bool trial_run(trial *t, const char *const *arguments);
 void trial_add(trial *t, quantity q, double truth, estimate found);
-/* What was written is not what was asked for. */
+/* Reports output other than requested. */
 void trial_broke(trial *t, const char *words);
 
 #endif

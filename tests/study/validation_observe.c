@@ -1,4 +1,5 @@
-/* A case and a record through weartrack validate. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Observes a case and a record through weartrack validate.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "validation_observe.h"
 #include "contact.h"
 #include "sliding_case.h"
@@ -10,7 +11,7 @@
 enum { STEPS_MAX = 8, LAPS = 100, SAMPLES = 4, INTERVALS = 60 };
 static const double pi = 3.14159265358979323846, slowest = 1e-3, radius = 0.0125;
 
-/* What the case states, and what is true of it. */
+/* Stated values of the case, and their true values. */
 static const contact stated = {.q0 = 2e3,
                                .qr = 4e3,
                                .q1 = 1e6,
@@ -40,13 +41,13 @@ static made_friction make_friction(const validation_scene *s, random_source *ran
     m.truth.pressure = random_about(stated.pressure, s->error, random);
     m.truth.c0 = random_about(stated.c0, s->error, random);
     m.truth.shear_stress = random_about(stated.shear_stress, shear_error(s), random);
-    const double middle = 0.25 * (m.steps - 1); /* decades above the slowest */
+    const double middle = 0.25 * (m.steps - 1); /* decades above the slowest velocity */
     for (int i = 0; i < m.steps; i++) {
         contact one = m.truth;
         m.velocity[i] = slowest * pow(10, 0.5 * i);
         one.velocities = 1;
         one.velocity[0] = m.velocity[i];
-        one.wear_rate = one.critical_energy = 1; /* nothing asks for the layer */
+        one.wear_rate = one.critical_energy = 1; /* the layer is not requested */
         const contact_truth theory = contact_solve(&one, &state, INTERVALS);
         m.friction[i] = theory.friction[0] * (s->off > 0 ? s->off : 1) *
                         exp(s->trend * (0.5 * i - middle) + s->scatter * random_normal(random));

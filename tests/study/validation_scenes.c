@@ -1,4 +1,4 @@
-/* Friction as measured against a case. Fixed before the method was tried on any of them.
+/* Measured friction against a case, fixed before the method was tried on it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "validation_scene.h"
 

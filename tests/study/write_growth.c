@@ -1,5 +1,6 @@
-/* The fixture of a running-in with known truth: write_growth FOLDER writes case.xml, record.csv and
- * truth.txt there, the same every time. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes a reproducible running-in with known truth: write_growth FOLDER creates case.xml,
+ * record.csv and truth.txt.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "growth_sample.h"
 
 #include <stdio.h>

@@ -1,5 +1,4 @@
-/* One set of formats for all tests of a program: making it reads every description.
- *
+/* One set of formats for all tests of a program, because its creation reads every description.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_ALL_FORMATS_H
 #define WT_TESTS_ALL_FORMATS_H

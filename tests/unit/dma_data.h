@@ -1,5 +1,5 @@
-/* Sweeps for the tests of the shift fit: from a tidy table of measured isotherms, or made from a
- * known Prony series and WLF law with reproducible noise.
+/* Sweeps for the tests of the shift fit: from a tidy table of measured isotherms, or from a known
+ * Prony series and WLF law with reproducible noise.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_DMA_DATA_H
 #define WT_TESTS_DMA_DATA_H
@@ -69,7 +69,8 @@ typedef struct dma_truth {
 } dma_truth;
 
 /* H(tau) = 1e8 Pa times a Gaussian in log10 tau about 1e-4 s, 1.5 decades wide, at the reference
- * temperature; ten Maxwell terms per decade make the ripple invisible. Unrelaxed: 0.87 GPa more. */
+ * temperature; with ten Maxwell terms per decade the ripple is negligible. Unrelaxed: 0.87 GPa
+ * more. */
 static inline void dma_moduli(const dma_truth *truth, double omega, double *storage, double *loss)
 {
     *storage = truth->equilibrium;
@@ -84,7 +85,7 @@ static inline void dma_moduli(const dma_truth *truth, double omega, double *stor
     }
 }
 
-/* Normal deviates from a counter, so a case is the same on every machine. */
+/* Normal deviates from a counter, so that a case is the same on every machine. */
 static inline double dma_normal(uint64_t *state)
 {
     double u[2];
@@ -125,7 +126,7 @@ static inline wt_isotherm *dma_add(wt_sweep *sweep, const dma_truth *truth, doub
     return isotherm;
 }
 
-/* The usual sweep of the tests: -20..80 degC every 10 K, 0.1..100 rad/s in 16 points. */
+/* Usual sweep of the tests: -20..80 degC every 10 K, 0.1..100 rad/s in 16 points. */
 static inline void dma_usual(wt_sweep *sweep, bool vertical, double noise, uint64_t seed)
 {
     uint64_t state = seed;

@@ -1,11 +1,9 @@
-/* What tests of the fit of synthetic curves share: a curve and a workspace for all of a program.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Fit of synthetic curves: a curve and a workspace for all tests of a program.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_FITTED_CURVE_H
 #define WT_TESTS_FITTED_CURVE_H
 
-#include "near.h"
+#include "assert_near.h"
 #include "synthetic_curve.h"
 
 #include "weartrack/indentation.h"
@@ -33,7 +31,7 @@ static inline wt_contact_table *table_of(const curve_truth *t)
     return table;
 }
 
-/* `data` by the options. */
+/* Fits `data` with the options. */
 static inline wt_indent_fit fit_with(const curve_truth *t, const wt_indent_options *options)
 {
     wt_contact_table *table = table_of(t);
@@ -46,7 +44,7 @@ static inline wt_indent_fit fit_with(const curve_truth *t, const wt_indent_optio
     return fit;
 }
 
-/* Curves without noise, and all of many: nothing is said here of the residual. */
+/* Many curves without noise; the lack of fit is not tested. */
 static inline wt_indent_options every_curve(void)
 {
     wt_indent_options options = wt_indent_defaults();

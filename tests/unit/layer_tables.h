@@ -1,10 +1,10 @@
-/* The table of a layer in the contact of sliding.h, and numbers of its keys.
+/* Table of a layer in the contact of sliding_fixture.h, and numbers of its keys.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_LAYER_TABLES_H
 #define WT_TESTS_LAYER_TABLES_H
 
-#include "cells.h"
-#include "sliding.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
 #include "weartrack/layer.h"
 
 #include <stdlib.h>
@@ -19,7 +19,7 @@ static inline wt_table *layer_of(const wt_layer_job *job)
     return tables.layer;
 }
 
-/* Of a key the number behind some words, "" the value itself. */
+/* Number after the words in a key, "" for the value itself. */
 static inline double number_after(const wt_table *table, const char *key, const char *words)
 {
     const char *text = wt_table_key(table, key);

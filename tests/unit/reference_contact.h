@@ -1,9 +1,9 @@
-/* Cases of contact in 12 digits, from a file of reference values.
+/* Contact cases with 12 digits, from a file of reference values.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_REFERENCE_CONTACT_H
 #define WT_TESTS_REFERENCE_CONTACT_H
 
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/indentation.h"
 
@@ -13,7 +13,7 @@
 
 static char text[1 << 16];
 
-/* The number behind the next "key": before `end`; NaN if there is none. */
+/* Number after the next "key": before `end`; NaN if there is none. */
 static inline double number(const char **at, const char *key, const char *end)
 {
     char quoted[64];
@@ -46,8 +46,8 @@ static inline wt_tip read_tip(const char *at, const char *end)
     return tip;
 }
 
-/* Checks each case, which ends where the next begins; how many checks there were. Skips the test
- * where there is no file. */
+/* Checks each case, up to the start of the next one; returns the number of checks. Skips the test
+ * without the file. */
 static inline int check_reference(const char *path, int (*check)(const char *at, const char *next))
 {
     int n = 0;

@@ -1,8 +1,6 @@
-/* Numbers of surfaces that are made by a formula, from a program of its own: bins are number,
- * modes, arithmetic and geometric mean of q, mean of C and its standard deviation.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Numbers of synthetic surfaces from another program: bins are number, modes, arithmetic and
+ * geometric mean of q, mean of C and its standard deviation.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef TESTS_SURFACE_REFERENCE_H
 #define TESTS_SURFACE_REFERENCE_H
 

@@ -1,8 +1,6 @@
-/* Force curves with known truth: a lever of spring constant k driven into a sample of known modulus
- * and law, with baseline, noise of the force and the awkward things that instruments add.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Force curves with known truth: a cantilever of spring constant k on a sample with known modulus
+ * and law, with baseline, noise of the force and other instrument effects.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_TESTS_SYNTHETIC_CURVE_H
 #define WT_TESTS_SYNTHETIC_CURVE_H
 
@@ -17,12 +15,12 @@ typedef struct curve_truth {
     wt_tip tip;
     double modulus, poisson_ratio, spring_constant;
     size_t n;
-    double travel;        /* of the piezo [m] */
-    double contact_point; /* position at which the tip touches, from the start [m] */
-    double offset, tilt;  /* of the baseline at the start [N], [N/m] */
+    double travel;        /* travel of the piezo [m] */
+    double contact_point; /* contact position from the start [m] */
+    double offset, tilt;  /* baseline at the start [N], and its tilt [N/m] */
     double noise;         /* standard deviation [N] */
-    double correlation;   /* of neighbours: first-order autoregression */
-    double direction;     /* +1 or -1: of the height */
+    double correlation;   /* correlation of neighbours: first-order autoregression */
+    double direction;     /* sign of the height: +1 or -1 */
     double height0;       /* height at the start [m] */
 } curve_truth;
 
@@ -78,7 +76,7 @@ static inline void curve_make(const curve_truth *t, uint64_t seed, curve_data *d
     }
 }
 
-/* 20 MPa rubber under a 1 N/m lever with a pyramid: 53.6 nN at 70 nm. */
+/* 20 MPa rubber under a 1 N/m cantilever with a pyramid: 53.6 nN at 70 nm. */
 static inline curve_truth curve_standard(void)
 {
     curve_truth t = {.tip = {.sides = 4, .half_angle = 20 * M_PI / 180, .radius = 10e-9},

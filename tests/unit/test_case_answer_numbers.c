@@ -1,6 +1,6 @@
-/* Numbers in the sentences of an answer: unit, digits, errors, signs.
+/* Numbers in the sentences of a result: unit, digits, errors, signs.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "case/answer/format_number.h"
 #include "core/base/number.h"
@@ -64,8 +64,8 @@ static void test_errors(void **state)
     }
 }
 
-/* Two ends that three digits print alike are told apart, and others keep those. */
-static void test_ends(void **state)
+/* Two limits that print alike with three digits get more digits; others keep three. */
+static void test_limits_with_more_digits(void **state)
 {
     (void)state;
     assert_string_equal(format_range(0.56651, 0.84118, 3).text, "0.567 to 0.841");
@@ -74,7 +74,7 @@ static void test_ends(void **state)
     assert_string_equal(format_range(2, 2, 3).text, "2 to 2");
 }
 
-/* Further apart than the factor, to either side. */
+/* Differs by more than the factor, in either direction. */
 static void test_other_rubber(void **state)
 {
     (void)state;
@@ -117,8 +117,9 @@ static void test_rejected(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values), cmocka_unit_test(test_errors), cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_other_rubber), cmocka_unit_test(test_rejected)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_errors),
+                                       cmocka_unit_test(test_limits_with_more_digits),
+                                       cmocka_unit_test(test_other_rubber),
+                                       cmocka_unit_test(test_rejected)};
     return cmocka_run_group_tests_name("words of the answer", tests, NULL, NULL);
 }

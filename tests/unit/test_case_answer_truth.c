@@ -1,7 +1,7 @@
-/* The findings of a run on groups whose moduli are known: softer, stiffer, no difference shown, one
- * spot; and the thickness and friction that follow.
+/* Results of a run on groups with known moduli: softer, stiffer, inconclusive, one position.
+ * Thickness and friction follow from them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "weartrack/case.h"
 
@@ -11,12 +11,12 @@ enum { SPOTS = 3, RATES = 2 };
 
 #define BULK 3e6
 #define T_4 2.776445105197793 /* 97.5 % point of Student's t */
-#define BY_RATE 1.05          /* the ratio at the second rate over that at the first */
+#define BY_RATE 1.05          /* factor of the ratio at the second rate */
 
-static const double rate[RATES] = {1e-6, 2e-5};    /* of the piezo [m/s] */
-static const double with_rate[RATES] = {1.0, 1.2}; /* stiffer where it is faster */
+static const double rate[RATES] = {1e-6, 2e-5};    /* rate of the piezo [m/s] */
+static const double with_rate[RATES] = {1.0, 1.2}; /* stiffer at the faster rate */
 
-static int track_from; /* the first of the rates at which the track is indented */
+static int track_from; /* first of the rates at which the track is indented */
 
 static char folder[] = "/tmp/weartrack-answer-XXXXXX";
 static wt_result *result;
@@ -47,7 +47,7 @@ static wt_result *result;
     "<critical-energy>" energy "</critical-energy></layer>"                                        \
     "<compare><track-to-bulk/><by-rate/><indentation-to-dma/></compare>"
 
-/* One file for each spot and group: a curve for each rate. */
+/* Writes a file for each position and group, with a curve at each rate. */
 static void write_curves(double ratio, double scatter)
 {
     char path[256];
@@ -127,7 +127,7 @@ static double answered(size_t row, const char *column)
     return cell(wt_result_find(result, "answer"), row, column);
 }
 
-/* Returns the limit with these words, NULL if there is none. */
+/* Returns the limitation that contains the words, or NULL. */
 static const char *limit(const char *words)
 {
     const wt_table *limits = wt_result_find(result, "limits");
@@ -150,7 +150,7 @@ static void check_verdict(double ratio, double scatter, const char *verdict, con
     assert_near(answered(DIFFERS, "value"), ratio, 0.01);
     assert_near(answered(DIFFERS, "low"), ratio * exp(-reach), 0.02);
     assert_near(answered(DIFFERS, "high"), ratio * exp(reach), 0.02);
-    /* what would settle it stands where it is open */
+    /* an inconclusive result states how to decide it */
     assert_int_equal(answer(DIFFERS, "remedy")[0] != '\0', strcmp(verdict, "inconclusive") == 0);
     const wt_table *c = wt_result_find(result, "comparison"),
                    *groups = wt_result_find(result, "modulus_groups");
@@ -176,7 +176,7 @@ static void test_verdicts(void **state)
     check_verdict(1.05, 0.1, "inconclusive", "The ratio depends on the rate");
 }
 
-/* One spot does not allow an interval, and more spots are the remedy. */
+/* One position permits no interval; more positions are the remedy. */
 static void test_one_spot(void **state)
 {
     (void)state;
@@ -188,7 +188,7 @@ static void test_one_spot(void **state)
     assert_true(isnan(cell(groups, 0, "low")) && isnan(cell(groups, 1, "high")));
 }
 
-/* The ratio of one spot has no error: the interval of what is predicted with it excludes that. */
+/* The ratio of one position has no error, so the interval of the prediction excludes it. */
 static void test_one_spot_slides(void **state)
 {
     (void)state;
@@ -203,7 +203,7 @@ static double key(const char *table, const char *name)
     return key_estimate(wt_result_find(result, table), name).value;
 }
 
-/* Thickness and friction: the tables against one another. */
+/* Compares the tables of thickness and friction with one another. */
 static void test_sliding(void **state)
 {
     (void)state;
@@ -230,13 +230,12 @@ static void test_sliding(void **state)
     assert_string_equal(answer(THICKNESS, "verdict"), "predicted");
     assert_null(limit("The theory predicts no layer, but"));
     assert_null(limit("The indentation does not show this layer"));
-    /* the temperature of sliding is not stated */
+    /* the sliding temperature is not stated */
     assert_non_null(limit("No sliding temperature is stated"));
 }
 
-/* What does not fit together is said: a layer without a difference, a difference without a layer.
- */
-static void test_disagreement(void **state)
+/* Inconsistencies are reported: a layer without a difference, a difference without a layer. */
+static void test_inconsistencies(void **state)
 {
     (void)state;
     run(0.96, 0.1,
@@ -256,9 +255,9 @@ static void test_disagreement(void **state)
     }
 }
 
-/* ---- told alike ------------------------------------------------------------------------------ */
+/* ---- same numbers everywhere ----------------------------------------------------------------- */
 
-/* A number, its interval and its range over the choices of the model. */
+/* A number, its interval and its range over the model choices. */
 typedef struct told {
     double value, low, high, model_low, model_high;
 } told;
@@ -316,7 +315,7 @@ static told of_ratio(void)
                   (double)NAN, (double)NAN};
 }
 
-/* A row of the answer has the number without rounding. */
+/* A result row has the unrounded number. */
 static void check_answer(size_t row, told t)
 {
     assert_near(answered(row, "value"), t.value, 1e-12);
@@ -342,7 +341,7 @@ static double headline(const wt_table *headlines, const char *name, const char *
     return (double)NAN;
 }
 
-/* The row of `summary` has the same numbers without rounding. */
+/* The row of `summary` has the same unrounded numbers. */
 static void check_row(const wt_table *headlines, const char *name, told t)
 {
     assert_near(headline(headlines, name, ""), t.value, 1e-12);
@@ -356,8 +355,8 @@ static void check_row(const wt_table *headlines, const char *name, told t)
     assert_near(headline(headlines, name, "_model_high"), t.model_high, 1e-12);
 }
 
-/* The row of the table on the terminal has them without rounding. The interval of the ratio may be
- * that of the row only where it is known. */
+/* The row on the terminal has the unrounded numbers. The interval of the ratio may come from the
+ * row only where it is known. */
 static void check_printed(const char *name, told t)
 {
     wt_result_rows *rows = wt_result_rows_new(result, false);
@@ -385,7 +384,7 @@ static void check_printed(const char *name, told t)
     wt_result_rows_free(rows);
 }
 
-/* Returns the note of a row. The rows are those of the result. */
+/* Returns the note of a row of the result. */
 static bool printed_note_has(const char *name, const char *words)
 {
     wt_result_rows *rows = wt_result_rows_new(result, false);
@@ -398,7 +397,7 @@ static bool printed_note_has(const char *name, const char *words)
     return has;
 }
 
-/* Modulus of bulk or track, with one interval in all tables. */
+/* The modulus of bulk or track has the same interval in all tables. */
 static told of_group(const char *group)
 {
     const wt_table *groups = wt_result_find(result, "modulus_groups"),
@@ -419,7 +418,7 @@ static told of_group(const char *group)
     return (told){0};
 }
 
-/* Softer, stiffer; less, more, or open: as the numbers have it. */
+/* The verdict follows from the numbers: softer, stiffer, less, more or inconclusive. */
 static void check_signs(void)
 {
     const told ratio = of_ratio();
@@ -435,7 +434,7 @@ static void check_signs(void)
     assert_int_equal(strstr(friction, "raises") != NULL, more);
 }
 
-/* Answer, rows on the terminal and main values have the numbers of the tables. */
+/* Results, terminal rows and main values have the numbers of the tables. */
 static void check_told_alike(void)
 {
     static const char change[] = "relative_change_at_reference";
@@ -483,12 +482,12 @@ static void run_bundled(void)
     wt_case_free(c);
 }
 
-static void test_told_alike(void **state)
+static void test_same_numbers_everywhere(void **state)
 {
     (void)state;
     run_bundled();
     check_told_alike();
-    /* a choice of the model turns the sign round, which the verdict does not hide */
+    /* a model choice reverses the sign, which the verdict states */
     assert_string_equal(answer(FRICTION, "verdict"), "inconclusive");
     static const double ratios[] = {0.6, 1.5};
     for (int i = 0; i < 2; i++) {
@@ -498,7 +497,8 @@ static void test_told_alike(void **state)
     }
 }
 
-/* Warnings come before notes, no limit stands twice, and what was not asked has its reason. */
+/* Warnings come before notes, no limitation occurs twice, and a stage that was not requested states
+ * the reason. */
 static void test_limits(void **state)
 {
     (void)state;
@@ -520,7 +520,7 @@ static void test_limits(void **state)
     }
 }
 
-/* The bulk at both rates, the track at the fast one: the ratio is that of the fast one. */
+/* Bulk at both rates, track at the fast one: the ratio is that of the fast rate. */
 static void test_common_rates(void **state)
 {
     (void)state;
@@ -533,8 +533,8 @@ static void test_common_rates(void **state)
                 0.8 * sqrt(BY_RATE) * sqrt(1.2), 0.01);
 }
 
-/* Elastic curves beside a DMA with loss at their rates: how many are not of its spectrum stands in
- * the limits and in the log. */
+/* Elastic curves with a viscoelastic DMA at their rates: the limitations and the log state how many
+ * do not fit its spectrum. */
 static void test_other_spectrum(void **state)
 {
     (void)state;
@@ -564,7 +564,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_verdicts),        cmocka_unit_test(test_one_spot),
         cmocka_unit_test(test_one_spot_slides), cmocka_unit_test(test_sliding),
-        cmocka_unit_test(test_disagreement),    cmocka_unit_test(test_told_alike),
+        cmocka_unit_test(test_inconsistencies), cmocka_unit_test(test_same_numbers_everywhere),
         cmocka_unit_test(test_limits),          cmocka_unit_test(test_common_rates),
         cmocka_unit_test(test_other_spectrum),
     };

@@ -1,15 +1,15 @@
-/* The bundled case gives back the truth behind its data, inside the intervals it states.
+/* The stated intervals of the bundled case contain the true values.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 
 #include "case/case.h"
-#include "cells.h"
+#include "table_cells.h"
 #include "weartrack/case.h"
 
 #include <string.h>
 
 #define CASE WT_SOURCE_DIR "/fixtures/case"
 
-/* Two-sided 99.7 % of a normal distribution: a test that fails by chance would be no test. */
+/* Two-sided 99.7 % of a normal distribution, so that chance failures are rare. */
 #define SIGMAS 3.0
 
 static wt_result *result;
@@ -61,7 +61,7 @@ static wt_estimate estimate(const char *table, const char *key)
     return e;
 }
 
-/* The truth lies within the stated error, and the stated error is worth stating. */
+/* The truth lies within the stated error, and the error is small enough to be useful. */
 static void check(const char *table, const char *key, const char *name, double most)
 {
     wt_estimate e = estimate(table, key);
@@ -92,7 +92,7 @@ static void test_ratio(void **state)
     assert_true(number_cell(c, 0, "ratio_high") > expected);
     assert_true(number_cell(c, 0, "ratio_high") < 1);
     assert_true(number_cell(c, 0, "welch_p") < 0.01);
-    assert_int_equal(wt_table_n_rows(c), 4); /* all, and three rates */
+    assert_int_equal(wt_table_n_rows(c), 4); /* all rates, and three single rates */
     for (size_t i = 1; i < 4; i++) {
         assert_true(number_cell(c, i, "ratio_low") < expected);
         assert_true(number_cell(c, i, "ratio_high") > expected);
@@ -109,7 +109,7 @@ static void test_material(void **state)
     assert_int_equal(strncmp(superposition, "holds", 5), 0);
 }
 
-/* The curves are of the spectrum of the DMA, and its factor is told by each. */
+/* The curves have the spectrum of the DMA, and each determines its factor. */
 static void test_spectrum(void **state)
 {
     (void)state;
@@ -120,7 +120,7 @@ static void test_spectrum(void **state)
         assert_int_equal(wt_table_n_rows(t), 48);
         for (size_t i = 0; i < 48; i++) {
             assert_string_equal(text_cell(t, i, "reason"), "accepted");
-            /* spots scatter by 4 %, curves by 3 % */
+            /* scatter of 4 % between positions, 3 % between curves */
             assert_near(number_cell(t, i, "spectrum_factor"), g == 0 ? 1 : truth("modulus_ratio"),
                         0.2);
         }
@@ -152,7 +152,7 @@ static void test_friction(void **state)
     check("friction", "area_ratio_at_reference", "area_ratio", 0.2);
     check("friction", "friction_at_reference", "friction", 0.2);
     check("friction", "friction_with_layer_at_reference", "friction_with_layer", 0.3);
-    /* the numerical error of a sum is that of its parts, never none */
+    /* the numerical error of a sum is that of its terms, and never zero */
     static const char *const keys[] = {"friction_at_reference", "friction_with_layer_at_reference",
                                        "friction_change_at_reference"};
     for (size_t i = 0; i < 3; i++) {
@@ -165,14 +165,14 @@ static void test_thickness(void **state)
 {
     (void)state;
     check("layer", "balance_thickness", "thickness", 0.5);
-    /* wear rate and critical energy, 10 % each, through the sensitivity; other errors are small */
+    /* wear rate and critical energy, 10 % each, by their sensitivity; other errors are small */
     wt_estimate thickness = estimate("layer", "balance_thickness");
     double relative = thickness.standard_error / thickness.value;
     double sensitivity = -estimate("layer", "wear_sensitivity").value;
     assert_near(relative, sensitivity * sqrt(2) * 0.1, 0.25);
 }
 
-/* The maps give back the law that they were made by. */
+/* The maps reproduce the power law of the road. */
 static void test_surface(void **state)
 {
     (void)state;
@@ -194,14 +194,14 @@ static void test_surface(void **state)
     }
     assert_true(n > 20 && (double)held > 0.85 * (double)n);
     check("power_spectrum", "hurst", "road_hurst", 0.02);
-    /* what the surface is not known by is in the error of friction: nothing is extrapolated */
+    /* the error of the surface is part of the error of friction; nothing is extrapolated */
     const char *includes =
         wt_table_key(wt_result_find(result, "friction"), "standard_error_includes");
     assert_non_null(strstr(includes, "scatter of the spectrum"));
     assert_true(number_cell(spectrum, wt_table_n_rows(spectrum) - 1, "wavenumber") >= 2e6);
 }
 
-/* Every question has an answer with a number. */
+/* Every question has a result with a number. */
 static void test_answer(void **state)
 {
     (void)state;
@@ -217,7 +217,7 @@ static void test_answer(void **state)
     }
 }
 
-/* The case with one thing changed; says whether an answer holds the words. */
+/* Runs the case with one change and returns true if a result contains the words. */
 static bool answer_holds(double wear, size_t spots, double track_temperature, const char *words)
 {
     wt_case *c = NULL;
@@ -241,7 +241,7 @@ static bool answer_holds(double wear, size_t spots, double track_temperature, co
     return found;
 }
 
-/* No layer is not a layer of no thickness, and one spot does not speak for all. */
+/* A missing layer differs from a layer of zero thickness, and one position is not enough. */
 static void test_answer_of_other_cases(void **state)
 {
     (void)state;

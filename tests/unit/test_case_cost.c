@@ -1,8 +1,8 @@
-/* What the stages cost: one row for each, with items and nodes that are those of the work, the same
- * for any number of threads; and without being asked nothing is timed or counted.
+/* Cost of the stages: a row for each, whose items and nodes are the same for any number of threads.
+ * Without a request nothing is timed or counted.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "sliding.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
 
 #include "case/plan/plan.h"
 #include "core/base/array.h"
@@ -83,7 +83,7 @@ static double size_of(const char *name)
     return (double)info.st_size;
 }
 
-/* A stage that did not run has nothing but its reason. */
+/* A stage that did not run only has its reason. */
 static void check_stages(const wt_table *cost)
 {
     flow_plan plan;
@@ -118,7 +118,7 @@ static void check_work(const wt_table *cost)
         assert_near(of(cost, groups[g], "items"), CURVES, 0);
         assert_near(of(cost, groups[g], "files"), 4, 0);
         assert_near(of(cost, groups[g], "bytes"), bytes, 0);
-        assert_true(of(cost, groups[g], "nodes") >= CURVES); /* each curve was fitted */
+        assert_true(of(cost, groups[g], "nodes") >= CURVES); /* every curve was fitted */
         const double error = of(cost, groups[g], "standard_error");
         assert_true(error > 1e-4 && error < 0.1);
     }
@@ -127,13 +127,13 @@ static void check_work(const wt_table *cost)
     assert_true(of(cost, "master_curve", "nodes") > 10);
     assert_near(of(cost, "friction", "items"), VELOCITIES * 2 * (1 + REPLICATES), 0);
     assert_near(of(cost, "layer", "items"), TIMES * (1 + REPLICATES), 0);
-    /* no rule has fewer nodes than 4, and no plan fewer panels than 2 */
+    /* a rule has at least 4 nodes, and a plan at least 2 subintervals */
     assert_true(of(cost, "friction", "nodes") > 4.0 * 2 * VELOCITIES * 2 * (1 + REPLICATES));
     assert_true(of(cost, "layer", "nodes") > 4.0 * 2 * (1 + REPLICATES));
 }
 
-/* What was stated stands in the tables of the stages, too. The tolerance is that of the integrals:
- * a thickness may rest on them more than in proportion. */
+/* The stated errors are in the tables of the stages, too. The tolerance is that of the integrals; a
+ * thickness may depend on them more than proportionally. */
 static void check_errors(const wt_result *result, const wt_table *cost)
 {
     wt_estimate e;
@@ -172,7 +172,7 @@ static void check_errors(const wt_result *result, const wt_table *cost)
     assert_near(of(cost, "layer", "error_estimated"), e.numerical_error / e.value, 0);
 }
 
-/* No tight bounds: a busy machine is no error. */
+/* The bounds are wide, because the machine may be busy. */
 static void check_times(const wt_table *cost, unsigned threads)
 {
     wt_estimate total;
@@ -205,7 +205,7 @@ static void test_case(void **state)
     wt_result_free(result);
 }
 
-/* All but the times, which without provenance are not there. */
+/* All tables except the times, which are absent without provenance. */
 static void test_any_number_of_threads(void **state)
 {
     (void)state;
@@ -233,7 +233,7 @@ static void test_any_number_of_threads(void **state)
 
 /* ---- materials ------------------------------------------------------------------------------- */
 
-static size_t fits; /* of the angular integrals of a material */
+static size_t fits; /* fits of the angular integrals of a material */
 
 wt_status __real_angular_subintervals_new(const wt_material *material, const gauss_rule *rule,
                                           double low, double high, double goal,
@@ -249,7 +249,7 @@ wt_status __wrap_angular_subintervals_new(const wt_material *material, const gau
     return __real_angular_subintervals_new(material, rule, low, high, goal, panels, err);
 }
 
-/* Layer, friction and friction with the layer of a material without a closed form. */
+/* Layer, friction and friction with the layer, for a material without a closed form. */
 static wt_result *run_zener(const char *temperature, unsigned threads, const char *asks)
 {
     char path[] = "/tmp/weartrack-cost-XXXXXX";
@@ -282,10 +282,9 @@ static wt_result *run_zener(const char *temperature, unsigned threads, const cha
     return result;
 }
 
-/* Three contacts of the values themselves have one material; of the replicates each has one, or all
- * have the same where nothing of it is drawn. What ifs have that of the values, which
- * reaches far enough here; those of another Poisson ratio, three contacts, are of another material.
- */
+/* Three contacts of the values share one material. The replicates have one each, or one together if
+ * no material is drawn. Model variants use that of the values, whose range suffices here; those of
+ * another Poisson ratio, three contacts, have another material. */
 static void test_materials_are_shared(void **state)
 {
     (void)state;
@@ -300,8 +299,8 @@ static void test_materials_are_shared(void **state)
     wt_result_free(result);
 }
 
-/* And what is shared is what a job alone finds. */
-static void test_shared_or_not(void **state)
+/* A shared material gives the same numbers as that of a single job. */
+static void test_shared_material_changes_nothing(void **state)
 {
     (void)state;
     const wt_zener zener = {.e0 = 5e6, .eg = 2e9, .tau = 1e-6, .alpha = 0.4};
@@ -357,9 +356,9 @@ static void log_storage(spectrum *s, const double *value, double *log_e, size_t 
     }
 }
 
-/* The fit of the case gone on with, noise and smoothness too, is not farther off than it says. The
- * vertical shifts are held, so that there is one fit. */
-static void test_further_steps(void **state)
+/* The continued fit of the case, noise and smoothness included, is within its stated error. The
+ * vertical shifts are fixed, so that there is one fit. */
+static void test_continued_fit(void **state)
 {
     (void)state;
     enum { PLACES = 20, MORE = 40 };
@@ -412,7 +411,7 @@ static wt_table *make_friction(wt_cost *cost)
     return tables.friction;
 }
 
-/* The nodes are those that the kernel tells of its last rules, and those of the rules before. */
+/* The nodes are those of the last rules of the kernel and of the rules before. */
 static void test_nodes(void **state)
 {
     (void)state;
@@ -423,7 +422,7 @@ static void test_nodes(void **state)
     wt_cost_begin_stage(cost, "nothing");
     assert_int_equal(wt_cost_table(cost, &table, NULL), WT_OK);
     assert_int_equal(wt_table_n_rows(table), 2);
-    assert_near(of(table, "friction", "items"), 4, 0); /* and the one of the answer */
+    assert_near(of(table, "friction", "items"), 4, 0); /* and that of the result */
     assert_near(of(table, "nothing", "nodes"), 0, 0);
     assert_true(isnan(of(table, "friction", "wall_time")));
 
@@ -451,7 +450,7 @@ static void test_nodes(void **state)
     wt_table_free(table);
 }
 
-static void test_not_asked(void **state)
+static void test_nothing_timed_without_request(void **state)
 {
     (void)state;
     wt_cost *cost = wt_cost_new(true, 1);
@@ -474,10 +473,10 @@ int main(void)
         cmocka_unit_test(test_case),
         cmocka_unit_test(test_any_number_of_threads),
         cmocka_unit_test(test_materials_are_shared),
-        cmocka_unit_test(test_shared_or_not),
-        cmocka_unit_test(test_further_steps),
+        cmocka_unit_test(test_shared_material_changes_nothing),
+        cmocka_unit_test(test_continued_fit),
         cmocka_unit_test(test_nodes),
-        cmocka_unit_test(test_not_asked),
+        cmocka_unit_test(test_nothing_timed_without_request),
     };
     wt_error err = WT_ERROR_INIT;
     if (wt_case_read(CASE "/case.xml", &the_case, &err) != WT_OK) {

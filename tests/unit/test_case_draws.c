@@ -1,14 +1,14 @@
-/* The replicates behind the standard errors: what is drawn for one purpose has nothing to do with
- * what is drawn for another, and the seed decides all of it.
+/* Replicates of the standard errors: draws for different purposes are independent, and the seed
+ * determines all of them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "sliding.h"
-#include "truth.h"
+#include "sliding_fixture.h"
+#include "truth_fixture.h"
 
 #include "weartrack/layer.h"
 
 enum { REPLICATES = 150, MAX_KNOBS = 8 };
 
-/* Something that has a stated error. */
+/* A quantity with a stated error. */
 typedef struct knob {
     const char *name;
     double *value, *error;
@@ -56,9 +56,9 @@ static wt_estimate thickness(const char *key)
     return e;
 }
 
-/* Each knob is given the error that moves the logarithm of the result by `SHARE`; all together then
- * move it by the root of their number; if two had the same draws, by 2/n more or less in the
- * square: four times the scatter of the replicates. */
+/* Each quantity has the error that moves the logarithm of the result by `SHARE`, so that all
+ * together move it by the root of their number. Shared draws of two quantities would change the
+ * square by 2/n, which is four times the scatter of the replicates. */
 #define SHARE 0.005
 
 static void check_independent(const knob *knobs, int n, wt_estimate (*result)(const char *),
@@ -138,8 +138,8 @@ static void test_calibration_draws(void **state)
     check_independent(knobs, 3, thickness, "critical_energy");
 }
 
-/* Stating one more error changes none of the other draws, and takes one slope more out of what they
- * scatter; the seed changes all. */
+/* One more stated error changes no other draw, and explains one more slope of their scatter; the
+ * seed changes all of them. */
 static void test_seed(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* Reading case files: what they say, and what is said when they are wrong.
+/* Reading of case files: their contents, and the messages for errors.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "status_name.h"
 
 #include "case/case.h"
@@ -106,7 +106,7 @@ static void test_full(void **state)
     HEAD "<indentation><tip>sphere:radius=5um</tip>" inner                                         \
          "<bulk><files>bulk/*</files></bulk></indentation></case>"
 
-/* Each wrong text with the status, a part of the place and a part of the whole error. */
+/* Each faulty text with the status, a part of the location and a part of the error. */
 static void test_wrong(void **state)
 {
     (void)state;
@@ -176,8 +176,8 @@ static void test_wrong(void **state)
     }
 }
 
-/* The embedded schema is the file that is installed. */
-/* Elements with the names of earlier versions pass the schema. */
+/* The embedded schema equals the installed file. */
+/* Element names of earlier versions pass the schema. */
 static void test_former_elements(void **state)
 {
     (void)state;
@@ -201,7 +201,7 @@ static void test_former_elements(void **state)
     }
 }
 
-/* A list of tables is read to its end. */
+/* The whole list of tables is read. */
 static void test_long_request(void **state)
 {
     (void)state;
@@ -232,7 +232,7 @@ static void test_schema(void **state)
     wt_input_close(input);
 }
 
-/* Reads a whole file; to be freed. */
+/* Reads a whole file; free the result. */
 static char *slurp(const char *name)
 {
     wt_input *input = NULL;
@@ -246,7 +246,7 @@ static char *slurp(const char *name)
     return copy;
 }
 
-/* The man page without the backslashes of its hyphens. */
+/* The man page without the backslashes before hyphens. */
 static char *man_page(void)
 {
     char *page = slurp(WT_SOURCE_DIR "/man/weartrack-case.5"), *to = page;
@@ -274,7 +274,7 @@ static void test_man_page_is_complete(void **state)
     free(page);
 }
 
-/* Its example is a case. */
+/* The example of the page is a valid case. */
 static void test_man_page_example(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
-/* Each function of the fit room that asks GSL for what may fail is the first that a process calls:
- * the handler of GSL, which ends the process, must be off by then.
+/* Each function that calls a GSL function which may fail is the first call of a process. The error
+ * handler of GSL, which would abort the process, must be off by then.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "synthetic_curve.h"
 #include "weartrack/indentation.h"
@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Whether it comes back with true, in a process of its own. */
+/* Returns true if the call returns true in its own process. */
 static bool comes_back(bool (*call)(void))
 {
     int ended = -1;
@@ -31,7 +31,7 @@ static wt_contact_table *table_of(void)
 
 enum { SAMPLES = 600 };
 
-/* A dwell at a constant height behind a ramp, of an elastic sample. */
+/* A dwell at constant height after a ramp, of an elastic sample. */
 static bool fit_dwell(double noise, double spring_constant, wt_dwell *dwell)
 {
     static double time[2 * SAMPLES], position[2 * SAMPLES], force[2 * SAMPLES];
@@ -55,7 +55,7 @@ static bool fit_dwell(double noise, double spring_constant, wt_dwell *dwell)
     return done;
 }
 
-/* Of a lever so soft that the sample is a wall: no normal equations are to be solved. */
+/* With a soft cantilever the sample is rigid: there are no normal equations to solve. */
 static bool dwell_on_a_wall(void)
 {
     wt_dwell dwell;
@@ -64,7 +64,7 @@ static bool dwell_on_a_wall(void)
 
 enum { CURVES = 40 };
 
-/* Residuals that are all the same have no scatter. */
+/* Equal residuals have no scatter. */
 static bool pool_of_one(void)
 {
     static double misfit[CURVES][WT_MISFIT_TERMS];
@@ -89,7 +89,7 @@ static bool depth_of_one(void)
     return done && isnan(depth.change_p);
 }
 
-static void nothing_ends_the_process(void **state)
+static void gsl_errors_do_not_abort(void **state)
 {
     (void)state;
     assert_true(comes_back(dwell_on_a_wall));
@@ -109,7 +109,7 @@ static void dwell_without_noise(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_ends_the_process),
+        cmocka_unit_test(gsl_errors_do_not_abort),
         cmocka_unit_test(dwell_without_noise),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

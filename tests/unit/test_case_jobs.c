@@ -1,8 +1,9 @@
-/* The jobs one by one: many curves, spots, groups, the rubber at a temperature, surfaces, the
- * layer. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The jobs one by one: many curves, positions, groups, the rubber at a temperature, surfaces, the
+ * layer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 
 #include "all_formats.h"
-#include "cells.h"
+#include "table_cells.h"
 
 #include "core/base/array.h"
 #include "job/random_draws.h"
@@ -44,7 +45,7 @@ static wt_file_set files(const char *const *patterns, size_t n, const char *spot
 
 /* ---- indentation ----------------------------------------------------------------------------- */
 
-/* A law that is no series has no spectrum: the curves are fitted as without a material. */
+/* A law without a series has no spectrum: the curves are fitted as without a material. */
 static void test_material_without_a_spectrum(void **state)
 {
     (void)state;
@@ -75,7 +76,7 @@ static void test_material_without_a_spectrum(void **state)
     wt_indent_tables_clear(&given);
 }
 
-/* A bad file is recorded and the others are fitted; a file named twice counts once. */
+/* An invalid file is recorded and the others are fitted; a file named twice counts once. */
 static void test_bad_files(void **state)
 {
     (void)state;
@@ -87,7 +88,7 @@ static void test_bad_files(void **state)
     wt_indent_tables tables = {0};
     wt_error err = WT_ERROR_INIT;
 
-    /* without a list of failures the first one ends the job and is named */
+    /* without a list of failures the first failure ends the job and names the file */
     wt_status status = wt_indent_group(&job, &common, &tables, &err);
     assert_int_equal(status, WT_E_NOT_FOUND);
     assert_null(tables.indentation);
@@ -107,7 +108,8 @@ static void test_bad_files(void **state)
     assert_string_equal(wt_table_text(common.failures, 1, 0), "dma.txt");
     assert_int_equal(wt_table_n_rows(tables.indentation), 24);
     assert_int_equal(tables.n_accepted, 24);
-    assert_int_equal(tables.n_failed, 1); /* read and failed; the other one is not there */
+    /* one file was read and failed, the other one does not exist */
+    assert_int_equal(tables.n_failed, 1);
     static const char *const said[] = {"taken once", "24 of 24 accepted curves lose work"};
     assert_int_equal(wt_log_count(common.log), 2);
     for (size_t i = 0; i < 2; i++)
@@ -167,8 +169,8 @@ static void test_threads_and_rates(void **state)
     wt_table_free(without);
 }
 
-/* More curves than are held at once, each stiffer than the one before: every one has its row, in
- * the order of the file, whatever thread it was fitted on. */
+/* More curves than the job holds at once, each stiffer than the previous one. Every curve has its
+ * row in file order, for any number of threads. */
 static void test_many_curves(void **state)
 {
     (void)state;
@@ -240,7 +242,7 @@ static void test_spots(void **state)
     wt_group_data none = {0};
     assert_int_equal(wt_group_from_table(NULL, false, &none, NULL), WT_E_ARG);
     const wt_file_set single = files(one, 1, NULL);
-    check_spots(&single, 1, "file", 1); /* a map is one place, unless its places are to count */
+    check_spots(&single, 1, "file", 1); /* a map is one position, unless its points are to count */
     wt_table *map = fit(&single, 1, 1, false);
     wt_group_data places = {0};
     assert_int_equal(wt_group_from_table(map, true, &places, NULL), WT_OK);
@@ -271,13 +273,13 @@ static void test_one_spot(void **state)
     assert_non_null(strstr(wt_table_key(tables.comparison, "settled_by"), "spots in each group"));
     assert_true(number_cell(tables.comparison, 0, "ratio") < 1);
     assert_true(isnan(number_cell(tables.comparison, 0, "ratio_high")));
-    /* the groups are named by their place, whatever the tables are called */
+    /* the place names the groups, not the tables */
     assert_string_equal(text_cell(tables.modulus_groups, 1, "group"), "track");
     assert_int_equal(wt_table_n_rows(tables.modulus_rate), 6);
     assert_null(tables.dma_comparison);
     wt_tables_clear(&tables, sizeof tables);
 
-    /* the tables as another program reads them from the stream give the same comparison */
+    /* the tables as read from a stream by another program give the same comparison */
     FILE *file = tmpfile();
     wt_table *again = NULL;
     wt_estimate direct, read_back;
@@ -296,7 +298,7 @@ static void test_one_spot(void **state)
     wt_tables_clear(&tables, sizeof tables);
     wt_table_free(again);
 
-    /* bulk alone: groups and rates, no comparison */
+    /* bulk only: groups and rates, no comparison */
     job.bulk = x;
     job.track = NULL;
     assert_int_equal(wt_compare_groups(&job, &common, &tables, NULL), WT_OK);
@@ -325,7 +327,7 @@ static wt_rubber measured_rubber(wt_master_tables *tables)
     return rubber;
 }
 
-/* The vertical shift is none at the reference temperature, also where that lies outside the
+/* There is no vertical shift at the reference temperature, also if it lies outside the
  * isotherms. */
 static void test_rubber_at_reference(void **state)
 {
@@ -358,8 +360,8 @@ static void test_rubber_at_reference(void **state)
     }
 }
 
-/* At another temperature the material is what was measured there: the moduli of the isotherm of
- * 60 degC in the file, E = 3 G, come back although friction never sees that isotherm as such. */
+/* The material at another temperature is the one measured there: the moduli of the 60 degC
+ * isotherm, with E = 3 G, although friction does not use that isotherm directly. */
 static void test_rubber_at(void **state)
 {
     (void)state;
@@ -404,7 +406,7 @@ static void test_rubber_at(void **state)
     wt_material_free(again);
     wt_material_free(material);
 
-    /* outside the isotherms it says so; below the pole there is nothing */
+    /* outside the isotherms there is a warning; below the pole there is no law */
     assert_int_equal(
         wt_rubber_material(&rubber, 383.15, 1, WT_NO_REPLICATE, &material, statement, NULL), WT_OK);
     assert_non_null(strstr(statement, "outside the isotherms"));
@@ -413,7 +415,7 @@ static void test_rubber_at(void **state)
     assert_int_equal(wt_rubber_material(&rubber, 170, 1, WT_NO_REPLICATE, &material, NULL, NULL),
                      WT_E_RANGE);
 
-    /* replicates differ, and repeat */
+    /* replicates differ, and are reproducible */
     double e[3], loss;
     const size_t index[3] = {0, 1, 0};
     for (int i = 0; i < 3; i++) {
@@ -425,7 +427,7 @@ static void test_rubber_at(void **state)
     assert_near(e[2], e[0], 0);
     assert_true(fabs(e[1] / e[0] - 1) > 1e-6 && fabs(e[1] / e[0] - 1) < 0.1);
 
-    /* without a law only the reference is known */
+    /* without a law only the reference temperature is possible */
     rubber.law.kind = WT_LAW_NONE;
     assert_int_equal(wt_rubber_material(&rubber, 293.65, 1, WT_NO_REPLICATE, &material, NULL, NULL),
                      WT_OK);
@@ -472,8 +474,9 @@ static void test_surface_text(void **state)
     }
 }
 
-/* A self-affine law sampled at a few points and cut between them is that law on the cut range. */
-static void test_surface_cut(void **state)
+/* A self-affine law that is sampled at a few points and truncated between them equals the truncated
+ * law. */
+static void test_surface_truncated(void **state)
 {
     (void)state;
     double q[8], c[8], slope[2];
@@ -507,7 +510,7 @@ static void test_surface_cut(void **state)
 
 /* ---- layer ----------------------------------------------------------------------------------- */
 
-/* The critical energy that an observed thickness gives is the one that gives that thickness. */
+/* The critical energy from an observed thickness reproduces that thickness. */
 static void test_calibration(void **state)
 {
     (void)state;
@@ -553,7 +556,7 @@ static void test_calibration(void **state)
 
     job.critical_energy.value = given;
     job.observed_thickness.value = (double)NAN;
-    job.duty = 0.02; /* part-time contact slows the clock and leaves the balance */
+    job.duty = 0.02; /* a duty cycle slows the growth and does not change the steady state */
     assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &common, &tables, NULL), WT_OK);
     assert_near(tables.thickness.value, 2.385e-6, 1e-8);
     wt_table_free(tables.layer);
@@ -571,8 +574,8 @@ static void test_calibration(void **state)
 
 /* ---- draws ----------------------------------------------------------------------------------- */
 
-/* The answer says what wear does to the thickness, and when the layer is there: both against the
- * layer computed anew. */
+/* The result states the effect of wear on the thickness and the time of the layer. Both agree with
+ * a layer computed again. */
 static void test_layer_numbers(void **state)
 {
     (void)state;
@@ -609,7 +612,7 @@ static void test_layer_numbers(void **state)
     job.n_time = 1;
     assert_int_equal(wt_layer_thickness_compute(&sliding, &job, &common, &other, NULL), WT_OK);
     assert_near(number_cell(other.layer, 0, "thickness"), 0.9 * tables.thickness.value, 1e-9);
-    /* the times at which the thickness is told do not matter */
+    /* the output times have no effect */
     assert_true(wt_table_estimate(other.layer, "time_to_90_percent", &again));
     assert_near(again.value, settled.value, 0);
     assert_true(settled.numerical_error > 0 && settled.numerical_error < 1e-6 * settled.value);
@@ -634,7 +637,8 @@ static void test_draws(void **state)
     assert_near_abs(product / N, 0, 4 / sqrt(N));
     assert_near_abs(flow_standard_deviation(x, N, 1), 1, 4 / sqrt(2.0 * N));
     assert_near(flow_draw_normal(7, WT_NO_REPLICATE, FLOW_DRAW_WEAR), 0, 0);
-    assert_true(fabs(flow_draw_normal(8, 0, FLOW_DRAW_WEAR) - x[0]) > 0); /* the seed counts */
+    /* the seed has an effect */
+    assert_true(fabs(flow_draw_normal(8, 0, FLOW_DRAW_WEAR) - x[0]) > 0);
     const double odd[] = {1, (double)NAN, 3, (double)NAN};
     assert_near(flow_standard_deviation(odd, 4, 1), sqrt(2), 1e-15);
     assert_near(flow_standard_deviation(odd, 2, 1), (double)NAN, 0);
@@ -653,7 +657,7 @@ int main(void)
         cmocka_unit_test(test_rubber_at),
         cmocka_unit_test(test_rubber_at_reference),
         cmocka_unit_test(test_surface_text),
-        cmocka_unit_test(test_surface_cut),
+        cmocka_unit_test(test_surface_truncated),
         cmocka_unit_test(test_calibration),
         cmocka_unit_test(test_layer_numbers),
         cmocka_unit_test(test_draws),

@@ -1,10 +1,9 @@
-/* What nothing asks for costs nothing: for every table and every figure that a case can ask for,
- * which files are opened and how many of their bytes are read, which channels are decoded, which
- * stages run, and how often the inner work is done. The linker lays the counters around the
- * functions (see CMakeLists.txt), so the library has none.
+/* Parts of a case that are not requested cost nothing. For every table and figure the test counts
+ * opened files, read bytes, decoded channels, stages and inner computations. The linker puts the
+ * counters around the functions (see CMakeLists.txt), so the library has none.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
 #include "core/system/temporary.h"
+#include "table_cells.h"
 
 #include "case/plan/plan.h"
 #include "core/math/root.h"
@@ -31,15 +30,15 @@ enum { MOST_FILES = 64 };
 
 typedef struct seen_file {
     char path[512];
-    size_t opened, bytes; /* opened: to be read; the search for copies looks at the ends only */
+    size_t opened, bytes; /* opened for reading; the search for copies only reads the ends */
     int descriptor;
-    bool is_read; /* through the descriptor */
+    bool is_read; /* reads through the descriptor */
 } seen_file;
 
 static seen_file seen[MOST_FILES];
 static size_t n_seen;
 
-/* Of the case; system files such as those of the libraries are no inputs. */
+/* Counts files of the case; system files are not inputs. */
 static seen_file *find_seen(const char *path)
 {
     for (size_t i = 0; i < n_seen; i++)
@@ -116,7 +115,7 @@ typedef enum work {
     AGAIN,    /* curves fitted, those drawn anew among them */
     SPECTRA,  /* relaxation spectra with their intervals */
     FEW,      /* reductions to few terms */
-    LAWS,     /* fractional Zener laws beside them */
+    LAWS,     /* fractional Zener laws of the same curve */
     PEAKS,    /* of temperature sweeps */
     BETWEEN,  /* moduli at a temperature */
     SOFTENED, /* laws of strain sweeps */
@@ -291,7 +290,7 @@ typedef struct ran {
     bool provenance;
 } ran;
 
-/* `case_file` with what it asks for put in place of its <report>. */
+/* Writes `case_file` with the requested elements in place of its <report>. */
 static wt_case *case_that_asks(const char *asks)
 {
     char path[] = CASE "asks-XXXXXX";
@@ -306,11 +305,11 @@ static wt_case *case_that_asks(const char *asks)
     end = strstr(text, "<report");
     assert_non_null(end);
     *end = '\0';
-    char *dma = strstr(text, "<files>dma.txt"); /* the moduli are told at a temperature */
+    char *dma = strstr(text, "<files>dma.txt"); /* the moduli are stated at a temperature */
     assert_non_null(dma);
     const int file = mkstemp(path);
     assert_true(file >= 0);
-    /* softening is told of strain sweeps, which the case has not */
+    /* softening needs strain sweeps, which the case does not have */
     const bool strain = strstr(asks, "payne") != NULL;
     dprintf(file, "%.*s<at>25degC</at>%s%s<report>%s</report></case>", (int)(dma - text), text,
             strain ? "<files>" WT_SOURCE_DIR "/fixtures/formats/tidy/strain-sweeps.csv</files>"
@@ -375,7 +374,7 @@ static void check_stages(const char *asks, const ran *r)
                      r->plan.chosen[i] ? "did not run" : "ran");
 }
 
-/* Each file of a kind once, and all of its bytes once; of another kind none. */
+/* Each file of a requested kind is read once and completely, others not at all. */
 static size_t check_kind(const char *asks, const char *pattern, bool needed, bool median)
 {
     char **paths = NULL;
@@ -434,26 +433,26 @@ static void check_some(const char *asks, work which, bool needed)
 
 enum { LINES_OF_MAPS = 2 * (192 + 224) };
 enum { CURVES_OF_A_FILE = 12, FILES_OF_A_GROUP = 4, DEPTHS_SHOWN = 121, TIMES_SHOWN = 61 };
-enum { ISOTHERMS_LEFT_OUT = 12 }; /* one by one, each with a fit */
+enum { ISOTHERMS_LEFT_OUT = 12 }; /* one by one, with a fit each */
 
 static void check_curves(const char *asks, const ran *r)
 {
-    /* approach and retract with height and deflection; the time is not a channel here */
+    /* approach and retract with height and deflection; time is no channel here */
     const size_t channels = 4, fitted = CURVES_OF_A_FILE * FILES_OF_A_GROUP;
     const size_t groups = (size_t)runs(r, FLOW_INDENTATION_BULK) + runs(r, FLOW_INDENTATION_TRACK);
     const bool again = shown(r, FLOW_CURVE_BULK) || shown(r, FLOW_CURVE_TRACK);
-    /* each line of a height map is decoded as a channel is */
+    /* each line of a height map is decoded like a channel */
     const size_t lines = runs(r, FLOW_SURFACE) ? LINES_OF_MAPS : (size_t)0;
     if (!again) {
         check(asks, CURVES, groups * fitted);
         check(asks, CHANNELS, channels * groups * fitted + lines);
-    } else { /* the representative one, and those before it in its file */
+    } else { /* the representative curve, and those before it in its file */
         check(asks, CURVES, groups * (fitted + 1));
         assert_true(count[CHANNELS] > channels * groups * fitted + lines &&
                     count[CHANNELS] <= channels * groups * (fitted + CURVES_OF_A_FILE) + lines);
     }
-    /* With the error of the cantilever stated, at most 8 of them, here every eighth, are fitted
-     * again with four sources moved down and up. */
+    /* With a stated error of the cantilever at most 8 curves, here every eighth, are fitted again
+     * with four error sources moved down and up. */
     const size_t moved = fitted / 8 * 4 * 2;
     const bool common = shown(r, FLOW_MODULUS_GROUPS) || shown(r, FLOW_MODULUS_BUDGET) ||
                         shown(r, FLOW_COMPARISON) || shown(r, FLOW_MODULUS_RATIO);
@@ -469,9 +468,9 @@ static void check_material(const char *asks, const ran *r)
                        runs(r, FLOW_COMPARISON) || runs(r, FLOW_DMA_COMPARISON) ||
                        (r->replicates > 0 && (runs(r, FLOW_LAYER) || runs(r, FLOW_FRICTION) ||
                                               runs(r, FLOW_ERROR_BUDGET)));
-    /* The choice of the vertical shift fits again with each of the three others. Error against run
-     * time fits again for many draws, and all isotherms as the reference and four shares of them,
-     * for the friction and for what the layer adds. */
+    /* The choice of the vertical shift needs a fit with each of the three others. Error against run
+     * time needs a fit for many draws, with all isotherms as reference and with four shares of
+     * them, for friction and for the effect of the layer. */
     const size_t precision = runs(r, FLOW_WORK_PRECISION), fewer = 2 * (1 + 4) * precision;
     check(asks, MASTERS,
           runs(r, FLOW_PRONY) + 3 * (size_t)runs(r, FLOW_WHAT_IF) + precision + fewer +
@@ -480,7 +479,7 @@ static void check_material(const char *asks, const ran *r)
     check(asks, DRAWS, 200 * (drawn + fewer) + 4000 * precision);
 }
 
-/* What the DMA tells beside the material of the other stages. */
+/* Results of the DMA that the other stages do not use. */
 static void check_dma(const char *asks, const ran *r)
 {
     check(asks, SPECTRA, shown(r, FLOW_RELAXATION_SPECTRUM));
@@ -496,16 +495,16 @@ static void check_sliding(const char *asks, const ran *r)
 {
     const size_t layer = runs(r, FLOW_LAYER), friction = runs(r, FLOW_FRICTION);
     const size_t area = shown(r, FLOW_CONTACT_AREA), density = shown(r, FLOW_ENERGY_DENSITY);
-    const bool settings = runs(r, FLOW_WHAT_IF); /* the budget needs it */
+    const bool settings = runs(r, FLOW_WHAT_IF); /* the error budget needs it */
     const bool timed = runs(r, FLOW_WORK_PRECISION);
     const size_t times = 1 + r->replicates;
     check(asks, DENSITIES, density > 0 ? DEPTHS_SHOWN : 0);
     check(asks, PROFILES, 3 * area);
     check_some(asks, SHARES, friction > 0 || settings);
-    /* the errors are those of the values themselves */
+    /* the errors are those of the values */
     if (!settings && !timed && count[REACHES] > layer * (1 + TIMES_SHOWN))
         fail_msg("%s: %s: %zu", asks, work_names[REACHES], (size_t)count[REACHES]);
-    check(asks, TIMES, 2 * times * layer); /* incubation, and to 90 % */
+    check(asks, TIMES, 2 * times * layer); /* incubation, and time to 90 % */
     check_some(asks, PASSES, layer + friction + area + density > 0 || settings || timed);
     if (settings || timed)
         return;
@@ -530,7 +529,7 @@ static void check_asked(const char *element, const char *name, size_t replicates
     release(&r);
 }
 
-/* What is in every result. */
+/* Tables of every result. */
 static bool is_of_run(const char *table)
 {
     flow_resource_set things;
@@ -570,7 +569,8 @@ static void test_figures(void **state)
     }
 }
 
-/* A digest of each file and of the case, and none without provenance; a copy is noticed without. */
+/* A digest of each file and of the case, none without provenance; copies are detected without a
+ * digest. */
 static void test_digests(void **state)
 {
     (void)state;
@@ -587,8 +587,8 @@ static void test_digests(void **state)
     release(&r);
 }
 
-/* In the settings of the budget and of what if: no list of velocities, no profile, no density, no
- * history beside that of the beginning, and the share once. */
+/* Error budget and variants use no velocities, profile, density or history except that of the
+ * start, and the share once. */
 static void test_settings(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
-/* A whole case from measured files of other people, where the shared reference data are present:
- * two JPK maps in the place of bulk and wear track, an isotherm set of a soft polymer.
+/* A whole case from measured files of other people, if the shared reference data exist: two JPK
+ * maps as bulk and wear track, isotherms of a soft polymer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 
-#include "cells.h"
+#include "table_cells.h"
 
 #include "core/base/array.h"
 #include "weartrack/case.h"
@@ -14,7 +14,7 @@
 #define JPK WT_SHARED_DIR "/data/afm/jpk/"
 #define SWEEPS WT_SHARED_DIR "/data/dma/trios/frequency_sweep_tts.txt"
 
-/* Without misfits: these cells stick and their baselines are bent. */
+/* Without tests of lack of fit: these cells are adhesive and their baselines are curved. */
 static const char text[] =
     "<case version=\"1\"><indentation><tip>pyramid:half-angle=17.5deg,radius=20nm</tip>"
     "<misfit-p-threshold>0</misfit-p-threshold>"
@@ -94,7 +94,7 @@ static void test_measured(void **state)
     assert_int_equal(wt_table_n_rows(wt_result_find(result, "shift_factors")), 20);
     assert_int_equal(wt_table_n_rows(wt_result_find(result, "inputs")), 4);
 
-    /* a glass on the cold side, so friction is finite, positive, and known with its error */
+    /* a glass on the cold side, so friction is finite, positive, and has an error */
     const wt_table *friction = wt_result_find(result, "friction");
     assert_int_equal(wt_table_n_rows(friction), 11);
     for (size_t i = 0; i < 11; i++) {
@@ -106,7 +106,7 @@ static void test_measured(void **state)
                     1e-9 * number_cell(friction, i, "hysteresis"));
         assert_true(number_cell(friction, i, "friction_with_layer") > 0);
     }
-    /* the two samples are not one material: the limits say what the result rests on */
+    /* the two samples are different materials, so the limitations state the origin of the result */
     const wt_table *limits = wt_result_find(result, "limits"),
                    *notes = wt_result_find(result, "notes");
     bool spots = false, strain = false, lever = false, lacks = false;
@@ -122,9 +122,8 @@ static void test_measured(void **state)
     wt_result_free(result);
 }
 
-/* What is asked for decides what is opened: the curves of a case that asks for its material only
- * need not exist. */
-static void test_only_what_is_asked(void **state)
+/* Only requested inputs are opened: the curves need not exist if only the material is requested. */
+static void test_only_requested_inputs_are_opened(void **state)
 {
     (void)state;
     static const char xml[] =
@@ -142,9 +141,8 @@ static void test_only_what_is_asked(void **state)
     wt_result_free(result);
 }
 
-/* No curve of the track can be used: the comparison is inconclusive, the bulk is there, and all is
- * said.
- */
+/* No curve of the track is usable: the comparison is inconclusive, the bulk has a result, and the
+ * reasons are stated. */
 static void test_no_track(void **state)
 {
     (void)state;
@@ -162,7 +160,7 @@ static void test_no_track(void **state)
     assert_int_equal(wt_table_n_rows(wt_result_find(result, "comparison")), 1);
     assert_non_null(groups);
     assert_int_equal(wt_table_n_rows(groups), 2);
-    /* Three have a bent baseline or adhesion that no law describes, and wide errors. */
+    /* Three curves have a curved baseline or adhesion that no law describes, and wide errors. */
     assert_near(number_cell(groups, 0, "n"), 16, 0);
     assert_near(number_cell(groups, 1, "n"), 0, 0);
     assert_non_null(strstr(text_cell(wt_result_find(result, "answer"), 0, "answer"),
@@ -176,7 +174,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_measured),
-        cmocka_unit_test(test_only_what_is_asked),
+        cmocka_unit_test(test_only_requested_inputs_are_opened),
         cmocka_unit_test(test_no_track),
     };
     return cmocka_run_group_tests_name("flow measured", tests, NULL, NULL);

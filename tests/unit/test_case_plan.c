@@ -1,8 +1,9 @@
-/* The plan: what runs, what is left out, and why. No data file exists in any of these cases.
+/* The plan: stages that run, stages that do not, and the reasons. No data file of these cases
+ * exists.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 
 #include "case/plan/stages.h"
-#include "cells.h"
+#include "table_cells.h"
 #include "weartrack/case.h"
 
 #include <stdlib.h>
@@ -43,7 +44,7 @@ static wt_table *plan_of(const char *text)
     return plan;
 }
 
-/* `runs` lists the stages that run, each followed by a blank. */
+/* `runs` lists the running stages, each followed by a blank. */
 static void check_plan(const char *text, const char *runs)
 {
     wt_table *plan = plan_of(text);
@@ -72,7 +73,7 @@ static void check_because(const char *text, const char *stage, const char *part)
     wt_table_free(plan);
 }
 
-static void test_what_runs(void **state)
+static void test_stages_that_run(void **state)
 {
     (void)state;
     check_plan(HEAD "</case>", "");
@@ -95,7 +96,7 @@ static void test_what_runs(void **state)
                "contact_area what_if ");
 }
 
-/* A stage is named by what it takes into account. */
+/* The name of a stage states the effects that it includes. */
 static void check_title(const char *text, const char *stage, const char *title)
 {
     wt_table *plan = plan_of(text);
@@ -115,8 +116,8 @@ static void test_titles(void **state)
                 "Indentation against DMA, bulk");
 }
 
-/* What is asked for decides: nothing else runs, and nothing else is read. */
-static void test_what_is_asked(void **state)
+/* Only requested stages run, and only their inputs are read. */
+static void test_requested_stages(void **state)
 {
     (void)state;
 #define ALL HEAD "<indentation>" TIP BULK TRACK "</indentation>" DMA ROAD SLIDE LAYER
@@ -148,14 +149,14 @@ static void test_what_is_asked(void **state)
                "master_curve indentation_bulk indentation_track "
                "comparison "
                "roughness what_if ");
-    /* which shows the errors of friction and layer beside */
+    /* includes the errors of friction and layer */
     check_plan(ALL "<report><figure>what_if</figure></report></case>",
                "master_curve indentation_bulk indentation_track "
                "comparison "
                "roughness layer friction what_if ");
 }
 
-/* A record is held against the case whatever is listed, unless that is switched off. */
+/* A record is compared with the case for any list of tables, unless this is switched off. */
 static void test_records(void **state)
 {
     (void)state;
@@ -174,7 +175,7 @@ static void test_records(void **state)
     check_plan(HELD "<validate>no</validate>" FIGURE, off);
     check_because(HELD "<validate>no</validate>" FIGURE, "validation", "switches it off");
     check_because(HELD "<validate>no</validate></record></case>", "validation", "switches it off");
-    /* and where it is asked for, that is the reason */
+    /* if it is requested, that is the reason */
     check_because(HELD "</record></case>", "validation", "validation is asked for");
 }
 
@@ -213,8 +214,8 @@ static void test_reasons(void **state)
                   "nothing needs relaxation_spectrum, which it leaves out");
 }
 
-/* Every stage comes after those it needs, each level needs more than that before, and every table
- * has a stage that gives it. */
+/* Every stage comes after those it needs, each level needs more than the previous one, and every
+ * table has a stage. */
 static void test_table_of_stages(void **state)
 {
     (void)state;
@@ -234,9 +235,9 @@ static void test_table_of_stages(void **state)
     assert_true(given == FLOW_BIT(FLOW_N_RESOURCES) - 1);
 }
 
-/* Sources say what is missing without them; a table is called as its schema says, and can be asked
- * for by that name. */
-static void test_table_of_things(void **state)
+/* Each source states what is missing without it. A table has the name of its schema and can be
+ * requested by it. */
+static void test_table_of_resources(void **state)
 {
     (void)state;
     for (unsigned i = 0; i < FLOW_N_RESOURCES; i++) {
@@ -256,9 +257,9 @@ static void test_table_of_things(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_runs),       cmocka_unit_test(test_what_is_asked),
+        cmocka_unit_test(test_stages_that_run), cmocka_unit_test(test_requested_stages),
         cmocka_unit_test(test_reasons),         cmocka_unit_test(test_titles),
-        cmocka_unit_test(test_table_of_stages), cmocka_unit_test(test_table_of_things),
+        cmocka_unit_test(test_table_of_stages), cmocka_unit_test(test_table_of_resources),
         cmocka_unit_test(test_records),
     };
     return cmocka_run_group_tests_name("flow plan", tests, NULL, NULL);

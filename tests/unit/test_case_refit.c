@@ -1,6 +1,7 @@
-/* One curve of a case that is fitted alone has the numbers of the whole run, also again, with the
- * text of the case changed, and after another curve. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+/* A single curve that is fitted again has the numbers of the whole run, also after a change of the
+ * case and after another curve.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "table_cells.h"
 
 #include "case/case.h"
 #include "case/run/refit.h"
@@ -103,7 +104,7 @@ static void follows_contact_point_and_case(void **state)
     assert_true(by_hand > 1.01 * fitted);
     assert_true(moved == contact + 5e-9);
     which.option = which.value = "";
-    /* a stiffer cantilever, which is in the section of the group: the curve is read again */
+    /* a stiffer cantilever is in the section of the group, so the curve is read again */
     char *stiffer = wt_strdup(text);
     char *at = strstr(stiffer, "0.3N/m");
     assert_non_null(at);
@@ -121,7 +122,7 @@ static void follows_contact_point_and_case(void **state)
     free(plain);
 }
 
-/* Friction at the second velocity of a case, with what is kept or of a run of its own. */
+/* Friction at the second velocity of a case, with stored data or from a separate run. */
 static double friction_of(const char *xml, bool kept)
 {
     wt_case *c = NULL;
@@ -143,8 +144,8 @@ static double friction_of(const char *xml, bool kept)
     return friction;
 }
 
-/* Rubber and surface are kept while sliding changes, and computed again after a change of theirs.
- */
+/* Rubber and surface are stored while the sliding changes, and computed again after their own
+ * change. */
 static void keeps_rubber_and_surface(void **state)
 {
     (void)state;
@@ -167,7 +168,7 @@ static void keeps_rubber_and_surface(void **state)
     }
 }
 
-static void says_what_is_missing(void **state)
+static void names_missing_inputs(void **state)
 {
     (void)state;
     static const refit_curve wrong[] = {{"bulk", "bulk-2.jpk-force-map", 99, "", ""},
@@ -190,6 +191,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(has_the_numbers_of_the_run),
                                        cmocka_unit_test(follows_contact_point_and_case),
                                        cmocka_unit_test(keeps_rubber_and_surface),
-                                       cmocka_unit_test(says_what_is_missing)};
+                                       cmocka_unit_test(names_missing_inputs)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

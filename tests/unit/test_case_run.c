@@ -1,7 +1,7 @@
-/* Running cases: friction of a given material, and what a run says of what it could not do.
+/* Runs of cases: friction of a stated material, and reports about failed stages.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 
-#include "cells.h"
+#include "table_cells.h"
 #include "weartrack/case.h"
 
 #include <stdlib.h>
@@ -78,7 +78,7 @@ static void check_limit(const ran *r, const char *part)
     fail_msg("no limit says \"%s\"", part);
 }
 
-/* The same numbers as the kernel gives when it is asked directly, at another temperature. */
+/* The numbers equal those of the kernel, at another temperature. */
 static void test_friction_only(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static void test_friction_only(void **state)
     wt_material_free(material);
 
     assert_string_equal(wt_table_key(friction, "standard_error_includes"), "shift law");
-    /* none of the questions is asked */
+    /* no question is asked */
     assert_int_equal(wt_table_n_rows(table_of(&r, "answer")), 0);
     check_limit(&r, "The 95 % interval of the friction excludes errors of");
     const wt_table *cost = table_of(&r, "cost");
@@ -136,7 +136,7 @@ static void test_friction_only(void **state)
     wt_result_free(r.result);
 }
 
-/* An observed thickness calibrates the critical energy: it comes back, with its own error. */
+/* An observed thickness calibrates the critical energy: it is reproduced, with its own error. */
 static void test_layer(void **state)
 {
     (void)state;
@@ -153,15 +153,15 @@ static void test_layer(void **state)
     check_limit(&r, "calibrated to the stated thickness");
     assert_true(wt_table_estimate(friction, "relative_change_at_reference", &e));
     assert_true(e.value > -0.6 && e.value < 0.5 && e.standard_error > 0);
-    /* the layer is softer, so more is in contact, and what is in contact shears more easily */
+    /* a softer layer has more contact area and a lower shear stress */
     assert_true(number_cell(friction, 0, "friction_with_layer") > 0);
     check_answer(&r, FRICTION, "inconclusive", "interval");
     wt_result_free(r.result);
 }
 
-/* The fuller stage cannot do its work (a layer without wear has no thickness): the plainer one
- * stands in, and the answer says what is missing. */
-static void test_stand_in(void **state)
+/* The complete stage fails (a layer without wear has no thickness): the simpler one replaces it,
+ * and the result states what is missing. */
+static void test_simpler_stage_replaces_failed_one(void **state)
 {
     (void)state;
     ran r = run_text(
@@ -186,21 +186,21 @@ static void test_stand_in(void **state)
     wt_result_free(r.result);
 }
 
-/* A stage that fails blocks what needs it and nothing else. */
+/* A failed stage only blocks stages that need it. */
 static void test_missing_file(void **state)
 {
     (void)state;
     ran r =
         run_text(HEAD "<dma><files>no-such-file-*.txt</files></dma>" ROAD SLIDE("") "</case>", 1);
-    assert_true(r.n_failed >= 2); /* the file, and the stage that got no data */
+    assert_true(r.n_failed >= 2); /* the file, and the stage without data */
     assert_non_null(wt_result_find(r.result, "roughness"));
     assert_null(wt_result_find(r.result, "friction"));
     check_answer(&r, FRICTION, "not computed", "A stage that friction needs failed");
     wt_result_free(r.result);
 }
 
-/* Curves that are not there: each is a failure once, and the answer says what failed, not that it
- * was not asked for. */
+/* Missing curves: each is one failure, and the result states the failure, not that it was not
+ * requested. */
 static void test_missing_curves(void **state)
 {
     (void)state;
@@ -218,7 +218,7 @@ static void test_missing_curves(void **state)
                  "curve could be read for \"bulk\"");
     wt_table *headlines = NULL;
     assert_int_equal(wt_result_main_values(r.result, &headlines, NULL), WT_OK);
-    /* what was asked for is not there: no verdict, and a status that says so */
+    /* a requested result is missing: no verdict, and a status that states it */
     assert_string_equal(text_cell(headlines, 0, "key"), "status");
     assert_near(number_cell(headlines, 0, "value"), WT_RESULT_EMPTY, 0);
     assert_string_equal(wt_table_key(failures, "status"), "1");
@@ -228,7 +228,7 @@ static void test_missing_curves(void **state)
     wt_result_free(r.result);
 }
 
-/* A measured spectrum with units given in the case, cut at both ends, with its own error. */
+/* A measured spectrum with units from the case, truncated at both ends, with its own error. */
 static void test_spectrum(void **state)
 {
     (void)state;
@@ -250,7 +250,7 @@ static void test_spectrum(void **state)
     wt_result_free(r.result);
 }
 
-/* One isotherm: no shift, no law; friction at its temperature, and nowhere else. */
+/* One isotherm: no shift and no law; friction at its temperature only. */
 static void test_one_isotherm(void **state)
 {
     (void)state;
@@ -271,7 +271,7 @@ static void test_one_isotherm(void **state)
     wt_result_free(r.result);
 }
 
-/* The number of threads changes nothing but the time. */
+/* The number of threads only changes the time. */
 static void test_threads(void **state)
 {
     (void)state;
@@ -282,7 +282,7 @@ static void test_threads(void **state)
     for (size_t t = 0; t < wt_result_n_tables(a.result); t++) {
         const wt_table *x = wt_result_table(a.result, t), *y = wt_result_table(b.result, t);
         if (strcmp(wt_table_name(x), "cost") == 0 || strcmp(wt_table_name(x), "inputs") == 0)
-            continue; /* times; the name of the temporary case */
+            continue; /* times, and the name of the temporary case */
         assert_int_equal(wt_table_n_rows(x), wt_table_n_rows(y));
         for (size_t c = 0; c < wt_table_n_columns(x); c++)
             if (wt_table_column_kind(x, c) == WT_COLUMN_NUMBER && wt_table_n_rows(x) > 0)
@@ -296,10 +296,14 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_friction_only),  cmocka_unit_test(test_layer),
-        cmocka_unit_test(test_stand_in),       cmocka_unit_test(test_missing_file),
-        cmocka_unit_test(test_missing_curves), cmocka_unit_test(test_spectrum),
-        cmocka_unit_test(test_one_isotherm),   cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_friction_only),
+        cmocka_unit_test(test_layer),
+        cmocka_unit_test(test_simpler_stage_replaces_failed_one),
+        cmocka_unit_test(test_missing_file),
+        cmocka_unit_test(test_missing_curves),
+        cmocka_unit_test(test_spectrum),
+        cmocka_unit_test(test_one_isotherm),
+        cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests_name("flow run", tests, NULL, NULL);
 }

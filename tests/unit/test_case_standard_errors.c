@@ -1,17 +1,17 @@
-/* Of every number of the main tables that has a standard error: known, not known or without one, by
- * where it and its errors come from. 0 is for what has no error; what is not known is
- * nan, and is named. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Standard errors in the main tables: each is known, unknown or zero, depending on the source of
+ * the number and its errors. 0 means no error; unknown is nan and named.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
 
 #include "indentation/indent.h"
-#include "truth.h"
+#include "truth_fixture.h"
 
-/* With the errors of all inputs; without any; a material without draws, with the error of the
- * pressure; without draws, errors and measured frequencies. */
+/* Four runs: errors of all inputs; no errors; a material without draws and an error of the
+ * pressure; no draws, no errors and no measured frequencies. */
 enum { ALL, MATERIAL_ONLY, PRESSURE_ONLY, NOTHING, WAYS };
 
-/* For the four ways: known, not known, 0 because there is none. A column or key with a standard
- * error that is not here fails the test. */
+/* For the four runs: known, unknown, or 0 without an error. A column or key with a standard error
+ * that is not listed here fails the test. */
 typedef struct expectation {
     const table_schema *schema;
     const char *name, *expected;
@@ -56,9 +56,9 @@ static const expectation list[] = {
     {&layer_schema, "velocity", "0000"},
     {&layer_schema, "pressure", "knkn"},
     {&layer_schema, "specific_wear_rate", "knnn"},
-    {&layer_schema, "observed_thickness", "...."}, /* not of a given critical energy */
+    {&layer_schema, "observed_thickness", "...."}, /* not for a stated critical energy */
     {&layer_schema, "thickness", "kkkn"},
-    {&layer_schema, "hysteresis_power", "...."}, /* of the energy of shearing */
+    {&layer_schema, "hysteresis_power", "...."}, /* error of the energy of shearing */
     {&layer_schema, "shear_power", "...."},
 };
 
@@ -112,7 +112,7 @@ static char letter(double error)
     return isnan(error) ? 'n' : error > 0 ? 'k' : '0';
 }
 
-/* Of a column: in its last row. */
+/* Value of a column in its last row. */
 static char found(const wt_table *t, const table_schema *schema, size_t field, bool is_key)
 {
     wt_estimate e;
@@ -135,7 +135,7 @@ static bool is_listed(const expectation *from, size_t n, const table_schema *sch
     return false;
 }
 
-/* Every key and column of a table that has a standard error, in each of n ways. */
+/* Every key and column with a standard error, in each of n runs. */
 static bool check(const expectation *from, size_t n_listed, const table_schema *schema,
                   const wt_table *const *way, size_t n)
 {
@@ -170,10 +170,10 @@ static void test_all(void **state)
     assert_true(good[0] && good[1]);
 }
 
-/* ---- what is measured ------------------------------------------------------------------------ */
+/* ---- measured values ------------------------------------------------------------------------- */
 
-/* Of the bundled case, and where there is less to know: a material without draws, vertical shifts
- * that are given, a spring constant without an error. */
+/* The bundled case, and cases with less information: a material without draws, stated vertical
+ * shifts, a spring constant without an error. */
 static const expectation measured[] = {
     {&comparison_schema, "rate_slope", "kk"},
     {&comparison_schema, "interaction_p", "00"},
@@ -182,23 +182,24 @@ static const expectation measured[] = {
     {&comparison_schema, "model_choices_low", "00"}, /* a range has no error */
     {&comparison_schema, "model_choices_high", "00"},
     {&comparison_schema, "rate_spread", ".."},       /* the ratio does not depend on the rate */
-    {&comparison_schema, "calibration_share", "00"}, /* what the gains of one tip differ by */
-    {&comparison_schema, "spot_scatter", ".."},      /* the spots tell it */
+    {&comparison_schema, "calibration_share", "00"}, /* gain differences of one tip */
+    {&comparison_schema, "spot_scatter", ".."},      /* the positions determine it */
     {&dma_comparison_schema, "temperature", "00"},
-    {&dma_comparison_schema, "track_temperature", ".."}, /* not given */
+    {&dma_comparison_schema, "track_temperature", ".."}, /* not stated */
     {&dma_comparison_schema, "dma_complex_modulus", "kn"},
     {&indentation_schema, "tip_sides", "00"},
-    {&indentation_schema, "tip_half_angle", "nn"}, /* half_angle_error and radius_error have it */
+    /* it is part of half_angle_error and radius_error */
+    {&indentation_schema, "tip_half_angle", "nn"},
     {&indentation_schema, "tip_radius", "nn"},
     {&indentation_schema, "tip_transition_radius", "nn"},
     {&indentation_schema, "sample_thickness", ".."}, /* a thick sample */
     {&indentation_schema, "spring_constant", "kn"},
-    {&indentation_schema, "sensitivity", ".."}, /* that of the files */
+    {&indentation_schema, "sensitivity", ".."}, /* error of the files */
     {&indentation_schema, "spring_constant_error", "0."},
-    {&indentation_schema, "sensitivity_error", ".."}, /* not stated, as those of the tip */
+    {&indentation_schema, "sensitivity_error", ".."}, /* not stated, like that of the tip */
     {&indentation_schema, "half_angle_error", ".."},
     {&indentation_schema, "radius_error", ".."},
-    {&indentation_schema, "spring_constant_error_assumed", ".0"}, /* where none is stated */
+    {&indentation_schema, "spring_constant_error_assumed", ".0"}, /* without a stated one */
     {&indentation_schema, "sensitivity_error_assumed", "00"},
     {&indentation_schema, "half_angle_error_assumed", "00"},
     {&indentation_schema, "radius_error_assumed", "00"},
@@ -215,19 +216,19 @@ static const expectation measured[] = {
     {&indentation_schema, "loss_shift", "00"},
     {&indentation_schema, "pull_shift", "00"},
     {&indentation_schema, "modulus", "kk"},
-    {&indentation_schema, "indentation_temperature", "n."}, /* stated in the first */
-    {&indentation_schema, "spectrum_temperature", "0."},    /* the other without a DMA */
+    {&indentation_schema, "indentation_temperature", "n."}, /* stated in the first run */
+    {&indentation_schema, "spectrum_temperature", "0."},    /* the second run has no DMA */
     {&indentation_schema, "spectrum_factor", "kn"},         /* without a DMA there is no spectrum */
     {&indentation_schema, "contact_point", "kk"},
-    {&indentation_schema, "work_of_adhesion", "nn"}, /* there is none */
-    {&indentation_schema, "retract_modulus", "nk"},  /* asked for in the second */
+    {&indentation_schema, "work_of_adhesion", "nn"}, /* does not exist */
+    {&indentation_schema, "retract_modulus", "nk"},  /* requested in the second run */
     {&shift_factors_schema, "wlf_c1", "kk"},
     {&shift_factors_schema, "wlf_c2", "kk"},
     {&shift_factors_schema, "strain_low", ".."}, /* no file states one */
     {&shift_factors_schema, "strain_high", ".."},
     {&shift_factors_schema, "activation_energy", ".."}, /* WLF has none, and no joint */
     {&shift_factors_schema, "joint", ".."},
-    {&shift_factors_schema, "valid_from", ".."}, /* it holds everywhere */
+    {&shift_factors_schema, "valid_from", ".."}, /* the law holds everywhere */
     {&shift_factors_schema, "valid_to", ".."},
     {&shift_factors_schema, "law_slope", "kk"},
     {&shift_factors_schema, "pole", "kk"},
@@ -304,8 +305,8 @@ static void test_measured(void **state)
     assert_true(good);
 }
 
-/* What is not known is named. */
-static void test_named(void **state)
+/* Unknown errors are named. */
+static void test_unknown_errors_are_named(void **state)
 {
     (void)state;
 #define BOTH "pressure, temperature, roughness, "
@@ -328,7 +329,7 @@ static void test_named(void **state)
     }
 }
 
-/* Where the measured frequencies are not known, neither is the share outside them. */
+/* Without measured frequencies the share outside them is unknown. */
 static void test_share(void **state)
 {
     (void)state;
@@ -337,7 +338,7 @@ static void test_share(void **state)
                          way == NOTHING);
 }
 
-/* An answer to none that were asked for. */
+/* Rows without a question. */
 static void test_no_replicates(void **state)
 {
     (void)state;
@@ -360,8 +361,8 @@ static void test_no_replicates(void **state)
     wt_table_free(tables.friction);
 }
 
-/* What a base makes of a cone at z = depth tan(angle) / thickness is 0.721 z and more (Dimitriadis'
- * way for a cone): 5 % at z = 1 / 15.3. */
+/* The effect of a base on a cone at z = depth tan(angle) / thickness is at least 0.721 z (by the
+ * method of Dimitriadis for a cone): 5 % at z = 1 / 15.3. */
 static void test_not_shown(void **state)
 {
     (void)state;
@@ -369,7 +370,7 @@ static void test_not_shown(void **state)
         const char *tip, *has, *lacks;
     } cases[] = {
         {"cone:half-angle=45deg", "(thinner than 1.5 µm: a modulus more than 5 % too large", "nan"},
-        /* the interval holds the errors of the sizes of the tip, stated or assumed */
+        /* the interval includes the errors of the tip size, stated or assumed */
         {"cone:half-angle=45deg", "piezo", "half-angle"},
         {"paraboloid:radius=100nm", "thinner than", "radius"},
     };
@@ -405,9 +406,12 @@ static int clear(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all),           cmocka_unit_test(test_measured),
-        cmocka_unit_test(test_named),         cmocka_unit_test(test_share),
-        cmocka_unit_test(test_no_replicates), cmocka_unit_test(test_not_shown),
+        cmocka_unit_test(test_all),
+        cmocka_unit_test(test_measured),
+        cmocka_unit_test(test_unknown_errors_are_named),
+        cmocka_unit_test(test_share),
+        cmocka_unit_test(test_no_replicates),
+        cmocka_unit_test(test_not_shown),
     };
     return cmocka_run_group_tests_name("errors known", tests, NULL, clear);
 }

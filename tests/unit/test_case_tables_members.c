@@ -1,6 +1,6 @@
-/* What the columns and keys of the tables show: the members of the structures that are their rows.
+/* Columns and keys of the tables show the members of the structures that are their rows.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+#include "table_cells.h"
 
 #include "core/store/store.h"
 #include "core/table/registry.h"
@@ -52,7 +52,7 @@ static bool is_words(schema_form form)
     return form == FORM_TEXT || form == FORM_CHARACTERS || form == FORM_ENUM;
 }
 
-/* The columns of what a number of several parts shows, 0 for those that it has not. */
+/* Columns of a number with several parts, 0 for missing parts. */
 static void parts_of(const schema_field *f, unsigned parts[4])
 {
     const bool interval = f->form == FORM_INTERVAL, errors = interval || f->form == FORM_ESTIMATE;
@@ -76,7 +76,7 @@ static void check_binding(const binding *b)
         if (f->form == FORM_NONE)
             continue;
         shows++;
-        /* what may be missing is a number that is NaN then */
+        /* a missing number is NaN */
         const bool flag = f->form == FORM_YES_NO || (f->form == FORM_NUMBER && f->sparse);
         if ((f->kind == SCHEMA_TEXT) != is_words(f->form) || (f->yes_no && !flag) ||
             (f->form == FORM_YES_NO && !f->yes_no))
@@ -126,7 +126,7 @@ static void test_bindings(void **state)
         }
 }
 
-/* Errors and ends of an interval have the unit of their number. */
+/* Errors and limits of an interval have the unit of their number. */
 static void test_parts(void **state)
 {
     (void)state;
@@ -141,7 +141,7 @@ static void test_parts(void **state)
         }
 }
 
-/* A headline is read for `summary`. */
+/* `summary` reads the main values. */
 static void test_headlines(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void test_headlines(void **state)
     assert_true(n > 10);
 }
 
-/* A mistake of the program is found where it is made. */
+/* A program error is found where it occurs. */
 static void test_writer(void **state)
 {
     (void)state;

@@ -1,8 +1,9 @@
-/* Every column and key that is declared is put by some run, job or conversion, and none is put that
- * is not declared. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every declared column and key is written by some run, job or conversion, and no other one is
+ * written.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
-#include "sliding.h"
-#include "truth.h"
+#include "sliding_fixture.h"
+#include "truth_fixture.h"
 
 #include "case/case.h"
 #include "core/base/array.h"
@@ -18,10 +19,10 @@
 #define CASE WT_SOURCE_DIR "/fixtures/case/"
 #define FORMATS WT_SOURCE_DIR "/fixtures/formats/"
 
-/* What was seen of each schema. */
+/* Schemas and their columns and keys that were written. */
 typedef struct seen {
     bool table;
-    uint64_t columns, cells, keys; /* columns, those with a number or text, keys */
+    uint64_t columns, cells, keys; /* columns, columns with a number or text, keys */
 } seen;
 
 enum { MOST = 128 };
@@ -54,7 +55,7 @@ static bool is_filled(const wt_table *table, size_t column)
     return false;
 }
 
-/* Key of a schema that a key of a table is. */
+/* Key of a schema that matches a key of a table. */
 static size_t key_of(const table_schema *schema, const char *name)
 {
     for (size_t i = 0; i < schema->n_keys; i++) {
@@ -110,9 +111,9 @@ static wt_status see_and_free(void *user, wt_table *table, wt_error *err)
     return WT_OK;
 }
 
-/* ---- where tables come from ------------------------------------------------------------------ */
+/* ---- sources of tables ----------------------------------------------------------------------- */
 
-/* What costs more, of a case that can tell it. */
+/* Expensive tables, of a case that has them. */
 static void run_errors(wt_case *c, wt_run_options options)
 {
     wt_result *result = NULL;
@@ -125,7 +126,7 @@ static void run_errors(wt_case *c, wt_run_options options)
     wt_result_free(result);
 }
 
-/* A bundled case with one text in the place of another. */
+/* The bundled case with one text replaced. */
 static void run_case_of(const char *path, bool errors, double tolerance, const char *text,
                         const char *instead)
 {
@@ -168,8 +169,8 @@ static void run_case_of(const char *path, bool errors, double tolerance, const c
     wt_case_free(c);
 }
 
-/* Incompressible, the isotropic solid is no transversely isotropic one. */
-static void test_directions(void **state)
+/* The incompressible isotropic solid is not a transversely isotropic one. */
+static void test_transverse_isotropy(void **state)
 {
     (void)state;
     static const double velocity = 0.1;
@@ -195,8 +196,8 @@ static void test_cases(void **state)
 {
     (void)state;
     run_case_of(CASE "case.xml", true, wt_run_defaults().tolerance, "", "");
-    run_case_of(CASE "case.xml", false, 1e-16, "", ""); /* which nothing reaches */
-    run_case("<end>2e6rad/m", "<end>2e7rad/m");         /* beyond what the maps resolve */
+    run_case_of(CASE "case.xml", false, 1e-16, "", ""); /* never reached */
+    run_case("<end>2e6rad/m", "<end>2e7rad/m");         /* outside the resolved range of the maps */
     run_case_of(CASE "stated-road.xml", false, wt_run_defaults().tolerance, "", "");
     run_case("<temperature>23degC", "<temperature>90degC");
     run_case("<temperature>23degC", "<track-temperature>24degC</track-temperature>"
@@ -221,8 +222,8 @@ static void test_cases(void **state)
              "<term time=\"1e-4s\" modulus=\"20MPa\"/></prony><wlf><c1>5</c1><c2>100K</c2></wlf>");
 }
 
-/* A melt whose shifts go over to Arrhenius in the cold. Up to `odd` its loss modulus is another one
- * at each temperature. */
+/* A melt whose shift law changes to Arrhenius in the cold. The loss modulus of the isotherms up to
+ * `odd` is wrong. */
 static void write_melt(char *path, double odd)
 {
     const wt_shift_law law = {.kind = WT_LAW_WLF_ARRHENIUS,
@@ -286,7 +287,7 @@ static void test_joined_law(void **state)
     unlink(path);
 }
 
-/* After a step of strain, and of stress. */
+/* After a step of strain, and after a step of stress. */
 static void step_jobs(void **state)
 {
     (void)state;
@@ -309,7 +310,7 @@ static void step_jobs(void **state)
     }
 }
 
-/* One spectrum fails in the cold, or everywhere: of a part, or shifts by overlaps. */
+/* One spectrum fails in the cold or everywhere: in a part, or with shifts by overlaps. */
 static void test_no_superposition(void **state)
 {
     (void)state;
@@ -338,7 +339,7 @@ static void test_no_superposition(void **state)
     }
 }
 
-/* Cases with names, and one pair without any. */
+/* Cases with names, and one pair without them. */
 static void test_collection(void **state)
 {
     (void)state;
@@ -364,7 +365,7 @@ static void test_collection(void **state)
     see(tables.shared_pairs);
     wt_tables_clear(&tables, sizeof tables);
     wt_collect_job job = wt_collect_job_defaults();
-    job.constant_margin = 1e-9; /* which nothing meets */
+    job.constant_margin = 1e-9; /* never met */
     wt_result *labelled = fixture_labelled("HC", "mild", 0.6, 0.02);
     see(wt_result_find(labelled, "answer"));
     fixture_check(wt_table_set_key((wt_table *)wt_result_find(labelled, "ramp"), "deformation",
@@ -379,7 +380,7 @@ static void test_collection(void **state)
     fixture_free();
 }
 
-/* The bundled material, one measured less widely, and one of another deformation. */
+/* The bundled material, one with a narrower range, and one of another deformation. */
 static void test_materials(void **state)
 {
     (void)state;
@@ -405,7 +406,7 @@ static void test_materials(void **state)
 
 static void shift_waves(wt_table *copy, size_t row)
 {
-    /* of a fifth of the residual on a soft layer of 100 nm */
+    /* a fifth of the residual, on a soft layer of 100 nm */
     static const double wave[] = {1.513e-4, 6.242e-4, -5.172e-4, -1.915e-4, -3.442e-4, -8.22e-5};
     for (size_t i = 0; i < COUNT_OF(wave); i++) {
         char name[32];
@@ -415,8 +416,8 @@ static void shift_waves(wt_table *copy, size_t row)
     }
 }
 
-/* The bundled case with the residual of a layer in its track, of which the curves tell the
- * thickness. */
+/* The bundled case with the residual of a layer in its track, whose thickness the curves
+ * determine. */
 static void test_layer_by_curves(void **state)
 {
     (void)state;
@@ -443,8 +444,8 @@ static void test_layer_by_curves(void **state)
     wt_case_free(read);
 }
 
-/* One spot of each, whose scatter is given. */
-static void test_one_spot_of_each(void **state)
+/* One position of each, with a stated scatter. */
+static void test_one_position_per_group(void **state)
 {
     (void)state;
     static const char *const files[] = {CASE "bulk-1.jpk-force-map", CASE "track-1.jpk-force-map"};
@@ -472,7 +473,7 @@ static void test_one_spot_of_each(void **state)
         wt_indent_tables_clear(&tables[g]);
 }
 
-/* A group whose cantilevers differ, and a tip that makes the modulus change with depth. */
+/* A group with different cantilevers, and a tip for which the modulus changes with depth. */
 static void test_spring_constants(void **state)
 {
     (void)state;
@@ -529,7 +530,7 @@ static void test_spring_constants(void **state)
     job.tip.half_angle_error = 0.02;
     job.sensitivity = (wt_estimate){60e-9, 2e-9, 0, "m/V"};
     job.lever_error = 0.1;
-    sets[1].read.spring_constant = (double)NAN; /* two spots then */
+    sets[1].read.spring_constant = (double)NAN; /* two positions then */
     if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s", err.message);
     see(tables.indentation);
@@ -559,11 +560,11 @@ static void convert(const char *path, unsigned kind)
 
 static wt_status take_curve(void *user, const wt_force_curve *curve, wt_error *err)
 {
-    curve->segments[0].setpoint = 1e-9; /* the files of the case say none */
+    curve->segments[0].setpoint = 1e-9; /* the files of the case state none */
     return wt_map_add_curve(user, curve, err);
 }
 
-/* Curves of which a map is made. */
+/* Curves that form a map. */
 static void convert_map(const char *path)
 {
     static const char made[] = "test_tables_put.h5";
@@ -583,7 +584,7 @@ static void convert_map(const char *path)
     (void)remove(made);
 }
 
-/* A column has no width to be divided by. */
+/* A column without a width to divide by. */
 static wt_status one_column(void *user, wt_table *table, wt_error *err)
 {
     const long x = wt_table_find(table, "x");
@@ -663,7 +664,7 @@ static void test_ramps(void **state)
     }
 }
 
-/* A layer with everything that it can say. */
+/* A layer with all its quantities. */
 static void test_layer_models(void **state)
 {
     (void)state;
@@ -693,7 +694,7 @@ static void test_layer_models(void **state)
     wt_table_free(friction.friction);
 }
 
-/* So slow that nothing is lost: of no friction there is no share. */
+/* A velocity without hysteresis: there is no share of friction. */
 static void test_no_hysteresis(void **state)
 {
     (void)state;
@@ -725,8 +726,7 @@ static void test_no_hysteresis(void **state)
     wt_table_free(table);
 }
 
-/* Rubber in its glassy state, of which a contact that was hot stays hot, and that burns where it
- * slides fast. */
+/* Glassy rubber: a hot contact stays hot, and burns at a high velocity. */
 static void test_flash(void **state)
 {
     (void)state;
@@ -771,7 +771,7 @@ static void test_flash(void **state)
     wt_table_free(table);
 }
 
-/* Strain sweeps that reach half of the fall and its double. */
+/* Strain sweeps up to half of the fall and its double. */
 static void test_strain_sweeps(void **state)
 {
     (void)state;
@@ -800,7 +800,7 @@ static void test_strain_sweeps(void **state)
     convert(file[0], WT_KIND_SWEEP);
 }
 
-/* Curves on a hard surface, of a file that says its sensitivity. */
+/* Curves on a hard surface, from a file that states its sensitivity. */
 static void test_calibration(void **state)
 {
     (void)state;
@@ -880,7 +880,7 @@ static void test_thermal(void **state)
     common.formats = formats;
     job.n_sets = 1;
     job.sensitivity_error = 0.01;
-    /* of a lever far from it: a contradiction, but not of the fixtures in the second call */
+    /* a very different cantilever: an inconsistency, but not of the fixtures in the second call */
     job.length = (wt_estimate){200e-6, 2e-6, 0, "m"};
     job.width = (wt_estimate){40e-6, 1e-6, 0, "m"};
     for (size_t n = 1; n <= 3; n += 2) {
@@ -899,8 +899,8 @@ static void test_thermal(void **state)
     (void)remove(path);
 }
 
-/* There and back with all channels, then a disc that sticks and slips, once with all that is known
- * of its wear and once with nothing. */
+/* A reciprocating record with all channels, then a disc with stick-slip, once with all data of its
+ * wear and once without. */
 static void test_record(void **state)
 {
     (void)state;
@@ -956,7 +956,7 @@ static void test_record(void **state)
     (void)remove(disc);
 }
 
-/* Curves that are held at their end. */
+/* Curves with a dwell at their end. */
 static void test_dwell(void **state)
 {
     (void)state;
@@ -1023,7 +1023,7 @@ static void test_dwell(void **state)
         fail_msg("%s %s", err.message, err.found);
     see(table);
     wt_table_free(table);
-    made.n_draws = 0; /* no error, and a temperature out of reach */
+    made.n_draws = 0; /* no error, and a temperature outside the range */
     compared.temperature.value = compared.track_temperature.value = 100;
     assert_int_equal(wt_compare_dwells(&compared, &common, &table, NULL), WT_OK);
     see(table);
@@ -1040,7 +1040,7 @@ static void test_files(void **state)
     (void)state;
     wt_input *input = NULL;
     wt_table *table = NULL;
-    /* The sensitivity of this curve is missing; an option gives it. */
+    /* The file of this curve states no sensitivity; an option does. */
     assert_int_equal(wt_input_open(FORMATS "table-force/volts.csv", &input, NULL), WT_OK);
     assert_int_equal(wt_input_describe(formats, input, NULL, NULL, &table, NULL), WT_OK);
     see(table);
@@ -1091,8 +1091,8 @@ static void test_spot(void **state)
     (void)remove(path);
 }
 
-/* Two places and a smaller window, the spectrum of which goes on to a slope. Profiles that make the
- * line density are columns of another file. */
+/* Two positions and a smaller window, whose spectrum is extrapolated to a slope. The profiles for
+ * the line density are columns of another file. */
 static void see_surfaces(const char *const *files, size_t n)
 {
     const wt_file_set set = {.patterns = files, .n_patterns = n, .read = wt_read_defaults()};
@@ -1127,7 +1127,7 @@ static void test_surface(void **state)
                                         WT_SOURCE_DIR "/fixtures/surface/place-2.gsf",
                                         WT_SOURCE_DIR "/fixtures/surface/near-by.gsf"};
     static const char *const profile[] = {WT_SOURCE_DIR "/fixtures/surface/profile-*.gsf"};
-    /* of two sizes, whose places scatter, for they are of two surfaces */
+    /* two sizes, and positions that scatter because they are of two surfaces */
     static const char *const sizes[] = {WT_SOURCE_DIR "/fixtures/surface/road.gsf",
                                         WT_SOURCE_DIR "/fixtures/surface/place-*.gsf",
                                         WT_SOURCE_DIR "/fixtures/case/road-*-near.gsf"};
@@ -1141,8 +1141,8 @@ static void test_surface(void **state)
 
 /* ---- measured against predicted -------------------------------------------------------------- */
 
-/* A disc of three velocities, one of which stands still, whose friction is `friction` times a power
- * of the velocity. */
+/* A disc with three velocities, one of them zero; friction is `friction` times a power of the
+ * velocity. */
 static void write_disc(const char *path, double friction, double power, uint64_t seed)
 {
     FILE *const out = fopen(path, "w");
@@ -1156,7 +1156,7 @@ static void write_disc(const char *path, double friction, double power, uint64_t
     fclose(out);
 }
 
-/* Held against a record with and without what wears, with a shear stress (0: none) and a layer. */
+/* Comparison with a record, with and without wear, with a shear stress (0: none) and a layer. */
 static void see_validation(const char *path, double shear, double wear, bool with_layer)
 {
     static const double slow[] = {1e-3, 1e-2, 1e-1};
@@ -1202,7 +1202,7 @@ static void see_validation(const char *path, double shear, double wear, bool wit
     wt_tables_clear(&measured, sizeof measured);
 }
 
-/* The running-in of a case against a layer that grows, or against no layer that is known. */
+/* The running-in of a case against a growing layer, or without a known layer. */
 static void see_running_in(const char *path)
 {
     wt_case *read = NULL;
@@ -1271,10 +1271,10 @@ static void test_data_quality(void **state)
     wt_log_free(log);
 }
 
-/* ---- what was not put ------------------------------------------------------------------------ */
+/* ---- tables that were not written ------------------------------------------------------------ */
 
-/* Every fit of isotherms that was tried ends settled; the key warns of one that does not. The
- * moduli of this program have one ratio at all rates; unit_study_ratio_pairs has others. */
+/* Every fit of isotherms converges; a key warns of one that does not. The moduli of this program
+ * have the same ratio at all rates; unit_study_ratio_pairs has others. */
 static bool is_never_met(const table_schema *schema, size_t key)
 {
     const char *const name = schema->keys[key].name;
@@ -1282,7 +1282,7 @@ static bool is_never_met(const table_schema *schema, size_t key)
            (schema == &comparison_schema && strcmp(name, "rate_spread") == 0);
 }
 
-static void test_all_put(void **state)
+static void test_everything_is_written(void **state)
 {
     (void)state;
     bool good = true;
@@ -1334,7 +1334,7 @@ int main(void)
         cmocka_unit_test(test_flash),
         cmocka_unit_test(test_materials),
         cmocka_unit_test(test_layer_by_curves),
-        cmocka_unit_test(test_one_spot_of_each),
+        cmocka_unit_test(test_one_position_per_group),
         cmocka_unit_test(test_spring_constants),
         cmocka_unit_test(test_conversions),
         cmocka_unit_test(test_ramps),
@@ -1346,11 +1346,11 @@ int main(void)
         cmocka_unit_test(test_identification),
         cmocka_unit_test(test_dwell),
         cmocka_unit_test(test_thermal),
-        cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_transverse_isotropy),
         cmocka_unit_test(test_spot),
         cmocka_unit_test(test_surface),
         cmocka_unit_test(test_data_quality),
-        cmocka_unit_test(test_all_put),
+        cmocka_unit_test(test_everything_is_written),
     };
     return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);
 }

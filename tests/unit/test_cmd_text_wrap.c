@@ -1,8 +1,8 @@
-/* Lines for people: broken between words, as late as the width allows, wherever they begin.
+/* Line breaks between words, as late as the width permits, for any indentation.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
-#include "cmd/text_wrap.c" /* of the command, which is no library */
+#include "cmd/text_wrap.c" /* part of the command, not of the library */
 
 #include <stdlib.h>
 
@@ -19,7 +19,7 @@ static char *wrapped(size_t column, size_t indent, const char *text)
     return out;
 }
 
-/* Each line but the last has no room for one more word, and none is too wide. */
+/* Each line but the last has no space for one more word, and none is too wide. */
 static void test_width(void **state)
 {
     (void)state;

@@ -1,7 +1,8 @@
-/* This test as a program that a made file has taken over: started as gnuplot and as Gwyddion it
- * tries what must not be, and only its own folder may change. Libraries in a process (HDF5) are
- * tested in test_core_sandbox.c. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report_place.h"
+/* This test acts as a program that a malicious file has taken over. Started as gnuplot and as
+ * Gwyddion, it tries forbidden actions, and only its own folder may change. test_core_sandbox.c
+ * tests libraries in a process (HDF5).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report_folder.h"
 
 #include "core/system/subprocess.h"
 #include "read/bytes/input.h"
@@ -23,7 +24,7 @@
 
 /* ---- the program ----------------------------------------------------------------------------- */
 
-/* What it is told by variables: the place of the test and the port that listens. */
+/* Environment variables of the program: the folder of the test and the listening port. */
 #define PLACE "WEARTRACK_TEST_PLACE"
 #define PORT "WEARTRACK_TEST_PORT"
 #define FILL "WEARTRACK_TEST_FILL"
@@ -31,7 +32,7 @@
 enum {
     ALL_REFUSED = 40,
     OWN_FOLDER_REFUSED = 39
-}; /* exit status; above the first: what was done */
+}; /* exit status; a value above the first is the number of the action */
 
 static const char *outside(const char *name)
 {
@@ -138,7 +139,7 @@ static bool raises_a_limit(void)
     return setrlimit(RLIMIT_FSIZE, &more) == 0;
 }
 
-/* In a child, which may leave its group if anything may. */
+/* Runs in a child, which may leave its process group if anything may. */
 static bool leaves_the_group(void)
 {
     int state = 0;
@@ -168,7 +169,7 @@ static bool (*const deeds[])(void) = {reads,
                                       raises_a_limit,
                                       leaves_the_group};
 
-/* What it needs: its folder, the files of the system, other processes, devices. */
+/* Required access: its folder, system files, other processes, devices. */
 static bool has_its_own(void)
 {
     int state = -1;
@@ -181,7 +182,7 @@ static bool has_its_own(void)
     return waitpid(child, &state, 0) == child && state == 0;
 }
 
-/* Files that are small enough each. */
+/* Each file is below the size limit. */
 _Noreturn static void fill_the_disk(void)
 {
     static const char words[1 << 18];
@@ -194,7 +195,7 @@ _Noreturn static void fill_the_disk(void)
     }
 }
 
-/* It ignores what it can, and a child stays behind. */
+/* The program ignores signals, and a child stays behind. */
 static int act(void)
 {
     if (getenv(FILL) != NULL)
@@ -216,11 +217,11 @@ static int act(void)
 
 static char *path_before;
 
-/* The program is this one by other names. */
+/* The program is this test under other names. */
 static int make_place(void **state)
 {
     char own[4096], path[8192];
-    if (make_workplace(state) != 0 || mkdir("folder", 0700) != 0 || mkdir("bin", 0700) != 0 ||
+    if (create_work_folder(state) != 0 || mkdir("folder", 0700) != 0 || mkdir("bin", 0700) != 0 ||
         mkdir("tmp", 0700) != 0 || setenv(PLACE, *state, 1) != 0)
         return -1;
     const ssize_t n = readlink("/proc/self/exe", own, sizeof own - 1);
@@ -240,7 +241,7 @@ static int remove_place(void **state)
     assert_int_equal(setenv("PATH", path_before, 1), 0);
     assert_int_equal(unsetenv("TMPDIR") + unsetenv(FILL) + unsetenv(PLACE), 0);
     free(path_before);
-    return remove_workplace(state);
+    return remove_work_folder(state);
 }
 
 static int listen_somewhere(void)
@@ -301,7 +302,7 @@ static void test_everything_is_refused(void **state)
         run_as[i](&err);
         if (strstr(err.message, refused) == NULL)
             fail_msg("%s", err.message); // 41 + the number of the deed that was done
-        assert_true(programs_end());
+        assert_true(all_programs_end());
         assert_int_equal(stat("secret", &info), 0);
         assert_true(info.st_size == 4 && info.st_nlink == 1);
         assert_false(exists("new"));
@@ -319,7 +320,7 @@ static void test_folder_has_a_limit(void **state)
     assert_int_equal(setenv(FILL, "1", 1), 0);
     run_as_gwyddion(&err);
     assert_non_null(strstr(err.message, "wrote more than 2 MiB"));
-    assert_true(programs_end());
+    assert_true(all_programs_end());
     assert_int_equal(count_files("tmp"), 0);
     static const char *const arguments[] = {NULL};
     const program_call call = {.program = "gnuplot",

@@ -1,5 +1,5 @@
 /* Force curves, sweeps, Prony series, tables. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/data/force_curve.h"
 #include "weartrack/core.h"
@@ -48,7 +48,7 @@ static void force_curve_memory(void **state)
     one->channels[1].quantity = WT_Q_TIME;
     assert_ptr_equal(wt_segment_channel(one, WT_Q_TIME), &one->channels[1]);
     assert_null(wt_segment_channel(one, WT_Q_FORCE));
-    /* Sizes that a damaged file may claim. */
+    /* Sizes that a corrupted file may state. */
     assert_null(wt_force_curve_add_segment(&curve, WT_SEGMENT_APPROACH, SIZE_MAX / 4, 1));
     assert_null(wt_force_curve_add_segment(&curve, WT_SEGMENT_APPROACH, 1, SIZE_MAX / 4));
     assert_int_equal(curve.n_segments, 1);
@@ -59,7 +59,7 @@ static void force_curve_memory(void **state)
     assert_string_equal(wt_segment_kind_name(WT_SEGMENT_MODULATION), "modulation");
 }
 
-/* 2 V is 100 nm is 30 nN for the instrument; whoever gives other values starts from the volts. */
+/* For the instrument 2 V is 100 nm is 30 nN; other calibrations start from the volts. */
 static void deflection_and_force(void **state)
 {
     (void)state;
@@ -79,7 +79,7 @@ static void deflection_and_force(void **state)
                 assert_near(stored[from] * deflection_factor(steps[from], steps[to], &file, &used),
                             made[to], 1e-14);
     }
-    /* What is not known is not made; what the file does not tell is not replaced. */
+    /* Unknown channels are not computed; missing values of the file are not replaced. */
     const wt_cantilever none = {.spring_constant = (double)NAN, .sensitivity = (double)NAN};
     wt_cantilever used = none;
     assert_near(deflection_factor(WT_Q_FORCE, WT_Q_FORCE, &none, &used), 1, 0);
@@ -94,7 +94,7 @@ static void deflection_and_force(void **state)
     assert_near(deflection_factor(WT_Q_DEFLECTION, WT_Q_FORCE, &none, &used), 0.5, 0);
     assert_near(deflection_factor(WT_Q_DEFLECTION_VOLTAGE, WT_Q_FORCE, &none, &used), 5e-8, 1e-15);
     assert_near(tip_position(4e-6, 1e-8, 0.01), 3e-6, 1e-15);
-    /* Four samples of a segment of 2 s: the next one would be the first of what follows. */
+    /* Four samples of a segment of 2 s: the next sample would begin the next segment. */
     double times[4];
     sample_times(10, 2, 4, times);
     for (size_t i = 0; i < 4; i++)
@@ -147,7 +147,7 @@ static void sweep_order(void **state)
     wt_sweep_sort(&sweep);
 }
 
-/* Of every kind of sweep those of one sample stay, in their order. */
+/* The sweeps of one sample, of every kind, in their order. */
 static void one_sample(void **state)
 {
     (void)state;
@@ -254,12 +254,12 @@ static void table_keys(void **state)
     assert_string_equal(found.unit, "1");
     assert_string_equal(wt_table_key(t, "ratio"),
                         "2.385 standard_error=0.1 numerical_error=nan unit=1");
-    /* Names that the parts of an estimate need in a store. */
+    /* Names of the parts of an estimate in a stored file. */
     assert_int_equal(wt_table_set_key(t, "ratio_units", "x", &err), WT_E_ARG);
     assert_int_equal(wt_table_set_key(t, "other_units", "x", &err), WT_OK);
     assert_int_equal(wt_table_set_estimate(t, "other", e, &err), WT_E_ARG);
     assert_null(wt_table_key(t, "other"));
-    /* The same estimate however it is spelled. */
+    /* Every spelling gives the same estimate. */
     assert_int_equal(
         wt_table_set_key(t, "again", "2.50 standard_error=1e0 numerical_error=0 unit=N/m", &err),
         WT_OK);
@@ -285,7 +285,7 @@ static void add_measured(wt_sweep *sweep, double temperature, double storage, co
     }
 }
 
-/* Copies to the last bit go, with a word for each; what was measured again stays. */
+/* Identical copies are removed, each with a message; a repeated measurement stays. */
 static void sweep_copies(void **state)
 {
     (void)state;
@@ -303,7 +303,7 @@ static void sweep_copies(void **state)
     for (size_t i = 0; i < 3; i++) {
         const wt_isotherm *t = &sweep.isotherms[i];
         double sum = 0;
-        assert_int_equal(t->n, 4); /* the point of 5 at 1 rad/s stood there twice, that of 7 once */
+        assert_int_equal(t->n, 4); /* duplicates: the point of 5 at 1 rad/s, and that of 7 */
         assert_near(t->angular_frequency[0], 0.1, 0);
         assert_near(t->angular_frequency[3], 10, 0);
         for (size_t k = 1; k < 3; k++) {
@@ -322,7 +322,7 @@ static void sweep_copies(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* By frequency, points by temperature; one that stands there twice goes. */
+/* By frequency, points by temperature; a duplicate is removed. */
 static void ramps(void **state)
 {
     static const double frequency[] = {10, 1, 1};
@@ -356,7 +356,7 @@ static void ramps(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* By temperature and frequency, points by strain; one that stands there twice goes. */
+/* By temperature and frequency, points by strain; a duplicate is removed. */
 static void strain_sweeps(void **state)
 {
     static const double temperature[] = {300, 280, 280, 280}, frequency[] = {1, 10, 1, 1};

@@ -1,5 +1,5 @@
 /* Estimates and lists as text. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "case/answer/format_number.h"
 #include "core/table/registry.h"
@@ -30,7 +30,7 @@ static void test_estimates(void **state)
     check_estimate("20degC +- 0.5K", WT_Q_TEMPERATURE, 293.15, 0.5);
     check_estimate("0.64 +- 0.03", WT_Q_NONE, 0.64, 0.03);
     check_estimate("1e-3 mm^3/(N m) +- 10%", WT_Q_WEAR_RATE, 1e-12, 1e-13);
-    check_estimate("8 +- 5%", WT_Q_NONE, 8, 0.4); /* of the value, as where there is a unit */
+    check_estimate("8 +- 5%", WT_Q_NONE, 8, 0.4); /* relative to the value, also with a unit */
     check_estimate("2+-10 percent", WT_Q_NONE, 2, 0.2);
     check_estimate("64% +- 0.03", WT_Q_NONE, 0.64, 0.03);
 }
@@ -148,7 +148,7 @@ static void test_words_in_any_locale(void **state)
     (void)setlocale(LC_ALL, "C");
 }
 
-/* Equal names are one spot, numbered as they first appear, whatever stands between. */
+/* Equal names are one position, numbered by first occurrence, whatever is between them. */
 static void test_spots(void **state)
 {
     (void)state;

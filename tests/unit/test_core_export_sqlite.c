@@ -1,5 +1,6 @@
-/* A table as an SQLite database, read back by SQLite. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+/* A table as an SQLite database, read by SQLite.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "weartrack/core.h"
 
 #include <math.h>
@@ -8,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The database of the table, opened from a file. */
+/* Opens the database of the table from a file. */
 static sqlite3 *database_of(const wt_table *table)
 {
     char path[] = "/tmp/weartrack-sqlite-XXXXXX";
@@ -20,14 +21,13 @@ static sqlite3 *database_of(const wt_table *table)
     assert_int_equal(wt_table_export(out, table, WT_EXPORT_SQLITE, false, &err), WT_OK);
     assert_int_equal(fclose(out), 0);
     assert_int_equal(sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL), SQLITE_OK);
-    /* A file without a name stays as it is while it is open; SQLite opens it with the first
-     * question. */
+    /* The file is unlinked after SQLite has opened it with the first query. */
     assert_int_equal(sqlite3_exec(db, "PRAGMA integrity_check", NULL, NULL, NULL), SQLITE_OK);
     assert_int_equal(unlink(path), 0);
     return db;
 }
 
-/* The first row of the answer, cells parted by bars, NULL as a minus. */
+/* First row of the query; bars separate cells, NULL is a minus. */
 static const char *ask(sqlite3 *db, const char *question)
 {
     static char answer[1024];
@@ -132,7 +132,7 @@ static void blocks(void **state)
     wt_table_free(t);
 }
 
-/* Thousands of rows are whole, and the same table gives the same bytes. */
+/* Thousands of rows are complete, and the same table gives the same bytes. */
 static void same_bytes(void **state)
 {
     (void)state;
@@ -162,8 +162,8 @@ static void same_bytes(void **state)
     wt_table_free(t);
 }
 
-/* Bytes that are not UTF-8 are replaced as in JSON: a text that is none stops other programs. */
-static void no_utf8(void **state)
+/* Bytes that are not UTF-8 are replaced as in JSON, because invalid text stops other programs. */
+static void invalid_utf8(void **state)
 {
     (void)state;
     wt_table *const t = make_table("friction");
@@ -183,7 +183,7 @@ static void no_utf8(void **state)
     wt_table_free(t);
 }
 
-/* What a database cannot hold is refused by name, and nothing is written. */
+/* A table that a database cannot contain is refused by name, and nothing is written. */
 static void refused(void **state)
 {
     (void)state;
@@ -214,8 +214,8 @@ static void refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cells),   cmocka_unit_test(columns_and_keys),
-        cmocka_unit_test(blocks),  cmocka_unit_test(same_bytes),
-        cmocka_unit_test(no_utf8), cmocka_unit_test(refused)};
+        cmocka_unit_test(cells),        cmocka_unit_test(columns_and_keys),
+        cmocka_unit_test(blocks),       cmocka_unit_test(same_bytes),
+        cmocka_unit_test(invalid_utf8), cmocka_unit_test(refused)};
     return cmocka_run_group_tests_name("table as a database", tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* Patterns, output files, digests, provenance. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "core/math/splitmix64.h"
 #include "core/system/temporary.h"
-#include "near.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -46,7 +46,7 @@ static void assert_content(const char *name, const char *expected)
     assert_string_equal(text, expected);
 }
 
-/* Names in the folder, hidden ones too. */
+/* Names in the folder, with hidden ones. */
 static size_t count_files(void)
 {
     size_t n = 0;
@@ -90,7 +90,7 @@ static void globs(void **state)
     write_file("sub[1]/.hidden", "");
     path_of("sub[1]/deeper", inner);
     assert_int_equal(mkdir(inner, 0700), 0);
-    /* Bytewise, whatever the locale would say. */
+    /* Bytewise order, independent of the locale. */
     (void)setlocale(LC_ALL, "en_GB.UTF-8");
     check_glob(folder, "*.txt", (const char *const[]){"B.txt", "a.txt", "b.txt", NULL});
     (void)setlocale(LC_ALL, "C");
@@ -108,7 +108,7 @@ static void globs(void **state)
     assert_true(paths == NULL && n == 7);
     assert_int_equal(wt_glob(NULL, inner, &paths, &n, &err), WT_E_NOT_FOUND); /* an empty folder */
     assert_string_equal(err.advice, "");
-    /* A folder that holds a folder only. */
+    /* A folder that only contains a folder. */
     path_of("sub[1]/deeper/deepest", odd);
     assert_int_equal(mkdir(odd, 0700), 0);
     assert_int_equal(wt_glob(NULL, inner, &paths, &n, &err), WT_E_NOT_FOUND);
@@ -126,7 +126,7 @@ static void globs(void **state)
     assert_int_equal(rmdir(sub), 0);
 }
 
-static void complete_or_not_at_all(void **state)
+static void output_is_complete_or_absent(void **state)
 {
     (void)state;
     char path[256];
@@ -137,7 +137,7 @@ static void complete_or_not_at_all(void **state)
     assert_int_equal(wt_outfile_open(path, &file, NULL), WT_OK);
     (void)umask(before);
     (void)fputs("one", wt_outfile_stream(file));
-    assert_int_not_equal(access(path, F_OK), 0); /* not yet there */
+    assert_int_not_equal(access(path, F_OK), 0); /* does not exist yet */
     assert_int_equal(wt_outfile_commit(file, NULL), WT_OK);
     assert_content("out.txt", "one");
     assert_int_equal(stat(path, &info), 0);
@@ -150,7 +150,7 @@ static void complete_or_not_at_all(void **state)
     assert_content("out.txt", "one");
     wt_outfile_discard(NULL);
 
-    /* Through a link the file behind it is replaced. */
+    /* The target of a link is replaced. */
     char link_path[256];
     path_of("link.txt", link_path);
     assert_int_equal(symlink("out.txt", link_path), 0);
@@ -165,7 +165,7 @@ static void complete_or_not_at_all(void **state)
     assert_int_equal(unlink(path), 0);
 }
 
-/* What an output file held is given back, whatever its end was. */
+/* The content of an output file is freed in every case. */
 static void outfile_memory(void **state)
 {
     (void)state;
@@ -175,7 +175,7 @@ static void outfile_memory(void **state)
     path_of("again.txt", path);
     size_t before = 0;
     for (int i = 0; i < ROUNDS + 10; i++) {
-        if (i == 10) /* what is kept for ever is there now */
+        if (i == 10) /* permanently stored memory exists now */
             before = mallinfo2().uordblks;
         assert_int_equal(wt_outfile_open(path, &file, NULL), WT_OK);
         wt_outfile_discard(file);
@@ -208,7 +208,7 @@ static void modes_and_links(void **state)
         assert_int_equal(info.st_mode & 0777, modes[i]);
     }
     assert_int_equal(unlink(path), 0);
-    /* A link to a link to nothing yet: the file appears where they point. */
+    /* A link to a missing target: the file is created at the target. */
     path_of("link.txt", link_path);
     assert_int_equal(symlink("second.txt", link_path), 0);
     path_of("second.txt", link_path);
@@ -228,10 +228,10 @@ static void modes_and_links(void **state)
     assert_int_equal(unlink(path), 0);
 }
 
-static void leftovers(void **state)
+static void leftover_temporary_files(void **state)
 {
     (void)state;
-    /* A process that has just ended, and its number with other names. */
+    /* A process that has just ended, and its process id with other names. */
     const pid_t dead = fork();
     if (dead == 0)
         _exit(0);
@@ -257,7 +257,7 @@ static void leftovers(void **state)
     (void)snprintf(name, sizeof name, ".weartrack-%ld-0123456789abcdef", (long)getpid());
     write_file(name, "alive");
     path_of(name, inner);
-    /* held by a process that cannot be seen */
+    /* used by a process that is not visible */
     (void)snprintf(name, sizeof name, ".weartrack-%ld-0123456789abcdea", (long)dead);
     write_file(name, "held");
     path_of(name, path);
@@ -288,7 +288,7 @@ static void write_database(const char *path, const char *id)
     assert_int_equal(fclose(file), 0);
 }
 
-static void guarded(void **state)
+static void inputs_are_not_overwritten(void **state)
 {
     (void)state;
     char path[256], other[256], pdf[256];
@@ -298,17 +298,17 @@ static void guarded(void **state)
     path_of("hard.txt", other);
     write_file("read.txt", "mine");
     wt_protect_input(path);
-    assert_int_equal(wt_check_overwrite(path, &err), WT_OK); /* not yet started */
+    assert_int_equal(wt_check_overwrite(path, &err), WT_OK); /* not started yet */
     wt_protect_begin();
     wt_protect_input(path);
     assert_int_equal(link(path, other), 0);
     assert_int_equal(wt_outfile_open(path, &file, &err), WT_E_ARG);
     assert_string_equal(err.file, path);
     assert_int_equal(wt_outfile_open(other, &file, &err), WT_E_ARG);
-    /* A file that is there now: a later one might get the number of one that was read. */
+    /* A file that exists now, because a later file might get the inode of a file that was read. */
     path_of("sheets.pdf", pdf);
     write_file("sheets.pdf", "%PDF\1\n%%EOF\n");
-    assert_int_equal(wt_check_overwrite(pdf, &err), WT_E_ARG); /* of another program */
+    assert_int_equal(wt_check_overwrite(pdf, &err), WT_E_ARG); /* database of another program */
     write_file("sheets.pdf", "%PDF\1\n%%EOF\n%weartrack sheets\n");
     assert_int_equal(wt_check_overwrite(pdf, &err), WT_OK);
     assert_int_equal(unlink(pdf), 0);
@@ -351,7 +351,7 @@ static void outfile_failures(void **state)
     const wt_status status = wt_outfile_commit(file, &err);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
     assert_int_equal(status, WT_E_IO);
-    assert_non_null(strstr(err.message, strerror(EFBIG))); /* why, in the words of the system */
+    assert_non_null(strstr(err.message, strerror(EFBIG))); /* the reason from the system */
     assert_int_equal(count_files(), 0);
 
     /* The target became a folder meanwhile. */
@@ -363,7 +363,7 @@ static void outfile_failures(void **state)
     assert_int_equal(count_files(), 1);
     assert_int_equal(rmdir(path), 0);
 
-    /* A device is written in place and stays one. */
+    /* A device is written in place and remains a device. */
     struct stat info;
     assert_int_equal(wt_outfile_open("/dev/null", &file, &err), WT_OK);
     (void)fputs("x", wt_outfile_stream(file));
@@ -378,8 +378,8 @@ static void outfile_failures(void **state)
 }
 
 /* Known answers of FIPS 180-2. */
-/* The first numbers of splitmix64 from the seed 1234567, as the reference implementation gives them
- * (S. Vigna, splitmix64.c): each seed is the one before and the golden step. */
+/* First numbers of splitmix64 from the seed 1234567 by the reference implementation (S. Vigna,
+ * splitmix64.c). Each seed is the previous one plus the golden step. */
 static void mixed_numbers(void **state)
 {
     (void)state;
@@ -412,7 +412,7 @@ static wt_status piece_of(void *bytes, size_t from, void *to, size_t n, wt_error
     return WT_OK;
 }
 
-/* Beside the digest, or alone. */
+/* With the digest, or alone. */
 static uint64_t fingerprint_of(void *bytes, size_t length, bool beside)
 {
     uint64_t fingerprint = 0;
@@ -422,8 +422,8 @@ static uint64_t fingerprint_of(void *bytes, size_t length, bool beside)
     return fingerprint;
 }
 
-/* Of bytes in several pieces: the digest of them all, and a fingerprint that copies alone share. */
-static void digests_of_pieces(void **state)
+/* Bytes in several blocks: the digest of all, and a fingerprint that only copies share. */
+static void digests_of_blocks(void **state)
 {
     (void)state;
     enum { MOST = 150000 };
@@ -445,7 +445,8 @@ static void digests_of_pieces(void **state)
                 assert_true(fingerprint != fingerprint_of(copy, n, beside));
                 copy[i] ^= 4;
             }
-            if (n >= 64 && memcmp(bytes, bytes + 32, 32) != 0) { /* the same blocks, reordered */
+            /* the same blocks in another order */
+            if (n >= 64 && memcmp(bytes, bytes + 32, 32) != 0) {
                 memcpy(copy, bytes + 32, 32);
                 memcpy(copy + 32, bytes, 32);
                 assert_true(fingerprint != fingerprint_of(copy, n, beside));
@@ -494,17 +495,22 @@ static int make_folder(void **state)
 static int remove_folder(void **state)
 {
     (void)state;
-    return rmdir(folder); /* fails if something was left */
+    return rmdir(folder); /* fails if a file is left */
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(globs),           cmocka_unit_test(complete_or_not_at_all),
-        cmocka_unit_test(modes_and_links), cmocka_unit_test(leftovers),
-        cmocka_unit_test(guarded),         cmocka_unit_test(outfile_failures),
-        cmocka_unit_test(digests),         cmocka_unit_test(digests_of_pieces),
-        cmocka_unit_test(outfile_memory),  cmocka_unit_test(mixed_numbers),
+        cmocka_unit_test(globs),
+        cmocka_unit_test(output_is_complete_or_absent),
+        cmocka_unit_test(modes_and_links),
+        cmocka_unit_test(leftover_temporary_files),
+        cmocka_unit_test(inputs_are_not_overwritten),
+        cmocka_unit_test(outfile_failures),
+        cmocka_unit_test(digests),
+        cmocka_unit_test(digests_of_blocks),
+        cmocka_unit_test(outfile_memory),
+        cmocka_unit_test(mixed_numbers),
         cmocka_unit_test(provenance),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -1,14 +1,13 @@
-/* Findings and the digits of their numbers.
- *
+/* Results and the digits of their numbers.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/table/finding.h"
 
 #include <math.h>
 #include <string.h>
 
-/* A value is never rounded away: at least three digits, whatever the width of its interval. */
+/* A value is not rounded too far: it has at least three digits, for any width of its interval. */
 static void test_digits_of_every_interval(void **state)
 {
     (void)state;
@@ -19,7 +18,7 @@ static void test_digits_of_every_interval(void **state)
             const double value = values[v];
             const int digits = result_value_digits(value, value / factors[i], value * factors[i]);
             assert_in_range(digits, 3, 6);
-            /* A narrow interval needs more digits than three, or its limits print alike. */
+            /* A narrow interval needs more than three digits; otherwise its limits print alike. */
             if (factors[i] < 1.01)
                 assert_true(digits > 3);
         }
@@ -27,7 +26,7 @@ static void test_digits_of_every_interval(void **state)
     assert_int_equal(result_value_digits(0, -1, 1), 3);
 }
 
-/* Without a comparison and a layer no question is asked. */
+/* Without a comparison and a layer there is no question. */
 static void test_no_findings(void **state)
 {
     (void)state;
@@ -38,8 +37,8 @@ static void test_no_findings(void **state)
         assert_int_equal(findings[i].verdict, FINDING_NOT_COMPUTED);
 }
 
-/* The table of version 0.9.0 has sentences in as many rows, which are no findings. */
-static void test_former_answer(void **state)
+/* The table of version 0.9.0 has sentences in as many rows, which are not results. */
+static void test_table_of_earlier_version(void **state)
 {
     (void)state;
     for (int former = 0; former < 2; former++) {
@@ -66,7 +65,7 @@ static void test_former_answer(void **state)
     }
 }
 
-/* Each verdict has a text of its own; the number of verdicts is that of the closed list. */
+/* Each verdict has its text; the number of verdicts is that of the closed list. */
 static void test_verdicts(void **state)
 {
     (void)state;
@@ -88,7 +87,7 @@ static wt_table *table_of_key(const char *name, const char *key, double value, d
     return table;
 }
 
-/* Without a layer the change of the friction is none and needs no interval; with one it does. */
+/* Without a layer friction does not change, without an interval; with one it does. */
 static void test_change_without_a_layer(void **state)
 {
     (void)state;
@@ -120,8 +119,8 @@ static void test_change_without_a_layer(void **state)
     }
 }
 
-/* The widest choice, what settles it, how much of the range the others leave, and the curves that
- * would tell a thickness. */
+/* The widest choice, how to decide it, the share of the range that the others leave, and the curves
+ * that determine a thickness. */
 static void test_what_to_measure(void **state)
 {
     (void)state;
@@ -177,12 +176,9 @@ static void test_what_to_measure(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_digits_of_every_interval),
-        cmocka_unit_test(test_no_findings),
-        cmocka_unit_test(test_former_answer),
-        cmocka_unit_test(test_verdicts),
-        cmocka_unit_test(test_change_without_a_layer),
-        cmocka_unit_test(test_what_to_measure),
+        cmocka_unit_test(test_digits_of_every_interval), cmocka_unit_test(test_no_findings),
+        cmocka_unit_test(test_table_of_earlier_version), cmocka_unit_test(test_verdicts),
+        cmocka_unit_test(test_change_without_a_layer),   cmocka_unit_test(test_what_to_measure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

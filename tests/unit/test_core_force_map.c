@@ -1,6 +1,6 @@
-/* Maps of force curves in HDF5: what was put is what comes back, to the last bit, and HDF5 alone
- * reads it as weartrack-hdf5(5) says. A changed sample costs its curve and no other; counts that do
- * not agree are refused. */
+/* Maps of force curves in HDF5. Stored values are read back bit by bit, and HDF5 alone reads the
+ * file as weartrack-hdf5(5) describes. A changed sample only affects its curve; inconsistent counts
+ * are refused. */
 #include "core/store/force_map.h"
 #include "core/store/hdf5_sandbox.h"
 #include "weartrack/read.h"
@@ -24,8 +24,8 @@ enum { CURVES = 40, MOST = 1500 };
 
 static const char path[] = "test_data_map.h5";
 
-/* Segments of 100 to 1500 samples, so that blocks end within them; the third quantity is there from
- * curve 20 on. */
+/* Segments of 100 to 1500 samples, so that blocks end within them; curves from 20 on have the third
+ * quantity. */
 static size_t length_of(size_t curve, size_t segment)
 {
     return 100 + (curve * 37 + segment * 501) % (MOST - 100);
@@ -46,7 +46,7 @@ static void make_curve(size_t c, wt_force_curve *curve)
     curve->grid_x = (long)c % 8;
     curve->grid_y = (long)c / 8;
     curve->cantilever.spring_constant = 0.1;
-    curve->cantilever.sensitivity = -60e-9; /* none, so that it comes back as NaN */
+    curve->cantilever.sensitivity = -60e-9; /* missing, so that it is read as NaN */
     for (size_t s = 0; s < 2; s++) {
         const size_t n = length_of(c, s), n_channels = c < 20 ? 2 : 3;
         wt_segment *const segment = wt_force_curve_add_segment(
@@ -89,7 +89,7 @@ static int clean(void **state)
     return unlink(path);
 }
 
-/* Reads all curves; how many fail, and the first of them. */
+/* Reads all curves; returns the number of failures and the first failed curve. */
 static size_t read_back(size_t *first_bad)
 {
     wt_formats *formats = NULL;
@@ -137,7 +137,7 @@ static size_t read_back(size_t *first_bad)
     return n_bad;
 }
 
-static void comes_back(void **state)
+static void map_is_read_back(void **state)
 {
     size_t bad = 0;
     (void)state;
@@ -154,7 +154,7 @@ static size_t length_in(hid_t file, const char *name)
     return (size_t)n;
 }
 
-static void as_documented(void **state)
+static void layout_is_documented(void **state)
 {
     static double force[2 * CURVES * MOST], samples[2 * CURVES];
     size_t n = 0, row = 0;
@@ -183,7 +183,7 @@ static void as_documented(void **state)
     (void)H5Fclose(file);
 }
 
-/* The bytes of a number somewhere in the file; each stands there once. */
+/* Bytes of a number in the file, which occur once. */
 static off_t find_number(int fd, double value)
 {
     static char bytes[1 << 23];
@@ -209,7 +209,7 @@ static void a_changed_sample(void **state)
     assert_int_equal(read_back(&bad), 0);
 }
 
-/* Tables that do not fit the arrays, with a digest that agrees. */
+/* Tables that do not fit the arrays, with a correct digest. */
 static void counts(void **state)
 {
     static const struct {
@@ -229,7 +229,7 @@ static void counts(void **state)
         const int fd = open(path, O_RDONLY);
         const hdf5_bytes from = {.file = fd, .size = (size_t)lseek(fd, 0, SEEK_END)};
         assert_int_equal(wt_store_read(path, &result, NULL), WT_OK);
-        /* behind the reader's back: its last row */
+        /* changes its last row after the reader has started */
         wt_table *const table = (wt_table *)(uintptr_t)wt_result_find(result, cases[i].table);
         wt_table_set_number(table, (size_t)wt_table_find(table, cases[i].column), cases[i].value);
         wt_status status = map_open(&from, result, &map, &err);
@@ -239,8 +239,8 @@ static void counts(void **state)
     }
 }
 
-/* A file that is cut off after its tables were read: every curve that is left fails. */
-static void cut_off(void **state)
+/* A file truncated after its tables were read: every remaining curve fails. */
+static void truncated_map(void **state)
 {
     wt_result *result = NULL;
     map_reader *map = NULL;
@@ -251,7 +251,7 @@ static void cut_off(void **state)
     wt_status got = WT_OK;
     (void)state;
     const int fd = open(path, O_RDONLY);
-    /* Behind what is HDF5's stands the abstract, which says how long it is. */
+    /* The summary follows the HDF5 data and states its length. */
     const off_t size = lseek(fd, 0, SEEK_END);
     uint64_t abstract = 0;
     assert_int_equal(pread(fd, &abstract, sizeof abstract, size - 16), sizeof abstract);
@@ -279,7 +279,7 @@ static void no_disk(void **state)
     assert_null(writer);
 }
 
-/* After a failure nothing more is taken, and there is no file. */
+/* After a failure no more data are accepted, and there is no file. */
 static void a_full_disk(void **state)
 {
     static const char small[] = "test_data_map_full.h5";
@@ -310,9 +310,12 @@ static void a_full_disk(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comes_back),    cmocka_unit_test(cut_off),
-        cmocka_unit_test(as_documented), cmocka_unit_test(a_changed_sample),
-        cmocka_unit_test(counts),        cmocka_unit_test(no_disk),
+        cmocka_unit_test(map_is_read_back),
+        cmocka_unit_test(truncated_map),
+        cmocka_unit_test(layout_is_documented),
+        cmocka_unit_test(a_changed_sample),
+        cmocka_unit_test(counts),
+        cmocka_unit_test(no_disk),
         cmocka_unit_test(a_full_disk),
     };
     return cmocka_run_group_tests_name("map of force curves", tests, write_map, clean);

@@ -1,6 +1,6 @@
-/* Result files that were made to do harm: each is refused with words, or gives what it would
- * without the harm. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+/* Crafted result files: each is refused with a message, or gives the undamaged data.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "core/store/hdf5_sandbox.h"
 #include "weartrack/core.h"
@@ -13,24 +13,24 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* HDF5 1.10 loses an object header when it gives up on a damaged file. */
+/* HDF5 1.10 leaks an object header when it rejects a corrupted file. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {
     return "leak:libhdf5";
 }
 
-/* Files of each layout that are damaged. */
+/* Files of each layout, to be damaged. */
 enum { DAMAGED = 600, DAMAGED_LAYOUT = 150 };
 
 static char folder[] = "/tmp/weartrack-crafted-XXXXXX", path[64];
 
 typedef struct tally {
     size_t read, refused, crashed, slow;
-    const char *good; /* text of the tables of the sound file; NULL: none is to be read */
+    const char *good; /* text of the tables of the undamaged file; NULL: no tables expected */
 } tally;
 
-/* ---- making ---------------------------------------------------------------------------------- */
+/* ---- creation -------------------------------------------------------------------------------- */
 
 static wt_result *make_result(void)
 {
@@ -76,7 +76,7 @@ static uint8_t *bytes_of(size_t *size)
     return bytes;
 }
 
-/* ---- trying ---------------------------------------------------------------------------------- */
+/* ---- reading in the sandbox ------------------------------------------------------------------ */
 
 static void try(void *user, const char *what, const uint8_t *bytes, size_t size)
 {
@@ -123,15 +123,15 @@ static void damaged_results(void **state)
     assert_int_equal(t.read, 1);
     assert_true(hdf5_damage(bytes, size, DAMAGED, try, &t) == DAMAGED);
     say("results", &t);
-    assert_true(t.crashed > 0 && t.slow == 0); /* else this test shows nothing */
+    assert_true(t.crashed > 0 && t.slow == 0); /* otherwise this test shows nothing */
     free(bytes);
     free(good);
     wt_result_free(result);
 }
 
-/* ---- what a file can hold -------------------------------------------------------------------- */
+/* ---- possible contents ----------------------------------------------------------------------- */
 
-/* The group of the table, without its column "modulus". */
+/* Opens the group of the table, without its column "modulus". */
 static hid_t open_table(hid_t *file)
 {
     *file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
@@ -139,7 +139,7 @@ static hid_t open_table(hid_t *file)
     return H5Gopen2(*file, "sweep", H5P_DEFAULT);
 }
 
-/* A data set in the place of the column; takes type and creation. */
+/* Creates a data set in place of the column; takes ownership of type and creation list. */
 static void put_column(hid_t group, hid_t type, hsize_t n, hid_t creation)
 {
     const hid_t space = H5Screate_simple(1, &n, NULL);
@@ -276,9 +276,9 @@ static void special_files(void **state)
     wt_result_free(result);
 }
 
-/* ---- all that HDF5 reads --------------------------------------------------------------------- */
+/* ---- all layouts ----------------------------------------------------------------------------- */
 
-/* Reads whatever there is, as readers of instrument files may: chunks, filters, links of groups. */
+/* Reads everything as readers of instrument files may: chunks, filters, links of groups. */
 static herr_t visit(hid_t file, const char *name, const H5O_info_t *info, void *out)
 {
     if (info->type != H5O_TYPE_DATASET)
@@ -321,8 +321,8 @@ static void try_walk(void *user, const char *what, const uint8_t *bytes, size_t 
         fail_msg("%s: no message", what);
 }
 
-/* Groups, attributes and data sets in the layouts of all ages: symbol tables, B-trees and heaps of
- * the first, indices of chunks and fractal heaps of the last. */
+/* Groups, attributes and data sets in all layouts: symbol tables, B-trees and heaps of the first;
+ * chunk indices and fractal heaps of the last. */
 static void make_layouts(H5F_libver_t version)
 {
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS), creation = no_list();

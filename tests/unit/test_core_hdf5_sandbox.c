@@ -1,7 +1,8 @@
-/* The door to HDF5: whatever happens behind it is an error in front of it, and the program around
- * it notices nothing else. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
-#include "watched.h"
+/* HDF5 in its sandbox: every failure inside is an error for the caller, and the program is
+ * otherwise unaffected.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "address_sanitizer.h"
+#include "assert_near.h"
 
 #include "core/store/hdf5_sandbox.h"
 
@@ -38,7 +39,7 @@ static int clean(void **state)
     return unlink(path);
 }
 
-/* Reads with it; the error is that of a failure. */
+/* Reads in the sandbox; sets the error on failure. */
 static wt_status pass(hdf5_read_function *reading, sandbox_limits limits, char **answer,
                       wt_error *err)
 {
@@ -51,7 +52,7 @@ static wt_status pass(hdf5_read_function *reading, sandbox_limits limits, char *
         (*answer)[length > 0 ? length - 1 : 0] = '\0';
     else
         assert_true(err->status == status && err->message[0] != '\0');
-    assert_true(waitpid(-1, NULL, WNOHANG) < 0 && errno == ECHILD); /* nobody is left */
+    assert_true(waitpid(-1, NULL, WNOHANG) < 0 && errno == ECHILD); /* no process is left */
     return status;
 }
 
@@ -66,7 +67,7 @@ static void refused(hdf5_read_function *reading, sandbox_limits limits, wt_statu
     assert_null(answer);
 }
 
-/* ---- what may happen ------------------------------------------------------------------------- */
+/* ---- possible failures ----------------------------------------------------------------------- */
 
 static wt_status says(hid_t file, size_t n, FILE *out, wt_error *err)
 {
@@ -149,8 +150,8 @@ static wt_status swells(hid_t file, size_t n, FILE *out, wt_error *err)
 {
     (void)file;
     (void)n;
-    /* Steps that leave the address sanitizer room for its report, without which it waits for ever.
-     */
+    /* The steps leave space for the report of the address sanitizer, which would wait forever
+     * without it. */
     const size_t step = (size_t)24 << 20;
     for (int i = 0; i < 100; i++) {
         char *const more = malloc(step);
@@ -162,7 +163,7 @@ static wt_status swells(hid_t file, size_t n, FILE *out, wt_error *err)
     return WT_OK;
 }
 
-/* A status and texts that are none. */
+/* Invalid status and texts. */
 static wt_status lies(hid_t file, size_t n, FILE *out, wt_error *err)
 {
     (void)file;
@@ -185,7 +186,7 @@ static wt_status opens(hid_t file, size_t n, FILE *out, wt_error *err)
     return WT_OK;
 }
 
-static void every_end(void **state)
+static void every_exit_is_an_error(void **state)
 {
     (void)state;
     char *answer = NULL;
@@ -240,7 +241,7 @@ static void not_hdf5(void **state)
         WT_E_CORRUPT);
 }
 
-/* ---- the program around it ------------------------------------------------------------------- */
+/* ---- effects on the program ------------------------------------------------------------------ */
 
 static volatile sig_atomic_t handled;
 
@@ -257,7 +258,7 @@ static void take_all(int number)
         handled++;
 }
 
-static void of_the_program(void **state)
+static void callers_children_are_unaffected(void **state)
 {
     (void)state;
     char *answer = NULL;
@@ -283,7 +284,7 @@ static void of_the_program(void **state)
     }
 }
 
-/* While other threads take memory and print. */
+/* Other threads allocate and print meanwhile. */
 static volatile bool busy = true;
 
 static void *work(void *unused)
@@ -316,8 +317,8 @@ static void with_threads(void **state)
 {
     (void)state;
     enum { READERS = 3 };
-    if (WATCHED) /* its allocator may be locked by another thread at the fork, and hangs the child
-                  */
+    /* another thread may have locked its allocator at the fork, which blocks the child */
+    if (WITH_ADDRESS_SANITIZER)
         skip();
     pthread_t worker, readers[READERS];
     int failures[READERS] = {0};
@@ -335,8 +336,10 @@ static void with_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_end),    cmocka_unit_test(every_limit),
-        cmocka_unit_test(not_hdf5),     cmocka_unit_test(of_the_program),
+        cmocka_unit_test(every_exit_is_an_error),
+        cmocka_unit_test(every_limit),
+        cmocka_unit_test(not_hdf5),
+        cmocka_unit_test(callers_children_are_unaffected),
         cmocka_unit_test(with_threads),
     };
     return cmocka_run_group_tests_name("hdf5 door", tests, set_up, clean);

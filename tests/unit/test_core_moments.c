@@ -1,6 +1,6 @@
-/* Mean and variance as all intervals of means take them. SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* Mean and variance as used by all intervals of means.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "core/math/students_t.h"
 
@@ -17,7 +17,7 @@ static void known(void **state)
     assert_near(two.variance, 2, 1e-15);
 }
 
-/* Of one there is no scatter, which is not none. */
+/* The scatter of one value is unknown, not zero. */
 static void few(void **state)
 {
     (void)state;

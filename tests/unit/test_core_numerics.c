@@ -1,9 +1,9 @@
-/* Halves, golden sections, small equations and the moduli of a series: known answers.
+/* Bisection, golden section, small equations and moduli of a series: known values.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "core/math/cholesky.h"
 #include "core/math/root.h"
 #include "dma/law/prony_law.h"
-#include "near.h"
 
 #include <float.h>
 #include <math.h>
@@ -17,10 +17,10 @@ static bool below_root_two(double x, void *user)
 static bool below_step(double x, void *user)
 {
     (void)user;
-    return x < 0.3; /* a jump, and no value beyond */
+    return x < 0.3; /* a jump, and no value beyond it */
 }
 
-static void test_halves(void **state)
+static void test_bisection(void **state)
 {
     (void)state;
     int calls = 0;
@@ -31,7 +31,7 @@ static void test_halves(void **state)
     assert_true(low < M_SQRT2 && high > M_SQRT2);
     root_bisect(below_root_two, &calls, &low, &high, 1e-6, 1000);
     assert_true(high - low <= 2e-6 && high - low > 0.4e-6);
-    root_bisect(below_root_two, &calls, &low, &high, 0, 1000); /* ends by itself */
+    root_bisect(below_root_two, &calls, &low, &high, 0, 1000); /* terminates */
     assert_true(low * low < 2 && high == nextafter(low, 2));
     low = -1;
     high = 1;
@@ -48,17 +48,17 @@ static double sine(double x, void *user)
 static void test_maximum(void **state)
 {
     (void)state;
-    /* the top is flat to the root of what a double tells */
+    /* the maximum is flat to the square root of the rounding error */
     assert_near(root_maximum(sine, NULL, 0, 3, 60), M_PI / 2, 3e-8);
     const double coarse = root_maximum(sine, NULL, 0, 3, 10);
     assert_true(fabs(coarse - M_PI / 2) < 3 * pow(0.618034, 10) && coarse != M_PI / 2);
-    assert_near(root_maximum(sine, NULL, 0, 1, 60), 1, 1e-12); /* at an end */
+    assert_near(root_maximum(sine, NULL, 0, 1, 60), 1, 1e-12); /* at a limit */
 }
 
 static void test_equations(void **state)
 {
     (void)state;
-    /* 4 2 .5; 2 5 1; .5 1 3 times 1 -2 3; the last column is room */
+    /* 4 2 .5; 2 5 1; .5 1 3 times 1 -2 3; the last column is spare */
     double a[3][4] = {{4, 9e9, 9e9, 9e9}, {2, 5, 9e9, 9e9}, {0.5, 1, 3, 9e9}},
            x[3] = {1.5, -5, 7.5};
     assert_true(cholesky_solve(&a[0][0], 4, 3, 0, x));
@@ -89,7 +89,7 @@ static void test_series(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_halves), cmocka_unit_test(test_maximum),
+        cmocka_unit_test(test_bisection), cmocka_unit_test(test_maximum),
         cmocka_unit_test(test_equations), cmocka_unit_test(test_series)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* Work on several threads. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/core.h"
 
 #include <stdatomic.h>
@@ -38,7 +38,7 @@ static void same_result_for_any_number(void **state)
         static scratch many;
         memset(&many, 0, sizeof many);
         many.threads = threads;
-        /* The error of the lowest item, and all items are run. */
+        /* Returns the error of the lowest item after all items have run. */
         assert_int_equal(wt_parallel_for(N, threads, body, &many, NULL, NULL), WT_E_CORRUPT);
         assert_memory_equal(one.results, many.results, sizeof one.results);
         for (size_t i = 0; i < N; i++)
@@ -95,7 +95,7 @@ static void cancelled(void **state)
         const wt_progress p = {tell, &t};
         assert_int_equal(wt_parallel_for(N, threads, nothing, &runs, &p, "items"), WT_E_CANCELLED);
         assert_int_equal(t.calls, 10);
-        /* What was begun is finished, nothing new is begun. */
+        /* Started items are finished, and no new one starts. */
         assert_true((unsigned)atomic_load(&runs) <= 10 + threads);
     }
 }

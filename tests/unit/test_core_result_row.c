@@ -1,7 +1,7 @@
 /* How the rows of a result print their numbers.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/table/registry.h"
 #include "core/table/result_row.h"
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Digits of the first number of a text, without leading zeros. */
+/* Number of digits of the first number in a text, without leading zeros. */
 static size_t significant_digits(const char *text)
 {
     size_t n = 0;
@@ -23,7 +23,7 @@ static size_t significant_digits(const char *text)
     return n;
 }
 
-/* The number of a text in SI units, by the prefix of its unit or else that of `like`. */
+/* Number of a text in SI units, by the prefix of its unit or else that of `like`. */
 static double number_of(const char *text, const char *like)
 {
     static const struct {
@@ -40,8 +40,8 @@ static double number_of(const char *text, const char *like)
     return number;
 }
 
-/* Whatever the width of the interval: three digits at least, each number within half a unit of the
- * third digit, and limits that differ do not print alike. */
+/* For any width of the interval: at least three digits, each number within half a unit of the third
+ * digit, and different limits print differently. */
 static void test_intervals_of_every_width(void **state)
 {
     (void)state;
@@ -99,7 +99,7 @@ static void test_forms(void **state)
     }
 }
 
-/* A result without a table that has rows has none. */
+/* A result without a table with rows has no rows. */
 static void test_no_rows(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
-/* The abstract of a result file: what headlines are made of, without HDF5, and never older than
- * the file. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+/* Summary of a result file: the tables of main values, read without HDF5, never older than the
+ * file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "core/store/store.h"
 
@@ -15,8 +16,8 @@
 
 static char path[] = "/tmp/weartrack-abstract-XXXXXX";
 enum {
-    END = 16,               /* bytes behind an abstract: its length, its mark */
-    SET = STORE_DIGEST_SIZE /* its last ones: the names of the tables it is made of */
+    END = 16,               /* bytes after a summary: its length and mark */
+    SET = STORE_DIGEST_SIZE /* its last bytes: the names of its tables */
 };
 
 static int set_up(void **state)
@@ -50,7 +51,7 @@ static void add_table(wt_result *result, const char *name, size_t n_rows)
     assert_int_equal(wt_result_add(result, t, NULL), WT_OK);
 }
 
-/* Writes the file anew and gives its size. */
+/* Writes the file again and returns its size. */
 static size_t write_result(void)
 {
     struct stat info;
@@ -88,7 +89,7 @@ static uint64_t length_of_abstract(size_t size)
     return le64toh(length);
 }
 
-/* WT_END: it has none. */
+/* Returns WT_END if there is none. */
 static wt_status read_abstract(wt_result **read, wt_error *err)
 {
     struct stat info;
@@ -118,8 +119,8 @@ static void assert_whole(void)
     wt_result_free(read);
 }
 
-/* The tables with their keys; of those that are headlines by their keys alone, no rows. */
-static void what_headlines_need(void **state)
+/* The tables with their keys; tables of main values with keys only have no rows. */
+static void main_values_are_readable(void **state)
 {
     (void)state;
     wt_result *all = NULL, *read = NULL;
@@ -152,9 +153,9 @@ static void what_headlines_need(void **state)
     assert_whole();
 }
 
-/* Each changed byte is noticed, or the file is read as one without an abstract: what is read by
- * HDF5 does not hang on it. */
-static void every_byte(void **state)
+/* Each changed byte is detected, or the file is read as one without a summary. Reading by HDF5 does
+ * not depend on it. */
+static void changed_bytes_are_detected(void **state)
 {
     (void)state;
     wt_error err;
@@ -175,8 +176,8 @@ static void every_byte(void **state)
     assert_whole();
 }
 
-/* With an abstract and without one the same tables have the same keys. */
-static void by_both_ways(void **state)
+/* With and without a summary the same tables have the same keys. */
+static void same_as_by_hdf5(void **state)
 {
     (void)state;
     const size_t size = write_result();
@@ -200,7 +201,7 @@ static void by_both_ways(void **state)
     wt_result_free(by[1]);
 }
 
-/* One of another set of tables is not used: what is not in it would be missing without a word. */
+/* A summary with another set of tables is not used, because missing tables would go unnoticed. */
 static void other_tables(void **state)
 {
     (void)state;
@@ -219,8 +220,8 @@ static void other_tables(void **state)
     assert_int_equal(strlen(now), STORE_DIGEST_SIZE - 1);
 }
 
-/* A program that opens the file for writing, even one that changes nothing, takes it away. */
-static void not_older_than_the_file(void **state)
+/* A program that opens the file for writing removes the summary, even without changes. */
+static void modified_file_has_no_summary(void **state)
 {
     (void)state;
     wt_error err;
@@ -249,7 +250,7 @@ static void put_count(FILE *out, uint64_t n)
     assert_int_equal(fwrite(&low_first, sizeof low_first, 1, out), 1);
 }
 
-/* Writes a file whose abstract says that a table of many columns has as many rows as bytes. */
+/* Writes a file whose summary states a table of many columns with as many rows as bytes. */
 static void put_bomb(size_t n_columns, size_t n_filler)
 {
     char set[STORE_DIGEST_SIZE];
@@ -280,9 +281,9 @@ static void put_bomb(size_t n_columns, size_t n_filler)
     assert_int_equal(fclose(out), 0);
 }
 
-/* A made abstract is refused before it takes memory that is not in proportion to its bytes: 2000
+/* A crafted summary is refused before it allocates memory out of proportion to its bytes: 2000
  * columns with a row for each of 100,000 bytes are 1.6 GB. */
-static void no_bomb(void **state)
+static void memory_is_proportional_to_file(void **state)
 {
     (void)state;
     wt_error err;
@@ -306,7 +307,7 @@ static void put_file(const void *begin, size_t n_begin, uint64_t length)
     assert_int_equal(fclose(file), 0);
 }
 
-/* Lengths that are none, and a text that ends as an abstract does. */
+/* Invalid lengths, and a text that ends like a summary. */
 static void made_files(void **state)
 {
     (void)state;
@@ -317,7 +318,7 @@ static void made_files(void **state)
         put_file(begin, sizeof begin, none[i]);
         assert_int_equal(try_abstract(&err), WT_END);
     }
-    /* Longer than any may be, in a file that takes no room. */
+    /* Longer than any summary, in a sparse file. */
     put_file(begin, sizeof begin, (uint64_t)1 << 40);
     FILE *const file = fopen(path, "r+b");
     const uint64_t length = htole64((uint64_t)1 << 30);
@@ -331,7 +332,7 @@ static void made_files(void **state)
     assert_int_equal(try_abstract(&err), WT_END);
     begin[0] = '#';
     put_file(begin, sizeof begin, sizeof begin);
-    /* Of what is no HDF5 file nothing is read, whatever its end. */
+    /* A file that is not HDF5 is not read, whatever its end. */
     wt_result *read = NULL;
     assert_int_equal(wt_store_read_main_values(path, &read, &err), WT_E_FORMAT);
     assert_string_equal(err.file, path);
@@ -342,10 +343,12 @@ static void made_files(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_headlines_need), cmocka_unit_test(every_byte),
-        cmocka_unit_test(by_both_ways),        cmocka_unit_test(not_older_than_the_file),
-        cmocka_unit_test(other_tables),        cmocka_unit_test(no_bomb),
-        cmocka_unit_test(made_files)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(main_values_are_readable),
+                                       cmocka_unit_test(changed_bytes_are_detected),
+                                       cmocka_unit_test(same_as_by_hdf5),
+                                       cmocka_unit_test(modified_file_has_no_summary),
+                                       cmocka_unit_test(other_tables),
+                                       cmocka_unit_test(memory_is_proportional_to_file),
+                                       cmocka_unit_test(made_files)};
     return cmocka_run_group_tests_name("abstract of a result", tests, set_up, clean);
 }

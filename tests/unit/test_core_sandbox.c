@@ -1,6 +1,7 @@
-/* The process behind a door can read and answer: every other call that a made file could have it do
- * is stopped before it is done, and named. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+/* A process in the sandbox can read and answer. Every other system call of a malicious file is
+ * stopped before its execution and named.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "core/base/memory.h"
 #include "core/system/sandbox.h"
@@ -44,7 +45,7 @@ static int clean(void **state)
     return unlink(victim);
 }
 
-/* ---- what must not be ------------------------------------------------------------------------ */
+/* ---- forbidden calls ------------------------------------------------------------------------- */
 
 static long forks(void)
 {
@@ -161,8 +162,8 @@ static long takes_another_filter(void)
     return syscall(SYS_seccomp, SECCOMP_SET_MODE_STRICT, 0, NULL);
 }
 
-/* Each with its name in the message, of one of the ways in which a C library does it; it holds back
- * all signals while it makes a process. */
+/* Each call has its name in the message, in one of the variants of C libraries. The library blocks
+ * all signals while it creates a process. */
 static const struct {
     long (*deed)(void);
     const char *calls[3];
@@ -191,17 +192,17 @@ static const struct {
     {takes_another_filter, {"seccomp"}},
 };
 
-static wt_status does(const sandbox_call *door, FILE *answer, wt_error *err)
+static wt_status attempts(const sandbox_call *call, FILE *answer, wt_error *err)
 {
-    long (*const *deed)(void) = door->with;
+    long (*const *deed)(void) = call->with;
     (void)err;
     (void)fprintf(answer, "%ld", (*deed)());
     return WT_OK;
 }
 
-/* A door with a file that may be written, as a mistake might leave it. */
-static sandbox_call door_to(wt_status (*reading)(const sandbox_call *, FILE *, wt_error *),
-                            const void *with, int file)
+/* A sandbox with a writable file, as an error might leave it. */
+static sandbox_call sandbox_call_for(wt_status (*reading)(const sandbox_call *, FILE *, wt_error *),
+                                     const void *with, int file)
 {
     return (sandbox_call){.what = "made", .reading = reading, .with = with, .file = file};
 }
@@ -222,7 +223,7 @@ static bool names_one(const char *message, const char *const calls[3])
     return false;
 }
 
-static void nothing_but_reading(void **state)
+static void other_system_calls_are_stopped(void **state)
 {
     (void)state;
     (void)signal(SIGUSR1, note_signal);
@@ -232,8 +233,8 @@ static void nothing_but_reading(void **state)
         struct stat after;
         wt_error err = WT_ERROR_INIT;
         const int fd = open(victim, O_RDWR | O_CLOEXEC);
-        const sandbox_call door = door_to(does, &forbidden[which].deed, fd);
-        const wt_status status = sandbox_read(&door, &usual, &answer, &length, &err);
+        const sandbox_call call = sandbox_call_for(attempts, &forbidden[which].deed, fd);
+        const wt_status status = sandbox_read(&call, &usual, &answer, &length, &err);
         if (status != WT_E_CORRUPT || !names_one(err.message, forbidden[which].calls))
             fail_msg("%s: %d, \"%s\", answer \"%.*s\"", forbidden[which].calls[0], (int)status,
                      err.message, (int)length, answer != NULL ? answer : "");
@@ -248,12 +249,12 @@ static void nothing_but_reading(void **state)
     (void)signal(SIGUSR1, SIG_DFL);
 }
 
-/* ---- what may be ----------------------------------------------------------------------------- */
+/* ---- permitted calls ------------------------------------------------------------------------- */
 
-static wt_status looks(const sandbox_call *door, FILE *answer, wt_error *err)
+static wt_status reads_only(const sandbox_call *call, FILE *answer, wt_error *err)
 {
     struct stat there;
-    (void)door;
+    (void)call;
     (void)err;
     const int got = open("/etc/passwd", O_RDONLY), number = errno;
     (void)fprintf(answer, "%d %d %d %d %d.", got < 0, number == EACCES, access(victim, F_OK) < 0,
@@ -262,71 +263,72 @@ static wt_status looks(const sandbox_call *door, FILE *answer, wt_error *err)
     return WT_OK;
 }
 
-static wt_status ends_itself(const sandbox_call *door, FILE *answer, wt_error *err)
+static wt_status aborts(const sandbox_call *call, FILE *answer, wt_error *err)
 {
-    (void)door;
+    (void)call;
     (void)answer;
     (void)err;
     abort();
 }
 
-/* As the scanner of UDUNITS does where it gets no memory. */
-static wt_status exits(const sandbox_call *door, FILE *answer, wt_error *err)
+/* Like the scanner of UDUNITS when an allocation fails. */
+static wt_status exits(const sandbox_call *call, FILE *answer, wt_error *err)
 {
-    (void)door;
+    (void)call;
     (void)answer;
     (void)err;
     _exit(2);
 }
 
-/* A unit is taken for an unknown one for want of memory, and reading goes on without it. */
-static wt_status goes_without(const sandbox_call *door, FILE *answer, wt_error *err)
+/* For lack of memory a unit is treated as unknown, and the reading continues without it. */
+static wt_status continues_without_memory(const sandbox_call *call, FILE *answer, wt_error *err)
 {
-    (void)door;
+    (void)call;
     (void)answer;
     (void)err;
     resource_error_note(ENOMEM);
     return WT_OK;
 }
 
-/* The file is not to blame, and nothing of it is left out in silence. */
+/* The error is not of the file, and no part of it is silently omitted. */
 static void memory_runs_out(void **state)
 {
     (void)state;
-    wt_status (*const readings[])(const sandbox_call *, FILE *, wt_error *) = {exits, goes_without};
+    wt_status (*const readings[])(const sandbox_call *, FILE *,
+                                  wt_error *) = {exits, continues_without_memory};
     for (size_t i = 0; i < sizeof readings / sizeof *readings; i++) {
         char *answer = NULL;
         size_t length = 0;
         wt_error err = WT_ERROR_INIT;
-        const sandbox_call door = door_to(readings[i], NULL, -1);
-        assert_int_equal(sandbox_read(&door, &usual, &answer, &length, &err), WT_E_MEMORY);
+        const sandbox_call call = sandbox_call_for(readings[i], NULL, -1);
+        assert_int_equal(sandbox_read(&call, &usual, &answer, &length, &err), WT_E_MEMORY);
         assert_string_equal(err.message, "reading the made file takes more than 64 MiB of memory");
         assert_null(answer);
     }
 }
 
-static void reading_goes_on(void **state)
+static void reading_continues(void **state)
 {
     (void)state;
     char *answer = NULL;
     size_t length = 0;
     wt_error err = WT_ERROR_INIT;
     const int fd = open(victim, O_RDONLY | O_CLOEXEC);
-    sandbox_call door = door_to(looks, NULL, fd);
-    assert_int_equal(sandbox_read(&door, &usual, &answer, &length, &err), WT_OK);
+    sandbox_call call = sandbox_call_for(reads_only, NULL, fd);
+    assert_int_equal(sandbox_read(&call, &usual, &answer, &length, &err), WT_OK);
     assert_memory_equal(answer, "1 1 1 1 1.", length);
     free(answer);
     answer = NULL;
-    door = door_to(ends_itself, NULL, fd);
-    assert_int_equal(sandbox_read(&door, &usual, &answer, &length, &err), WT_E_CORRUPT);
+    call = sandbox_call_for(aborts, NULL, fd);
+    assert_int_equal(sandbox_read(&call, &usual, &answer, &length, &err), WT_E_CORRUPT);
     assert_non_null(strstr(err.message, "SIGABRT"));
     assert_int_equal(close(fd), 0);
     assert_null(wt_sandbox_limitations());
 }
 
-/* ---- systems that do not let it -------------------------------------------------------------- */
+/* ---- systems without filters ----------------------------------------------------------------- */
 
-/* As a container does that refuses filters: errno of every try is EPERM. */
+/* Like a container that refuses filters: errno of every attempt is EPERM. */
 static bool refuse_filters(void)
 {
     struct sock_filter steps[] = {
@@ -343,7 +345,7 @@ static bool refuse_filters(void)
            prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-/* Runs it in a process of its own, which it changes; 0 if it held there. */
+/* Runs in its own process, which it changes; returns 0 on success there. */
 static int apart(bool (*holds)(int file))
 {
     int state = -1;
@@ -359,13 +361,14 @@ static bool without_filter(int file)
 {
     char *answer = NULL;
     size_t length = 0;
-    const sandbox_call door = door_to(looks, NULL, file);
-    return refuse_filters() && sandbox_read(&door, &usual, &answer, &length, NULL) == WT_OK &&
+    const sandbox_call call = sandbox_call_for(reads_only, NULL, file);
+    return refuse_filters() && sandbox_read(&call, &usual, &answer, &length, NULL) == WT_OK &&
            answer[0] == '1' && wt_sandbox_limitations() != NULL &&
            strstr(wt_sandbox_limitations(), "seccomp") != NULL;
 }
 
-/* Either it is read or it is said that too few files may be open: never that the file is bad. */
+/* The file is read, or the message states that too few files may be open; never that the file is
+ * corrupted. */
 static bool with_few_files(int file)
 {
     bool good = true, read_once = false, refused_once = false;
@@ -374,9 +377,9 @@ static bool with_few_files(int file)
         char *answer = NULL;
         size_t length = 0;
         wt_error err = WT_ERROR_INIT;
-        const sandbox_call door = door_to(looks, NULL, file);
+        const sandbox_call call = sandbox_call_for(reads_only, NULL, file);
         good = setrlimit(RLIMIT_NOFILE, &few) == 0;
-        const wt_status status = sandbox_read(&door, &usual, &answer, &length, &err);
+        const wt_status status = sandbox_read(&call, &usual, &answer, &length, &err);
         read_once |= status == WT_OK;
         refused_once |= status == WT_E_IO;
         good = good &&
@@ -386,7 +389,7 @@ static bool with_few_files(int file)
     return good && read_once && refused_once;
 }
 
-static void of_the_system(void **state)
+static void filter_refused_by_system(void **state)
 {
     (void)state;
     assert_int_equal(apart(without_filter), 0);
@@ -396,10 +399,10 @@ static void of_the_system(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_but_reading),
-        cmocka_unit_test(reading_goes_on),
+        cmocka_unit_test(other_system_calls_are_stopped),
+        cmocka_unit_test(reading_continues),
         cmocka_unit_test(memory_runs_out),
-        cmocka_unit_test(of_the_system),
+        cmocka_unit_test(filter_refused_by_system),
     };
     return cmocka_run_group_tests_name("door", tests, set_up, clean);
 }

@@ -1,6 +1,6 @@
-/* The HDF5 store: round trip, same bytes, damaged files. SPDX-License-Identifier:
- * GPL-3.0-or-later */
-#include "near.h"
+/* The HDF5 store: round trip, same bytes, corrupted files.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "weartrack/core.h"
 
 #include <hdf5.h>
@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* HDF5 1.10 loses an object header when it gives up on a damaged file. */
+/* HDF5 1.10 leaks an object header when it rejects a corrupted file. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {
@@ -76,7 +76,7 @@ static wt_result *make_result(void)
     return result;
 }
 
-/* The text stream of a table says all there is in it. */
+/* The text stream contains everything in a table. */
 static char *text_of(const wt_table *t)
 {
     char *text = NULL;
@@ -126,7 +126,7 @@ static void write_bytes(const char *path, const unsigned char *bytes, size_t siz
     assert_int_equal(fclose(out), 0);
 }
 
-/* A block that was begun last and got no row is not in the file, nor in its digest. */
+/* A block without a row at the end is neither in the file nor in its digest. */
 static void block_without_rows(void **state)
 {
     (void)state;
@@ -151,7 +151,7 @@ static void block_without_rows(void **state)
     wt_result_free(result);
 }
 
-/* Of the first layout, which had one digest of all tables, as text: refused, with a way out. */
+/* Files of the first layout had one digest of all tables as text: refused, with advice. */
 static void first_layout(void **state)
 {
     (void)state;
@@ -167,7 +167,7 @@ static void first_layout(void **state)
     free(bytes);
 }
 
-/* Where the file ends for HDF5, as it says itself; behind that its abstract follows. */
+/* End of the file as stated by HDF5; the summary follows it. */
 static size_t end_of_hdf5(const unsigned char *bytes, size_t size)
 {
     uint64_t end = 0;
@@ -179,7 +179,7 @@ static size_t end_of_hdf5(const unsigned char *bytes, size_t size)
     return (size_t)end;
 }
 
-/* Where the abstract begins, as it says itself, too. */
+/* Start of the summary, as it states itself. */
 static size_t begin_of_abstract(const unsigned char *bytes, size_t size)
 {
     uint64_t length = 0;
@@ -188,7 +188,7 @@ static size_t begin_of_abstract(const unsigned char *bytes, size_t size)
     return size - 16 - (size_t)length;
 }
 
-/* What headlines are made of is read alone, and checked, by HDF5 where the abstract is cut off. */
+/* The main values are read alone and verified, by HDF5 if the summary is missing. */
 static void headlines(void **state)
 {
     (void)state;
@@ -274,8 +274,8 @@ static void same_bytes(void **state)
     free(b);
 }
 
-/* The length that the file says of itself (HDF5 File Format Specification, superblock version 2:
- * bytes 28 to 35) is its length. */
+/* The stated length of the file (HDF5 File Format Specification, superblock version 2: bytes 28 to
+ * 35) is its length. */
 static void length_is_right(void **state)
 {
     (void)state;
@@ -312,8 +312,8 @@ static void empty_result(void **state)
     wt_result_free(result);
 }
 
-/* What other programs see: SI units and words on every column. */
-static void as_others_see_it(void **state)
+/* Other programs see SI units and texts on every column. */
+static void layout_for_other_programs(void **state)
 {
     (void)state;
     char path[256];
@@ -368,7 +368,7 @@ static void not_a_store(void **state)
     check_refused(path, WT_E_FORMAT);
 }
 
-static void cut_files(void **state)
+static void truncated_files(void **state)
 {
     (void)state;
     char path[256], cut_path[256];
@@ -385,7 +385,7 @@ static void cut_files(void **state)
         assert_int_not_equal(wt_store_read(cut_path, &read, NULL), WT_OK);
         assert_null(read);
     }
-    /* Without all of its abstract it says what it said. */
+    /* Without its complete summary the file has the same tables. */
     for (size_t cut = end; cut <= size; cut += (size - end) / 8) {
         write_bytes(cut_path, bytes, cut);
         wt_result *read = NULL;
@@ -397,7 +397,7 @@ static void cut_files(void **state)
     wt_result_free(result);
 }
 
-/* A flipped bit may go unnoticed only where it changes nothing. */
+/* A flipped bit may be undetected only if it changes nothing. */
 static void flipped_values(void **state)
 {
     (void)state;
@@ -433,8 +433,8 @@ static void flipped_values(void **state)
     wt_result_free(result);
 }
 
-/* A link that leads to another file is not followed. */
-static void outside_links(void **state)
+/* A link to another file is not followed. */
+static void external_links(void **state)
 {
     (void)state;
     char path[256], linked[256];
@@ -453,7 +453,7 @@ static void outside_links(void **state)
 }
 
 /* Blocks begin with 0, also in a table of one row. */
-static void odd_block(void **state)
+static void unexpected_block(void **state)
 {
     (void)state;
     char path[256];
@@ -475,7 +475,7 @@ static void odd_block(void **state)
     wt_result_free(result);
 }
 
-/* Replaces the column "modulus" of the one table by something else. */
+/* Replaces the column "modulus" of the table. */
 static void replace_column(const char *path, const wt_result *result, hid_t type, hsize_t n,
                            bool chunked)
 {
@@ -495,7 +495,7 @@ static void replace_column(const char *path, const wt_result *result, hid_t type
     (void)H5Fclose(file);
 }
 
-static void odd_columns(void **state)
+static void unexpected_columns(void **state)
 {
     (void)state;
     char path[256];
@@ -525,7 +525,7 @@ static void cannot_write(void **state)
     assert_string_equal(err.file, path);
     if (access("/dev/full", W_OK) == 0)
         assert_int_equal(wt_store_write("/dev/full", result, false, &err), WT_E_IO);
-    /* As on a full disk. */
+    /* Like a full disk. */
     struct rlimit before, small;
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
     small = before;
@@ -575,20 +575,28 @@ static int remove_folder(void **state)
     for (size_t i = 0; i < n; i++)
         (void)unlink(paths[i]);
     wt_strings_free(paths, n);
-    return rmdir(folder); /* fails if a temporary file was left */
+    return rmdir(folder); /* fails if a temporary file is left */
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(round_trip),         cmocka_unit_test(same_bytes),
-        cmocka_unit_test(length_is_right),    cmocka_unit_test(empty_result),
-        cmocka_unit_test(as_others_see_it),   cmocka_unit_test(not_a_store),
-        cmocka_unit_test(cut_files),          cmocka_unit_test(flipped_values),
-        cmocka_unit_test(outside_links),      cmocka_unit_test(odd_block),
-        cmocka_unit_test(odd_columns),        cmocka_unit_test(cannot_write),
-        cmocka_unit_test(names_that_collide), cmocka_unit_test(block_without_rows),
-        cmocka_unit_test(first_layout),       cmocka_unit_test(headlines),
+        cmocka_unit_test(round_trip),
+        cmocka_unit_test(same_bytes),
+        cmocka_unit_test(length_is_right),
+        cmocka_unit_test(empty_result),
+        cmocka_unit_test(layout_for_other_programs),
+        cmocka_unit_test(not_a_store),
+        cmocka_unit_test(truncated_files),
+        cmocka_unit_test(flipped_values),
+        cmocka_unit_test(external_links),
+        cmocka_unit_test(unexpected_block),
+        cmocka_unit_test(unexpected_columns),
+        cmocka_unit_test(cannot_write),
+        cmocka_unit_test(names_that_collide),
+        cmocka_unit_test(block_without_rows),
+        cmocka_unit_test(first_layout),
+        cmocka_unit_test(headlines),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

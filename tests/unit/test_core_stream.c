@@ -1,5 +1,6 @@
-/* The text stream: round trip, and what is refused. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+/* The text stream: round trip, and refused texts.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "status_name.h"
 #include "weartrack/core.h"
 
@@ -180,7 +181,7 @@ static void several_tables(void **state)
     wt_table_free(t);
 }
 
-static void by_hand(void **state)
+static void handwritten_stream(void **state)
 {
     (void)state;
     wt_table *t = NULL;
@@ -230,7 +231,7 @@ static void refused(void **state)
         {"# a[text]\n\\x00\n", "line 2, column 1 (a)"},
         {"# a[text]\n\\x4", "line 2, column 1 (a)"},
         {"# a[text]\n\xFF\n", "line 2"},
-        /* A program that failed half-way. */
+        /* A program that failed midway. */
         {"## table: x\n# a[m]\n1\n", "line 3 of table x"},
         {"## table: x\n", "line 1 of table x"},
         {"## e: 1 standard_error=0 numerical_error=0 unit=1\n## e_units: 1\n# a[m]\n", "line 2"},
@@ -249,7 +250,7 @@ static void refused(void **state)
     }
 }
 
-static void any_cut_and_any_byte(void **state)
+static void truncated_and_changed_streams(void **state)
 {
     (void)state;
     wt_table *const t = make_table();
@@ -261,7 +262,7 @@ static void any_cut_and_any_byte(void **state)
         memcpy(copy, text, length);
         copy[cut] = '\0';
         wt_table *read = NULL;
-        assert_int_not_equal(read_text(copy, &read, NULL), WT_OK); /* never half a table */
+        assert_int_not_equal(read_text(copy, &read, NULL), WT_OK); /* never a partial table */
         assert_null(read);
     }
     for (size_t i = 0; i < length; i++) {
@@ -295,7 +296,7 @@ static void full_disk(void **state)
     wt_table_free(t);
 }
 
-/* Nothing is written of what could not be read back. */
+/* A table that could not be read back is not written. */
 static void no_table(void **state)
 {
     (void)state;
@@ -341,8 +342,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(round_trip),     cmocka_unit_test(exact_text),
-        cmocka_unit_test(several_tables), cmocka_unit_test(by_hand),
-        cmocka_unit_test(refused),        cmocka_unit_test(any_cut_and_any_byte),
+        cmocka_unit_test(several_tables), cmocka_unit_test(handwritten_stream),
+        cmocka_unit_test(refused),        cmocka_unit_test(truncated_and_changed_streams),
         cmocka_unit_test(full_disk),      cmocka_unit_test(foreign_locale),
         cmocka_unit_test(no_table),
     };

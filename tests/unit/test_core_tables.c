@@ -1,7 +1,7 @@
-/* The declarations of the tables hold together; the writer puts what they say and nothing else, and
- * keeps its first failure; a table is read by them or refused by name.
+/* The declarations of the tables are consistent. The writer writes only declared columns and keeps
+ * its first failure. A table is read by its declaration or refused by name.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/table/registry.h"
 #include "core/table/table.h"
@@ -15,7 +15,7 @@ static bool ends_in(const char *text, char c)
     return text[0] != '\0' && text[strlen(text) - 1] == c;
 }
 
-/* A unit that a table takes, with the quantity it is that of. */
+/* Unit that a table accepts, with its quantity. */
 static void check_unit(const char *unit, const char *own, wt_quantity quantity)
 {
     wt_table *table = wt_table_new("units", "");
@@ -29,7 +29,7 @@ static void check_unit(const char *unit, const char *own, wt_quantity quantity)
     assert_near(offset, 0, 0);
 }
 
-/* A column of errors is called after its value and has its unit. */
+/* A column of errors has the name of its value and its unit. */
 static void check_errors(const table_schema *s, const schema_field *c)
 {
     const struct {
@@ -62,7 +62,7 @@ static void check_columns(const table_schema *s)
     }
 }
 
-/* The names also of the other parts of an estimate in a store are all different. */
+/* The names of all parts of an estimate in a stored file are different. */
 static void check_keys(const table_schema *s)
 {
     wt_table *table = wt_table_new("keys", "");
@@ -98,7 +98,7 @@ static void test_declarations(void **state)
     }
 }
 
-/* The example of weartrack-stream(5) is one: its columns are those of the table it names. */
+/* The example in weartrack-stream(5) is valid: its columns are those of the named table. */
 static void test_example(void **state)
 {
     (void)state;
@@ -177,7 +177,7 @@ static void test_written(void **state)
     wt_table_free(table);
 }
 
-/* What the writer refuses, and that it names what is wrong. */
+/* Input that the writer refuses, with the name of the fault. */
 typedef enum wrong { NO_CELL, NO_KEY, OTHER_TABLE, TEXT_IN_NUMBER, LEFT_OUT } wrong;
 
 static void check_refused(wrong what, const char *named)
@@ -200,7 +200,7 @@ static void check_refused(wrong what, const char *named)
         set_prony_keys(&t);
     const size_t rows = wt_table_n_rows(t.table);
     const wt_status status = t.status;
-    put_prony_row(&t); /* nothing after the first failure */
+    put_prony_row(&t); /* nothing is written after the first failure */
     if (status != WT_OK)
         assert_int_equal(wt_table_n_rows(t.table), rows);
     assert_int_equal(table_end(&t, &none), WT_E_INTERNAL);
@@ -220,7 +220,7 @@ static void test_refused(void **state)
     check_refused(LEFT_OUT, "prony");
 }
 
-/* A table of the caller gets further rows; a name that is open is completed. */
+/* A table of the caller gets more rows; an open name is completed. */
 static void test_continued(void **state)
 {
     (void)state;
@@ -245,7 +245,7 @@ static void test_continued(void **state)
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-static void test_bound(void **state)
+static void test_read_by_declaration(void **state)
 {
     (void)state;
     wt_table *table = make_prony();
@@ -261,7 +261,7 @@ static void test_bound(void **state)
     wt_table_free(table);
 }
 
-/* A Prony table with one thing changed. */
+/* A Prony table with one change. */
 static void check_unbound(const char *column, const char *unit, const char *key, wt_status expected,
                           const char *named)
 {
@@ -284,7 +284,7 @@ static void check_unbound(const char *column, const char *unit, const char *key,
     wt_table_free(table);
 }
 
-static void test_unbound(void **state)
+static void test_refused_tables(void **state)
 {
     (void)state;
     check_unbound("modulus", "Pa", "deformation", WT_OK, "");
@@ -294,7 +294,7 @@ static void test_unbound(void **state)
     check_unbound("modulus", "Pa", "deform", WT_E_MISSING, "key \"deformation\"");
 }
 
-/* What a table written by hand may be without is NaN or "", and said to be missing. */
+/* Optional values of a table written by hand are NaN or "", and reported as missing. */
 static void test_optional(void **state)
 {
     (void)state;
@@ -321,10 +321,10 @@ static void test_optional(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_declarations), cmocka_unit_test(test_example),
-        cmocka_unit_test(test_written),      cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_continued),    cmocka_unit_test(test_bound),
-        cmocka_unit_test(test_unbound),      cmocka_unit_test(test_optional),
+        cmocka_unit_test(test_declarations),   cmocka_unit_test(test_example),
+        cmocka_unit_test(test_written),        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_continued),      cmocka_unit_test(test_read_by_declaration),
+        cmocka_unit_test(test_refused_tables), cmocka_unit_test(test_optional),
     };
     return cmocka_run_group_tests_name("data tables", tests, NULL, NULL);
 }

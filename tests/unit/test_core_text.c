@@ -1,7 +1,7 @@
 /* Errors, the parse log, numbers, paths. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "core/base/spell_suggest.h"
 #include "core/base/utf8.h"
-#include "near.h"
 #include "weartrack/core.h"
 
 #include <float.h>
@@ -36,7 +36,7 @@ static void error_parts(void **state)
     assert_int_equal(wt_error_format(&err, line, 12), strlen(expected));
     assert_string_equal(line, "a.txt: l...");
     assert_int_equal(wt_error_format(&err, NULL, 0), strlen(expected));
-    /* A new failure clears the rest, and may quote what was there. */
+    /* A new failure replaces the rest, and may quote the old text. */
     (void)wt_fail(&err, WT_E_IO, "after: %s", err.message);
     assert_string_equal(err.message, "after: the header is odd");
     assert_true(err.file[0] == '\0' && err.place[0] == '\0' && err.advice[0] == '\0');
@@ -52,7 +52,7 @@ static void error_parts(void **state)
 static void texts_are_cut_at_a_character(void **state)
 {
     (void)state;
-    /* Every phase of two-, three- and four-byte characters against the end of the buffer. */
+    /* Every position of two-, three- and four-byte characters at the end of the buffer. */
     static const char *const characters[] = {"\xC2\xB5", "\xE2\x88\x9A", "\xF0\x9D\x94\xBC"};
     for (size_t c = 0; c < 3; c++) {
         for (size_t lead = 0; lead < 4; lead++) {
@@ -110,7 +110,7 @@ static void utf8(void **state)
                  {"\xED\xA0\x80", 0},     /* surrogate */
                  {"\xF4\x90\x80\x80", 0}, /* above U+10FFFF */
                  {"\xF5\x80\x80\x80", 0},
-                 {"ab\xE2\x88", 2}, /* cut */
+                 {"ab\xE2\x88", 2}, /* truncated */
                  {"\x80", 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_int_equal(utf8_valid_length(cases[i].text, strlen(cases[i].text)), cases[i].good);
@@ -176,7 +176,7 @@ static void numbers(void **state)
     check_number("1e999", '.', false, 0);
     check_number("1e-999", '.', true, 0.0);
     double value = 7.5;
-    assert_true(wt_number_parse("12345", 3, '.', &value)); /* exactly so many bytes */
+    assert_true(wt_number_parse("12345", 3, '.', &value)); /* the exact number of bytes */
     assert_near(value, 123.0, 0.0);
     assert_false(wt_number_parse("1\0002", 3, '.', &value));
     char digits[2000];
@@ -202,7 +202,7 @@ static void check_round_trip(double value)
     assert_memory_equal(&again, &value, sizeof value);
 }
 
-/* As the C library has it. */
+/* As in the C library. */
 static void check_shortest(double value)
 {
     char text[32], expected[32];
@@ -239,7 +239,7 @@ static void shortest_numbers(void **state)
         check_shortest(-size * (double)(next_random(&seed) % 100000 + 1) / 7);
         check_shortest((double)(next_random(&seed) % 1000000 + 1) * size);
     }
-    for (int i = -120; i < 120; i++) { /* powers, and their neighbours */
+    for (int i = -120; i < 120; i++) { /* powers of two and their neighbours */
         check_shortest(ldexp(1, i));
         check_shortest(nextafter(ldexp(1, i), 0));
         check_shortest(nextafter(ldexp(1, i), 1e300));
@@ -317,7 +317,7 @@ static void foreign_locale(void **state)
     (void)wt_error_format(&err, line, sizeof line);
     assert_string_equal(line, "0.5");
     (void)snprintf(line, sizeof line, "%g", 0.5);
-    assert_string_equal(line, "0,5"); /* the program's locale is untouched */
+    assert_string_equal(line, "0,5"); /* the locale of the program is unchanged */
     (void)setlocale(LC_ALL, "C");
 }
 

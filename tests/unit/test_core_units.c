@@ -1,8 +1,8 @@
 /* Units, quantities on the command line, SI prefixes. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "core/base/memory.h"
 #include "core/base/number.h"
 #include "core/base/quantity.h"
-#include "near.h"
 #include "weartrack/core.h"
 
 #include <locale.h>
@@ -90,7 +90,7 @@ static void temperatures(void **state)
     check_refused("C", WT_Q_TEMPERATURE); /* coulomb */
 }
 
-static void frequency_is_not_angular(void **state)
+static void frequency_differs_from_angular_frequency(void **state)
 {
     (void)state;
     check_unit("kHz", WT_Q_FREQUENCY, 1e3, 0);
@@ -106,7 +106,7 @@ static void frequency_is_not_angular(void **state)
     assert_non_null(strstr(err.advice, "2 pi"));
 }
 
-/* Spellings of instruments and of people. */
+/* Spellings of instruments and users. */
 static void spellings(void **state)
 {
     (void)state;
@@ -117,7 +117,7 @@ static void spellings(void **state)
                WT_Q_PRESSURE, 1e6, 0);
     check_unit("kg/mm2", WT_Q_PRESSURE, 9.80665e6, 0);
     check_unit("kg/cm^2", WT_Q_PRESSURE, 9.80665e4, 0);
-    check_unit("kg/cm3", WT_Q_MASS_DENSITY, 1e6, 0); /* no force */
+    check_unit("kg/cm3", WT_Q_MASS_DENSITY, 1e6, 0); /* not a force */
     check_unit("\xd0\x9c\xd0\x9f\xd0\xb0", WT_Q_PRESSURE, 1e6, 0);
     check_unit("deg. C", WT_Q_TEMPERATURE, 1, 273.15);
     check_unit("g", WT_Q_FORCE, 9.80665e-3, 0);
@@ -132,7 +132,7 @@ static void wrong_units(void **state)
     check_refused("MPA", WT_Q_PRESSURE);
     check_refused("", WT_Q_PRESSURE);
     check_refused("furlongish", WT_Q_LENGTH);
-    check_refused("s", WT_Q_FREQUENCY); /* UDUNITS would take the reciprocal */
+    check_refused("s", WT_Q_FREQUENCY); /* UDUNITS would use the reciprocal */
     check_refused("Hz", WT_Q_TIME);
     check_refused("rad", WT_Q_LOSS_FACTOR);
     check_refused("deg", WT_Q_STRAIN);
@@ -155,7 +155,7 @@ static void wrong_units(void **state)
     assert_int_equal(wt_unit_to_si("Ohm", WT_Q_PRESSURE, &f, &o, NULL), WT_E_UNIT);
 }
 
-static void every_si_unit_is_itself(void **state)
+static void si_units_are_unchanged(void **state)
 {
     (void)state;
     for (size_t i = 0; i < (size_t)WT_Q_COUNT; i++) {
@@ -170,8 +170,8 @@ static void every_si_unit_is_itself(void **state)
     assert_int_equal(q, WT_Q_FORCE);
 }
 
-/* The same answer as that of UDUNITS: nobody writes brackets around a unit, so that with them it is
- * not a known one. */
+/* The same result as UDUNITS. Nobody writes brackets around a unit, so that the brackets prevent
+ * the table from recognizing it. */
 static void check_known(const char *text, wt_quantity quantity)
 {
     char asked[80];
@@ -189,7 +189,7 @@ static void check_known(const char *text, wt_quantity quantity)
         assert_near(known[i], udunits[i], 0.0);
 }
 
-static void known_as_udunits_says(void **state)
+static void table_agrees_with_udunits(void **state)
 {
     (void)state;
     /* the units of the table in unit.c */
@@ -243,7 +243,7 @@ static void quantities(void **state)
     check_parse("10rad/s", WT_Q_FREQUENCY, 1.5915494309189535);
 }
 
-/* The largest of every unit: wide of what instruments give, near enough to find a unit mistaken. */
+/* Maximum of every unit: far above the values of instruments, low enough to detect a wrong unit. */
 static void largest_of_each(void **state)
 {
     (void)state;
@@ -300,7 +300,7 @@ static void quantities_refused(void **state)
     assert_int_equal(wt_quantity_parse("0.4", WT_Q_PRESSURE, &value, &err), WT_E_UNIT);
     assert_string_equal(err.expected, "a pressure with its unit, such as 0.4MPa");
     assert_string_equal(err.found, "\"0.4\"");
-    /* What is shown as the right spelling is right. */
+    /* The suggested spelling is valid. */
     for (size_t i = 0; i < (size_t)WT_Q_COUNT; i++) {
         assert_int_equal(wt_quantity_parse("bad", (wt_quantity)i, &value, &err), WT_E_ARG);
         const char *const example = strstr(err.expected, "such as ") + 8;
@@ -328,7 +328,7 @@ static void formatted(void **state)
     check_format(999.96e3, "Pa", 3, "1.00 MPa");
     check_format(-2.5e-9, "N", 2, "-2.5 nN");
     check_format(0.0, "m", 3, "0.00 m");
-    check_format(2.385e-3, "m/s", 3, "2.38 mm/s"); /* the double is just below */
+    check_format(2.385e-3, "m/s", 3, "2.38 mm/s"); /* the double is just below it */
     check_format(7200, "s", 2, "7200 s");
     check_format(25e3, "m", 2, "25 km");
     check_format(1.5e-13, "m^2/N", 2, "1.5e-13 m^2/N");
@@ -380,7 +380,7 @@ static void several_threads(void **state)
     }
 }
 
-static void chances_in_words(void **state)
+static void probabilities_as_text(void **state)
 {
     (void)state;
     assert_string_equal(format_probability(0.0214).text, "0.021");
@@ -392,7 +392,7 @@ static void chances_in_words(void **state)
 
 /* ---- without the database -------------------------------------------------------------------- */
 
-/* The answer of a process that cannot read its units, 0 if it says all that it must. */
+/* Exit status of a process that cannot read its units; 0 if all required messages are there. */
 static int ask_without(const char *database, rlim_t files, const char *message, const char *advice)
 {
     int state = 1;
@@ -407,7 +407,7 @@ static int ask_without(const char *database, rlim_t files, const char *message, 
         good = good &&
                wt_unit_to_si("furlong", WT_Q_LENGTH, &factor, &offset, &err) == WT_E_INTERNAL &&
                strstr(err.message, message) != NULL && strstr(err.advice, advice) != NULL;
-        /* Whoever took it for an unknown unit is told at the end. */
+        /* A caller that treated it as an unknown unit gets an error at the end. */
         good = good && resource_error_finish(WT_E_FORMAT, &end) == WT_E_INTERNAL &&
                strcmp(end.message, err.message) == 0;
         _exit(good ? 0 : 1);
@@ -415,7 +415,8 @@ static int ask_without(const char *database, rlim_t files, const char *message, 
     return child > 0 && waitpid(child, &state, 0) == child ? state : -1;
 }
 
-/* Before this process has read it: what a part of the database lacks, a whole one has. */
+/* Before this process has read the database: units missing in a partial database are found in the
+ * complete one. */
 static void no_database(void **state)
 {
     (void)state;
@@ -431,18 +432,18 @@ int main(void)
         cmocka_unit_test(no_database),
         cmocka_unit_test(units_of_instruments),
         cmocka_unit_test(temperatures),
-        cmocka_unit_test(frequency_is_not_angular),
+        cmocka_unit_test(frequency_differs_from_angular_frequency),
         cmocka_unit_test(spellings),
         cmocka_unit_test(wrong_units),
-        cmocka_unit_test(every_si_unit_is_itself),
+        cmocka_unit_test(si_units_are_unchanged),
         cmocka_unit_test(quantities),
         cmocka_unit_test(largest_of_each),
         cmocka_unit_test(quantities_refused),
         cmocka_unit_test(formatted),
         cmocka_unit_test(foreign_locale),
-        cmocka_unit_test(chances_in_words),
+        cmocka_unit_test(probabilities_as_text),
         cmocka_unit_test(several_threads),
-        cmocka_unit_test(known_as_udunits_says),
+        cmocka_unit_test(table_agrees_with_udunits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

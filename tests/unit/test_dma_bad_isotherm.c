@@ -1,7 +1,7 @@
-/* One bad isotherm among sound ones: it is left out and named, the others have the true shifts, and
- * the reference temperature moves the shifts only.
+/* One bad isotherm in a sound sweep: it is excluded and named, the others have the true shifts, and
+ * the reference temperature only moves the shifts.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/dma.h"
 
 #include "dma_data.h"
@@ -35,7 +35,7 @@ static void check_shifts(const wt_master *m, size_t bad, double tolerance)
     }
 }
 
-/* Returns the number of losses that name the isotherm and the cause. */
+/* Returns the number of exclusions that name the isotherm and the cause. */
 static size_t named(const wt_log *log, const char *temperature, const char *cause)
 {
     size_t n = 0;
@@ -55,7 +55,7 @@ static size_t count_losses(const wt_log *log)
     return n;
 }
 
-/* The index of the isotherm is that of a sorted sweep. */
+/* Index of the isotherm in the sorted sweep. */
 static void check_left_out(wt_sweep *sweep, size_t index, const char *temperature,
                            const char *cause, bool is_determined)
 {
@@ -80,7 +80,7 @@ static void a_bad_loss_modulus_is_named(void **state)
     check_left_out(&sweep, BAD, "20.00 °C", "its E'' is left out: it deviates by +", true);
 }
 
-static void radians_under_hertz_are_named(void **state)
+static void radians_labelled_hertz_are_named(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
@@ -90,7 +90,7 @@ static void radians_under_hertz_are_named(void **state)
     check_left_out(&sweep, BAD, "20.00 °C", "rad/s read as Hz", false);
 }
 
-static void kelvin_under_celsius_is_named(void **state)
+static void kelvin_labelled_celsius_is_named(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
@@ -126,7 +126,7 @@ static void sound_isotherms_are_all_used(void **state)
     }
 }
 
-/* The largest change of a difference of log aT between two references. */
+/* Largest change of a difference of log aT between two references. */
 static double reference_spread(const wt_sweep *sweep, double one, double other)
 {
     wt_master a = fit(sweep, one, NULL), b = fit(sweep, other, NULL);
@@ -150,8 +150,8 @@ static double reference_spread(const wt_sweep *sweep, double one, double other)
     return high - low;
 }
 
-/* Sound isotherms, and ones that one spectrum does not describe: E'' of the warm half is wrong, so
- * that the overlaps decide. */
+/* Sound isotherms, and isotherms that one spectrum does not describe: E'' of the warm half is
+ * wrong, so that the overlaps decide. */
 static void the_reference_only_moves_the_shifts(void **state)
 {
     (void)state;
@@ -171,8 +171,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_bad_loss_modulus_is_named),
-        cmocka_unit_test(radians_under_hertz_are_named),
-        cmocka_unit_test(kelvin_under_celsius_is_named),
+        cmocka_unit_test(radians_labelled_hertz_are_named),
+        cmocka_unit_test(kelvin_labelled_celsius_is_named),
         cmocka_unit_test(an_isotherm_without_positive_moduli_is_named),
         cmocka_unit_test(sound_isotherms_are_all_used),
         cmocka_unit_test(the_reference_only_moves_the_shifts),

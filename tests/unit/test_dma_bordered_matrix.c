@@ -1,6 +1,6 @@
-/* Equations of blocks and a border against the same ones as a whole.
+/* Block equations with a border against the solution of the full matrix.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "core/math/arena_gsl.h"
 #include "core/math/cholesky.h"
@@ -22,7 +22,7 @@ struct whole {
     gsl_matrix *matrix, *factor, *inverse, *scratch;
 };
 
-/* Of as many unknowns: border, then blocks. */
+/* Creates the matrices of n unknowns: border, then blocks. */
 static void make_whole(struct whole *w, size_t n)
 {
     w->matrix = arena_matrix(&w->memory, n, n);
@@ -31,7 +31,7 @@ static void make_whole(struct whole *w, size_t n)
     w->scratch = arena_matrix(&w->memory, n, n);
 }
 
-/* A positive matrix of this form: rows that each touch the border and one block. */
+/* A positive definite matrix of this form: each row touches the border and one block. */
 static void fill(bordered_matrix *b, struct whole *w, uint64_t seed)
 {
     uint64_t state = seed;
@@ -44,7 +44,7 @@ static void fill(bordered_matrix *b, struct whole *w, uint64_t seed)
             for (size_t j = 0; j < m; j++)
                 row[j] = draw(&state);
             row[at] = draw(&state);
-            row[at + 1] = i == 4 ? 0.0 : draw(&state); /* that one is not there */
+            row[at + 1] = i == 4 ? 0.0 : draw(&state); /* that one does not exist */
             for (size_t u = 0; u < w->matrix->size1; u++)
                 for (size_t v = 0; v < w->matrix->size1; v++)
                     *gsl_matrix_ptr(w->matrix, u, v) += row[u] * row[v];
@@ -82,8 +82,8 @@ static void check_inverse(const bordered_matrix *inverse, const gsl_matrix *of)
     }
 }
 
-/* With a border that fills its room and one that does not. */
-static void test_as_whole(void **state)
+/* With a full border and with a partial one. */
+static void test_equals_full_matrix(void **state)
 {
     (void)state;
     for (size_t m = MOST_BORDER - 6; m <= MOST_BORDER; m += 6) {
@@ -150,7 +150,7 @@ static void test_not_positive(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_as_whole),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_equals_full_matrix),
                                        cmocka_unit_test(test_not_positive)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
-/* The material for finite elements: each file is read here by the rules of its program's manual and
- * loaded at once in tension by an integration of its own; the relaxation must be that of the table
- * it was made from, at the reference and, by the shift of that program, at other temperatures. */
-#include "cells.h"
+/* Material files for finite elements. Each file is read by the rules of its program's manual and
+ * loaded at once in tension by an independent time integration. The relaxation equals that of the
+ * table, at the reference and, by the shift of the program, at other temperatures. */
+#include "table_cells.h"
 
 #include "weartrack/dma.h"
 
@@ -12,14 +12,14 @@
 
 enum { MOST = 200, FIELDS = 16 };
 
-/* What a program would know, in its own units. */
+/* Values that a program knows, in its own units. */
 typedef struct solid {
     size_t n, n_levels;
     double g[MOST], k[MOST], tau[MOST];
     double level[MOST], shear[MOST], bulk[MOST]; /* instantaneous; bulk infinite */
     bool shifts;
-    double density, expansion; /* 0: not there */
-    double t0, c1, c2, sign;   /* log10 of what multiplies time is sign C1 (T - T0)/(C2 + T - T0) */
+    double density, expansion; /* 0: missing */
+    double t0, c1, c2, sign;   /* log10 of the time factor is sign C1 (T - T0)/(C2 + T - T0) */
 } solid;
 
 /* ---- the programs ---------------------------------------------------------------------------- */
@@ -30,7 +30,7 @@ static void of_young(double young, double nu, double *shear, double *bulk)
     *bulk = young / (3 - 6 * nu);
 }
 
-/* Fields parted by commas, blanks around them dropped, in upper case. */
+/* Fields separated by commas, without surrounding blanks, in upper case. */
 static size_t split(char *line, char *field[FIELDS])
 {
     size_t n = 0;
@@ -87,7 +87,7 @@ static void read_abaqus(char *text, solid *s)
                 assert_true(long_term || strcmp(field[2], "MODULI=INSTANTANEOUS") == 0);
                 in = NEO;
             } else if (strcmp(field[0], "*VISCOELASTIC") == 0) {
-                /* of vibrations the elasticity must be that in the end */
+                /* for vibrations the elasticity must be the long-term one */
                 assert_string_equal(field[1], long_term ? "FREQUENCY=PRONY" : "TIME=PRONY");
                 in = PRONY;
             } else if (strcmp(field[0], "*DENSITY") == 0) {
@@ -127,14 +127,14 @@ static void read_abaqus(char *text, solid *s)
             s->tau[s->n++] = number(field[2]);
         } else {
             assert_true(in == TRS && n == 3);
-            /* log A = -C1 (T - T0)/(C2 + T - T0), and reduced time is time over A */
+            /* log A = -C1 (T - T0)/(C2 + T - T0); reduced time is time over A */
             s->t0 = a;
             s->c1 = b;
             s->c2 = number(field[2]);
             s->shifts = true;
         }
     }
-    double rest = 1; /* of the modulus at once */
+    double rest = 1; /* share of the instantaneous modulus */
     for (size_t i = 0; i < s->n; i++)
         rest -= s->g[i];
     for (size_t i = 0; long_term && i < s->n_levels; i++) {
@@ -143,8 +143,8 @@ static void read_abaqus(char *text, solid *s)
     }
 }
 
-/* A comment goes from ! to the end of the line; TB begins a table, TBDATA fills it from a place on,
- * TBTEMP begins the next temperature of it. */
+/* '!' begins a comment. TB begins a table, TBDATA fills it from a position, TBTEMP begins its next
+ * temperature. */
 static void read_ansys(char *text, solid *s)
 {
     enum { NOTHING, HYPER, SHEAR, BULK, SHIFT } in = NOTHING;
@@ -162,7 +162,8 @@ static void read_ansys(char *text, solid *s)
             continue;
         if (strcmp(field[0], "MP") == 0 && strcmp(field[1], "EX") == 0) {
             assert_string_equal(field[2], "RUBBER");
-            s->shear[s->n_levels++] = number(field[3]); /* Young's, until the ratio is known */
+            /* Young's modulus, until the ratio is known */
+            s->shear[s->n_levels++] = number(field[3]);
         } else if (strcmp(field[0], "MP") == 0) {
             assert_string_equal(field[1], "PRXY");
             ratio = number(field[3]);
@@ -216,7 +217,7 @@ static void read_ansys(char *text, solid *s)
                 s->shear[s->n_levels] = constant[0];
                 s->bulk[s->n_levels++] = (double)INFINITY;
             } else if (in == SHIFT) {
-                /* log10 A = C1 (T - Tr)/(C2 + T - Tr), and reduced time is A times time */
+                /* log10 A = C1 (T - Tr)/(C2 + T - Tr); reduced time is A times time */
                 s->t0 = constant[0];
                 s->c1 = constant[1];
                 s->c2 = constant[2];
@@ -230,8 +231,8 @@ static void read_ansys(char *text, solid *s)
         of_young(s->shear[i], ratio, &s->shear[i], &s->bulk[i]);
 }
 
-/* DEFI_MATERIAU gives the numbers of a behaviour in the order in which its source declares them as
- * @MaterialProperty; what they do there is the Maxwell model. */
+/* DEFI_MATERIAU states the numbers of a behaviour in the order of the @MaterialProperty
+ * declarations in its source, which implements the Maxwell model. */
 static void read_code_aster(char *text, solid *s)
 {
     double value[8 * MOST], *of[16];
@@ -279,7 +280,7 @@ static void read_code_aster(char *text, solid *s)
         s->level[i] = of[7][i];
         of_young(young * pow(10, of[8][i]), *of[0], &s->shear[i], &s->bulk[i]);
     }
-    double elastic[2]; /* for what Code_Aster predicts with */
+    double elastic[2]; /* used by Code_Aster for its predictor */
     assert_int_equal(
         sscanf(strstr(text, "ELAS=_F("), "ELAS=_F(E=%lf, NU=%lf)", &elastic[0], &elastic[1]), 2);
     assert_near(elastic[0], young, 1e-10);
@@ -333,7 +334,7 @@ static void read_table(char *text, solid *s)
 /* ---- programs of one temperature, with an elastic bulk modulus --------------------------------
  */
 
-/* What a card of fixed columns holds: a sum of exponentials of the shear modulus. */
+/* Content of a card with fixed columns: a sum of exponentials of the shear modulus. */
 typedef struct shear_solid {
     size_t n;
     double modulus[MOST], rate[MOST], bulk, density; /* rate 0: long-term modulus */
@@ -408,7 +409,7 @@ static void (*const readers[])(char *, solid *) = {[WT_FEM_ABAQUS] = read_abaqus
                                                    [WT_FEM_CODE_ASTER] = read_code_aster,
                                                    [WT_FEM_TABLE] = read_table};
 
-/* ---- a bar that is stretched at once --------------------------------------------------------- */
+/* ---- step strain of a bar -------------------------------------------------------------------- */
 
 static double at_level(const solid *s, const double *value, double t)
 {
@@ -423,7 +424,7 @@ static double at_level(const solid *s, const double *value, double t)
            (value[i] - value[i - 1]) * (t - s->level[i - 1]) / (s->level[i] - s->level[i - 1]);
 }
 
-/* Stress over strain after `time` at the temperature t, in steps; the sides are free. */
+/* Stress over strain after `time` at the temperature t, by time steps with free sides. */
 static double relaxed(const solid *s, double t, double time)
 {
     enum { STEPS = 25 };
@@ -437,7 +438,7 @@ static double relaxed(const solid *s, double t, double time)
         rest_k -= s->k[i];
     }
     for (int step = 0; step <= STEPS; step++) {
-        /* the jump, then steps that grow */
+        /* the jump, then growing steps */
         const double next =
             step == 0 ? 0 : time * speed * pow(10, -12.0 * (1 - step / (double)STEPS));
         const double h = next - at;
@@ -476,7 +477,7 @@ static double relaxed(const solid *s, double t, double time)
     return stress;
 }
 
-/* ---- what it was made from ------------------------------------------------------------------- */
+/* ---- origin of the file ---------------------------------------------------------------------- */
 
 static wt_master_tables tables;
 
@@ -511,7 +512,7 @@ static double key(const wt_table *table, const char *name)
     return e.value;
 }
 
-/* E(t) of the library at an isotherm, or at the reference (row of no isotherm). */
+/* E(t) of the library at an isotherm, or at the reference (a row without an isotherm). */
 static double known(const wt_shift_law *law, size_t row, double to_young, double time)
 {
     const wt_table *p = tables.prony_reduced, *shifts = tables.shift_factors;
@@ -536,7 +537,7 @@ static void write(wt_fem_program program, const wt_fem_export_options *o, char *
     assert_int_equal(fclose(out), 0);
 }
 
-/* Every isotherm and times from the fastest to the slowest measured ones. */
+/* Every isotherm, and times from the fastest to the slowest measured ones. */
 static void check(wt_fem_program program, const wt_fem_export_options *o, const wt_shift_law *law)
 {
     static const double stress[] = {1, 1e6, 1e9}, second[] = {1, 1, 1e3};
@@ -603,7 +604,7 @@ static void relaxation_is_that_of_the_fit(void **state)
     check_all(&law);
 }
 
-static void of_shear(void **state)
+static void shear_relaxation(void **state)
 {
     (void)state;
     const wt_shift_law law = fitted_law();
@@ -661,8 +662,8 @@ static void at_one_temperature(void **state)
         }
 }
 
-/* Abaqus for vibrations: the same series beside the modulus in the end, and no shifts. */
-static void of_frequency(void **state)
+/* Abaqus for vibrations: the same series with the long-term modulus, and no shifts. */
+static void vibration_series(void **state)
 {
     (void)state;
     const wt_shift_law law = fitted_law();
@@ -675,7 +676,7 @@ static void of_frequency(void **state)
 }
 
 /* 1120 kg/m3 are 1.12e-9 t/mm3 and 1.12e-6 kg/mm3. */
-static void what_else_a_material_has(void **state)
+static void density_and_expansion(void **state)
 {
     (void)state;
     static const double factor[] = {1, 1e-12, 1e-9};
@@ -713,8 +714,9 @@ static void what_else_a_material_has(void **state)
     free(text);
 }
 
-/* The storage modulus where the measurement ends, and what of the modulus at once is beyond it. */
-static void the_fast_end_is_told(void **state)
+/* The storage modulus at the limit of the measurement, and the share of the instantaneous modulus
+ * beyond it. */
+static void instantaneous_modulus_is_stated(void **state)
 {
     (void)state;
     const wt_table *p = tables.prony_reduced;
@@ -755,7 +757,7 @@ static void in_another_locale(void **state)
     (void)law;
 }
 
-/* Arrhenius through the same cards; without a law none. */
+/* Arrhenius through the same cards; without a law no card. */
 static void other_laws(void **state)
 {
     (void)state;
@@ -773,7 +775,8 @@ static void other_laws(void **state)
     assert_int_equal(wt_table_set_key(shifts, "law", "WLF", NULL), WT_OK);
 }
 
-/* Of a law of two parts the card is that at the reference, and the file tells the other. */
+/* For a law of two parts the card has the part at the reference, and the file describes the
+ * other. */
 static void check_joined(double from_reference, bool below)
 {
     wt_table *shifts = tables.shift_factors;
@@ -811,7 +814,7 @@ static void check_joined(double from_reference, bool below)
     free(text);
 }
 
-static void a_joined_law(void **state)
+static void law_of_two_parts(void **state)
 {
     (void)state;
     wt_table *shifts = tables.shift_factors;
@@ -878,14 +881,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(relaxation_is_that_of_the_fit),
-        cmocka_unit_test(of_shear),
+        cmocka_unit_test(shear_relaxation),
         cmocka_unit_test(at_one_temperature),
-        cmocka_unit_test(of_frequency),
-        cmocka_unit_test(what_else_a_material_has),
-        cmocka_unit_test(the_fast_end_is_told),
+        cmocka_unit_test(vibration_series),
+        cmocka_unit_test(density_and_expansion),
+        cmocka_unit_test(instantaneous_modulus_is_stated),
         cmocka_unit_test(in_another_locale),
         cmocka_unit_test(other_laws),
-        cmocka_unit_test(a_joined_law),
+        cmocka_unit_test(law_of_two_parts),
         cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, make, clear);

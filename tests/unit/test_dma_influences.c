@@ -1,6 +1,6 @@
-/* Influence of each isotherm: a clean sweep has none that matters, a stiffer isotherm is named.
+/* Influence of each isotherm: none matters in a clean sweep; a stiffer isotherm is named.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/dma.h"
 
 #include "core/table/registry.h"
@@ -9,8 +9,8 @@
 
 enum { ISOTHERMS = 11, STIFF = 4 };
 
-/* Fits the usual sweep, isotherm STIFF times a factor, and computes the influences. half_width: of
- * the intervals of all shifts in place of their own; NaN: their own. */
+/* Fits the usual sweep with isotherm STIFF times a factor and computes the influences. half_width
+ * replaces those of the intervals of all shifts; NaN: their own. */
 static wt_table *influences_of(double factor, double half_width, const wt_master_options *options,
                                wt_log *log, wt_master *all)
 {
@@ -22,7 +22,8 @@ static wt_table *influences_of(double factor, double half_width, const wt_master
         sweep.isotherms[STIFF].storage_modulus[k] *= factor;
         sweep.isotherms[STIFF].loss_modulus[k] *= factor;
     }
-    for (size_t i = 0; i < ISOTHERMS / 2; i++) { /* the order of the sweep is not that of shifts */
+    /* the order of the sweep differs from that of the shifts */
+    for (size_t i = 0; i < ISOTHERMS / 2; i++) {
         const wt_isotherm first = sweep.isotherms[i];
         sweep.isotherms[i] = sweep.isotherms[ISOTHERMS - 1 - i];
         sweep.isotherms[ISOTHERMS - 1 - i] = first;
@@ -71,7 +72,7 @@ static void a_clean_sweep_has_no_influence(void **state)
     wt_log_free(log);
 }
 
-/* A stiffer isotherm moves others, within their intervals: the misfit is in them. */
+/* A stiffer isotherm moves others within their intervals, which include the lack of fit. */
 static void a_stiffer_isotherm_is_named(void **state)
 {
     (void)state;

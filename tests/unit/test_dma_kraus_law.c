@@ -1,8 +1,8 @@
-/* Strain sweeps: intervals of the law of Kraus that hold the truth, nothing that is not reached,
- * the numbers of the reference table.
+/* Strain sweeps: coverage of the intervals of the law of Kraus, limits that are not reached, the
+ * numbers of the reference table.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
+#include "assert_near.h"
+#include "draw_count.h"
 #include "weartrack/dma.h"
 
 #include "dma_data.h"
@@ -12,9 +12,9 @@
 
 #define SCANS WT_SHARED_DIR "/data/dma-scans/"
 
-enum { DRAWS = COUNTED(200), MOST = 64 };
+enum { DRAWS = DRAW_COUNT(200), MOST = 64 };
 
-/* The truth, written down apart from the library: decades of strain about the half of the fall. */
+/* True law, independent of the library: decades of strain about the half of the fall. */
 typedef struct filled {
     double soft, fall, half, exponent, dissipated, rest; /* MPa; half in percent */
 } filled;
@@ -50,7 +50,7 @@ static wt_payne measured(const filled *r, size_t n, double low, double high, dou
         loss[i] = 1e6 * (loss_of(r, percent) + noise * r->dissipated * dma_normal(state));
     }
     assert_int_equal(wt_payne_fit(strain, storage, loss, n, &payne, NULL), WT_OK);
-    wt_payne alone; /* E' is told as it is without E'' */
+    wt_payne alone; /* E' gives the same result without E'' */
     assert_int_equal(wt_payne_fit(strain, storage, NULL, n, &alone, NULL), WT_OK);
     assert_memory_equal(&alone.storage_0, &payne.storage_0, sizeof alone.storage_0);
     assert_memory_equal(&alone.exponent, &payne.exponent, sizeof alone.exponent);
@@ -58,7 +58,7 @@ static wt_payne measured(const filled *r, size_t n, double low, double high, dou
     return payne;
 }
 
-/* An end that the points do not bound is open. */
+/* A limit that the points do not bound is open. */
 static bool holds(const wt_interval *i, double truth)
 {
     return !(truth < i->low) && !(truth > i->high);
@@ -93,7 +93,7 @@ static void test_intervals_hold_the_truth(void **state)
         print_message("%s: %zu of %d hold the truth, %zu closed\n", names[k], held[k], DRAWS,
                       closed[k]);
     print_message("fitted %zu, with a note %zu\n", fitted, noted);
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     for (size_t k = 0; k < 6; k++) {
         assert_in_range(held[k], DRAWS * 92 / 100, DRAWS * 98 / 100);
@@ -101,7 +101,7 @@ static void test_intervals_hold_the_truth(void **state)
     }
 }
 
-static void test_what_is_not_reached_is_not_told(void **state)
+static void test_unreached_limits_are_open(void **state)
 {
     uint64_t seed = 7;
     (void)state;
@@ -124,7 +124,7 @@ static void test_what_is_not_reached_is_not_told(void **state)
     assert_true(p.strain_tenth > 0);
 }
 
-static void test_of_the_law(void **state)
+static void test_law_values(void **state)
 {
     uint64_t seed = 5;
     (void)state;
@@ -213,7 +213,7 @@ static void check_epdm(const char *name)
     wt_sweep_clear(&sweep);
 }
 
-static void test_of_the_reference(void **state)
+static void test_reference_values(void **state)
 {
     (void)state;
     if (access(SCANS "payne.csv", R_OK) != 0)
@@ -226,9 +226,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_intervals_hold_the_truth),
-        cmocka_unit_test(test_what_is_not_reached_is_not_told),
-        cmocka_unit_test(test_of_the_law),
-        cmocka_unit_test(test_of_the_reference),
+        cmocka_unit_test(test_unreached_limits_are_open),
+        cmocka_unit_test(test_law_values),
+        cmocka_unit_test(test_reference_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

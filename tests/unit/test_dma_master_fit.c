@@ -1,9 +1,10 @@
-/* One spectrum behind all isotherms: intervals that hold the truth, far starts, outliers, which
- * law, verdicts, draws. The material is not that of the fit: a sum of two Cole-Cole processes.
+/* One spectrum for all isotherms: coverage of the intervals, distant starting points, outliers,
+ * choice of the law, verdicts, draws. The material, a sum of two Cole-Cole processes, is not that
+ * of the fit.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
+#include "assert_near.h"
 #include "dma/numerics/shift_law.h"
-#include "near.h"
+#include "draw_count.h"
 #include "weartrack/dma.h"
 
 #include "dma_data.h"
@@ -18,7 +19,7 @@ typedef struct material {
     wt_shift_law law[2];
 } material;
 
-/* A transition, and a broad slow process that the plateau has. */
+/* A transition, and a broad slow process on the plateau. */
 static material usual(void)
 {
     const wt_shift_law law = {.kind = WT_LAW_WLF, .wlf = {293.15, 8.2, 110}};
@@ -48,7 +49,7 @@ typedef struct scene {
     double noise, temperature_error;
     uint64_t seed;
     double clamping; /* error of the level of an isotherm */
-    double ends;     /* noise at the ends of an isotherm over that in the middle, less 1 */
+    double ends;     /* noise ratio of the ends and the middle of an isotherm, minus 1 */
 } scene;
 
 /* 13 points over three decades; b follows rho T with reference 293.15 K. */
@@ -111,7 +112,7 @@ static void count(tally *t, wt_interval interval, double truth)
     t->n++;
 }
 
-/* Of 95 %: the bounds are for correlated numbers of few draws. */
+/* Coverage of 95 %; the bounds allow for correlated numbers of few draws. */
 static void check(const tally *t, const char *what)
 {
     const double share = (double)t->inside / (double)t->n;
@@ -119,7 +120,7 @@ static void check(const tally *t, const char *what)
     assert_true(share > 0.88);
 }
 
-/* The slope of a WLF law at its reference is -C1/C2, and its error that of the two together. */
+/* The slope of a WLF law at its reference is -C1/C2; its error is that of both together. */
 static void check_slope(const wt_master *m)
 {
     const double a = m->c1.standard_error / m->c1.value, b = m->c2.standard_error / m->c2.value;
@@ -133,7 +134,7 @@ static void intervals_hold_the_truth(void **state)
     (void)state;
     tally shift = {0}, law = {0}, constants = {0}, curve = {0}, equilibrium = {0};
     double width = 0, widths = 0;
-    for (uint64_t seed = 1; seed <= COUNTED(24); seed++) {
+    for (uint64_t seed = 1; seed <= DRAW_COUNT(24); seed++) {
         const scene s = {usual(), 243.15, 333.15, 10, 0.01, 0.2, 100 * seed, 0, 0};
         wt_master m = fit_scene(&s);
         count(&constants, m.c1, 8.2);
@@ -158,7 +159,7 @@ static void intervals_hold_the_truth(void **state)
         }
         wt_master_clear(&m);
     }
-    for (uint64_t seed = 1; seed <= COUNTED(12); seed++) { /* with the temperatures known */
+    for (uint64_t seed = 1; seed <= DRAW_COUNT(12); seed++) { /* with known temperatures */
         const scene s = {usual(), 243.15, 333.15, 10, 0.01, 0, seed, 0, 0};
         wt_master m = fit_scene(&s);
         for (size_t i = 0; i < m.n_shifts; i++)
@@ -168,7 +169,7 @@ static void intervals_hold_the_truth(void **state)
         assert_true(m.temperature_spread < 0.1);
         wt_master_clear(&m);
     }
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     check(&shift, "shifts");
     check(&law, "law");
@@ -178,8 +179,8 @@ static void intervals_hold_the_truth(void **state)
     assert_true(width / widths < 0.02);
 }
 
-/* With free vertical shifts too the reference was clamped as the others were: what is stated is of
- * the material. */
+/* With free vertical shifts the reference was clamped like the others: the results are of the
+ * material. */
 static void the_reference_is_clamped_too(void **state)
 {
     (void)state;
@@ -187,7 +188,7 @@ static void the_reference_is_clamped_too(void **state)
     tally curve[2] = {{0}}, equilibrium[2] = {{0}};
     vertical = WT_VERTICAL_FREE;
     for (int clamped = 0; clamped < 2; clamped++)
-        for (uint64_t seed = 1; seed <= COUNTED(12); seed++) {
+        for (uint64_t seed = 1; seed <= DRAW_COUNT(12); seed++) {
             scene s = {usual(), 243.15, 333.15, 10, 0.01, 0, 50 * seed, 0, 0};
             s.clamping = clamped ? 0.02 : 0;
             wt_master m = fit_scene(&s);
@@ -202,7 +203,7 @@ static void the_reference_is_clamped_too(void **state)
             wt_master_clear(&m);
         }
     vertical = WT_VERTICAL_TIED;
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     for (int clamped = 0; clamped < 2; clamped++) {
         check(&curve[clamped], "E', E'' with free shifts");
@@ -212,7 +213,7 @@ static void the_reference_is_clamped_too(void **state)
     assert_true(width[0] < 0.01 && width[1] > 0.015 && width[1] < 0.04);
 }
 
-/* A melt: how its spectrum goes on is not measured, so only a limit is. */
+/* A melt: the continuation of its spectrum is not measured, so that there is only a limit. */
 static void a_liquid_has_an_upper_limit(void **state)
 {
     (void)state;
@@ -228,8 +229,8 @@ static void a_liquid_has_an_upper_limit(void **state)
 
 /* ---- starts, outliers ------------------------------------------------------------------------ */
 
-/* Shifts of more than 30 decades in all. */
-static void far_shifts_are_found(void **state)
+/* Shifts of more than 30 decades in total. */
+static void large_shifts_are_found(void **state)
 {
     (void)state;
     const wt_shift_law steep = {.kind = WT_LAW_WLF, .wlf = {293.15, 40, 150}};
@@ -281,7 +282,7 @@ static void an_isotherm_of_another_temperature_is_named(void **state)
     const scene s = {usual(), 243.15, 333.15, 10, 0.01, 0, 17, 0, 0};
     wt_sweep sweep = {0};
     measure(&s, &sweep);
-    sweep.isotherms[7].temperature += 6; /* it was 6 K colder than it says */
+    sweep.isotherms[7].temperature += 6; /* it was 6 K colder than stated */
     wt_master m = fit(&sweep);
     assert_non_null(strstr(m.shifts[7].note, "off the law"));
     assert_non_null(strstr(m.shifts[7].note, "as if -"));
@@ -292,8 +293,8 @@ static void an_isotherm_of_another_temperature_is_named(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* The law that the others tell holds it, too, so that its error is two to three times theirs and
- * not eight times; of one draw the ratio is anything from 1.6 to 5. */
+/* The law from the other isotherms constrains it, too, so that its error is two to three times
+ * theirs and not eight times. For one draw the ratio lies between 1.6 and 5. */
 static void an_isotherm_with_more_noise_weighs_less(void **state)
 {
     (void)state;
@@ -355,7 +356,7 @@ static void the_law_is_that_of_the_shifts(void **state)
     }
 }
 
-static void three_isotherms_tell_no_law_beyond_them(void **state)
+static void three_isotherms_give_no_extrapolation(void **state)
 {
     (void)state;
     const scene s = {usual(), 283.15, 303.15, 10, 0.005, 0, 41, 0, 0};
@@ -367,7 +368,7 @@ static void three_isotherms_tell_no_law_beyond_them(void **state)
     wt_master_clear(&m);
 }
 
-/* Shifts of N isotherms with their variances to the law that is chosen. */
+/* Fits the chosen law to shifts of N isotherms with their variances. */
 enum { FEW = 8 };
 static wt_status choose(size_t n, const double *temperature, const double *variance, double *log_a,
                         law_shape *chosen)
@@ -382,8 +383,8 @@ static wt_status choose(size_t n, const double *temperature, const double *varia
     return law_select(&data, 293.15, &r.matrix, chosen, &err);
 }
 
-/* Two isotherms known so well that they alone decide, and they rise with temperature; only if
- * temperatures are not believed does a law fall. It made the search go on with no law at all. */
+/* Two isotherms with so small errors that they alone decide, and they rise with temperature. A law
+ * only falls with an error of the temperatures. It made the search continue without a law. */
 static void shifts_that_rise_have_no_law(void **state)
 {
     (void)state;
@@ -394,8 +395,8 @@ static void shifts_that_rise_have_no_law(void **state)
     assert_int_equal(choose(5, temperature, variance, log_a, &chosen), WT_E_RANGE);
 }
 
-/* Shifts that bend the other way than WLF: its pole would be at the end of the world, known to many
- * powers of ten, and its draws nowhere. */
+/* Shifts with the curvature opposite to WLF: the pole would be at infinity with a huge error, and
+ * the draws without a limit. */
 static void shifts_without_a_pole_are_not_wlf(void **state)
 {
     (void)state;
@@ -425,15 +426,15 @@ static double true_density(const material *m, double log_tau)
     return log10(sum);
 }
 
-/* Its band holds the truth as often as it says, within the measured frequencies, and is not much
- * wider than that needs. */
+/* The stated band covers the truth within the measured frequencies, and is not much wider than
+ * necessary. */
 static void the_spectrum_and_its_band(void **state)
 {
     (void)state;
     for (int sharp = 0; sharp < 2; sharp++) {
         size_t n = 0, inside = 0;
         double squares = 0;
-        for (uint64_t seed = 100; seed < 100 + COUNTED(30); seed++) {
+        for (uint64_t seed = 100; seed < 100 + DRAW_COUNT(30); seed++) {
             scene s = {usual(), 233.15, 353.15, 10, sharp ? 0.05 : 0.01, 0, seed, 0, 0};
             if (sharp)
                 s.material.processes[0].alpha = 0.8;
@@ -456,7 +457,7 @@ static void the_spectrum_and_its_band(void **state)
             }
             wt_master_clear(&m);
         }
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         const double wide = sqrt(squares / (double)n); /* 1: not a bit too wide */
         assert_true(inside >= n * 95 / 100);
@@ -466,7 +467,7 @@ static void the_spectrum_and_its_band(void **state)
 
 /* ---- verdicts -------------------------------------------------------------------------------- */
 
-/* A bound in words is not below the number, nor more than the last digit above it. */
+/* A bound in a sentence is not below the number, and at most the last digit above it. */
 static void check_bound(const wt_master *m)
 {
     static const char before[] = "misfit below ";
@@ -477,7 +478,7 @@ static void check_bound(const wt_master *m)
     assert_true(bound >= number && bound < number + 0.1 + 1e-9);
 }
 
-static void superposition_is_judged(void **state)
+static void superposition_is_tested(void **state)
 {
     (void)state;
     scene s = {usual(), 233.15, 353.15, 10, 0.01, 0, 31, 0, 0};
@@ -488,7 +489,7 @@ static void superposition_is_judged(void **state)
     check_bound(&m);
     wt_master_clear(&m);
 
-    s.material.law[1].wlf.c1 = 2.5; /* a second process goes another way */
+    s.material.law[1].wlf.c1 = 2.5; /* a second process has another shift law */
     s.material.processes[1].strength = 2e7;
     m = fit_scene(&s);
     assert_int_equal(m.superposition, WT_SUPERPOSITION_FAILS);
@@ -504,7 +505,7 @@ static void superposition_is_judged(void **state)
     assert_int_equal(m.superposition, WT_SUPERPOSITION_FAILS);
     assert_non_null(strstr(m.superposition_reason, "Kramers-Kronig"));
     assert_non_null(
-        strstr(m.superposition_reason, "E'' deviates by +")); /* too high, and said to be */
+        strstr(m.superposition_reason, "E'' deviates by +")); /* too high, with a stated error */
     wt_master_clear(&m);
     wt_sweep_clear(&sweep);
 
@@ -515,9 +516,10 @@ static void superposition_is_judged(void **state)
     wt_master_clear(&m);
 }
 
-/* E' and E'' exchanged: no spectrum has such moduli. The fits end at an optimum, and the errors of
- * the shifts are those of the material, not of the noise of a draw; they hold the truth. */
-static void errors_after_fails_are_no_chance(void **state)
+/* E' and E'' exchanged: no spectrum has such moduli. The fits converge, and the errors of the
+ * shifts are those of the material, not of the noise of a draw; their intervals contain the
+ * truth. */
+static void errors_after_failed_superposition(void **state)
 {
     (void)state;
     double error[3][13] = {{0}};
@@ -572,9 +574,9 @@ static size_t verdicts(double second_c1, wt_superposition verdict)
     return n;
 }
 
-/* What a second process bends an isotherm by is no correlated noise; one with nearly the same law
- * is little in each isotherm, and seen where slow times part from fast ones. */
-static void a_second_process_is_seen(void **state)
+/* The slope change by a second process is not correlated noise. With nearly the same law it is
+ * small in each isotherm, and visible where slow and fast times separate. */
+static void second_process_is_detected(void **state)
 {
     (void)state;
     assert_int_equal(verdicts(5, WT_SUPERPOSITION_FAILS), 5);
@@ -582,8 +584,8 @@ static void a_second_process_is_seen(void **state)
     assert_true(verdicts(8.2, WT_SUPERPOSITION_HOLDS) >= 4);
 }
 
-/* Noise that grows towards the ends of all isotherms looks like a misfit there. */
-static void louder_ends_are_no_misfit(void **state)
+/* Noise that increases towards the ends of all isotherms looks like a lack of fit there. */
+static void noisier_ends_are_no_lack_of_fit(void **state)
 {
     (void)state;
     size_t holds = 0;
@@ -633,8 +635,8 @@ static void draws_scatter_as_the_intervals_say(void **state)
     assert_near(spread[0], storage.standard_error, 0.2);
     assert_near_abs(sum[1], law.value, 4 * law.standard_error / sqrt(DRAWS));
     assert_near(spread[1], law.standard_error, 0.2);
-    /* the same again, and others with another seed, also where the part of the mixture is the same
-     */
+    /* the same again, and others with another seed, also where the part of the mixture is the
+     * same */
     for (size_t i = 0; i < 2 * AGAIN; i++) {
         wt_prony p = {0};
         wt_shift_law drawn;
@@ -651,9 +653,9 @@ static void draws_scatter_as_the_intervals_say(void **state)
     wt_master_clear(&m);
 }
 
-/* The isotherm in the middle is one of a glass, flat in both moduli: onto it no shift is known.
- * Unless it was asked for, one of the transition takes its place. */
-static void a_flat_middle_is_no_reference(void **state)
+/* The middle isotherm is glassy, flat in both moduli, so that no shift onto it is known. Unless it
+ * was requested, one of the transition replaces it. */
+static void flat_isotherm_is_not_the_reference(void **state)
 {
     (void)state;
     const scene s = {usual(), 243.15, 273.15, 5, 0.01, 0, 51, 0, 0};
@@ -675,7 +677,7 @@ static void a_flat_middle_is_no_reference(void **state)
         }
     }
     wt_sweep_sort(&sweep);
-    sweep.isotherms[0].loss_modulus[3] = -1; /* told of once, though there are two fits */
+    sweep.isotherms[0].loss_modulus[3] = -1; /* reported once, though there are two fits */
     assert_int_equal(wt_master_fit(&sweep, &options, log, &m, &err), WT_OK);
     assert_true(m.reference_temperature > 243);
     for (size_t i = 10; i < m.n_shifts; i++)
@@ -689,7 +691,7 @@ static void a_flat_middle_is_no_reference(void **state)
     assert_int_equal(left_out, 1);
     wt_master_clear(&m);
     options.reference_temperature = 228.15;
-    /* a stated reference may be flat: it only moves the shifts */
+    /* a stated reference may be flat, because it only moves the shifts */
     assert_int_equal(wt_master_fit(&sweep, &options, NULL, &m, &err), WT_OK);
     assert_near(m.reference_temperature, 228.15, 1e-9);
     wt_master_clear(&m);
@@ -700,22 +702,22 @@ static void a_flat_middle_is_no_reference(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_flat_middle_is_no_reference),
+        cmocka_unit_test(flat_isotherm_is_not_the_reference),
         cmocka_unit_test(intervals_hold_the_truth),
         cmocka_unit_test(a_liquid_has_an_upper_limit),
-        cmocka_unit_test(far_shifts_are_found),
+        cmocka_unit_test(large_shifts_are_found),
         cmocka_unit_test(single_bad_values_are_left_out_and_counted),
         cmocka_unit_test(an_isotherm_of_another_temperature_is_named),
         cmocka_unit_test(an_isotherm_with_more_noise_weighs_less),
         cmocka_unit_test(the_law_is_that_of_the_shifts),
-        cmocka_unit_test(three_isotherms_tell_no_law_beyond_them),
+        cmocka_unit_test(three_isotherms_give_no_extrapolation),
         cmocka_unit_test(shifts_that_rise_have_no_law),
         cmocka_unit_test(shifts_without_a_pole_are_not_wlf),
         cmocka_unit_test(the_spectrum_and_its_band),
-        cmocka_unit_test(superposition_is_judged),
-        cmocka_unit_test(errors_after_fails_are_no_chance),
-        cmocka_unit_test(a_second_process_is_seen),
-        cmocka_unit_test(louder_ends_are_no_misfit),
+        cmocka_unit_test(superposition_is_tested),
+        cmocka_unit_test(errors_after_failed_superposition),
+        cmocka_unit_test(second_process_is_detected),
+        cmocka_unit_test(noisier_ends_are_no_lack_of_fit),
         cmocka_unit_test(the_reference_is_clamped_too),
         cmocka_unit_test(draws_scatter_as_the_intervals_say),
     };

@@ -1,5 +1,5 @@
-/* Materials: moduli, closed angular integrals, limits, what is refused. */
-#include "near.h"
+/* Materials: moduli, closed angular integrals, limits, refused values. */
+#include "assert_near.h"
 
 #include "dma/law/material.h"
 #include "friction/numerics/angular.h"
@@ -45,7 +45,7 @@ static void closed_angular_integrals(void **state)
     }
     fclose(in);
     assert_int_equal(n, 10);
-    /* far beyond any rubber: no overflow, and the glass modulus */
+    /* far beyond any rubber: no overflow, and the glassy modulus */
     const double ends[] = {0, 1e-300, 1e150, 1e200, 1e300, (double)INFINITY};
     double j1[6], j2[6];
     m->law->angular(m, ends, 6, j1, j2);
@@ -56,7 +56,7 @@ static void closed_angular_integrals(void **state)
     wt_material_free(m);
 }
 
-/* The closed form, its capped twin and plain quadrature over E(w) are one thing. */
+/* The closed form, its truncated variant and plain quadrature over E(w) agree. */
 static void closed_form_against_quadrature(void **state)
 {
     (void)state;
@@ -82,8 +82,8 @@ static void closed_form_against_quadrature(void **state)
     wt_material_free(m);
 }
 
-/* Panels end where they are told to, not at the next edge: what lies below counts, what above does
- * not. */
+/* Subintervals end where requested, not at the next edge: the part below counts, the part above
+ * does not. */
 static void frequencies_below_a_limit(void **state)
 {
     (void)state;
@@ -163,7 +163,7 @@ static void table_moduli(void **state)
     assert_near(s1[0], 0.25e6, 1e-13);
     assert_near(s2[0], 1e4, 1e-13);
     assert_near(s1[5], 4e10, 1e-13);
-    for (size_t i = 1; i < 5; i++) { /* inside they are the same */
+    for (size_t i = 1; i < 5; i++) { /* the same inside */
         assert_near(s1[i], e1[i], 0);
         assert_near(s2[i], e2[i], 0);
     }
@@ -181,7 +181,7 @@ static void table_moduli(void **state)
     wt_material_free(slope);
 }
 
-/* alpha = 1 is a Maxwell element beside a spring; the ends are E0 and Eg. */
+/* alpha = 1 is a Maxwell element parallel to a spring; the limits are E0 and Eg. */
 static void fractional_zener_moduli(void **state)
 {
     (void)state;
@@ -250,8 +250,8 @@ static wt_material *reinforced(const wt_transverse *t, double *modulus, double *
     return m;
 }
 
-/* R2 of the thesis, whose loss along the axis alone is raised, is not passive where tan delta is
- * small; R1 is; sets that cannot be are named. */
+/* R2 of the thesis, with a higher loss along the axis only, is not passive where tan delta is
+ * small; R1 is. Impossible sets are named. */
 static void transverse_checks(void **state)
 {
     (void)state;
@@ -301,8 +301,8 @@ static void transverse_checks(void **state)
     assert_null(m);
 }
 
-/* Each modulus by a law of its own, with the knots and the range of all. */
-static void transverse_of_three_laws(void **state)
+/* Each modulus has its own law; the knots and the range are those of all. */
+static void transverse_moduli_of_three_laws(void **state)
 {
     (void)state;
     const double omega[2][3] = {{1e-2, 1, 1e3}, {1e-1, 1, 1e4}};
@@ -332,7 +332,7 @@ static void transverse_of_three_laws(void **state)
     assert_near(actual[1], cimag(expected), 1e-15);
     size_t n = 0;
     const double *breaks = m->law->breaks(m, &n);
-    assert_int_equal(n, 5); /* 1 is of both */
+    assert_int_equal(n, 5); /* 1 belongs to both */
     assert_near(breaks[1], 0.1, 0);
     assert_near(breaks[4], 1e4, 0);
     assert_near(m->frequency_min, 1e-1, 0);
@@ -423,7 +423,7 @@ int main(void)
         cmocka_unit_test(fractional_zener_moduli),
         cmocka_unit_test(transverse_surface),
         cmocka_unit_test(transverse_checks),
-        cmocka_unit_test(transverse_of_three_laws),
+        cmocka_unit_test(transverse_moduli_of_three_laws),
         cmocka_unit_test(bad_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

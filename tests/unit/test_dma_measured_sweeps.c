@@ -1,7 +1,8 @@
-/* The shift fit on measured sweeps (shared reference data, where present): polyisoprene with a
- * published law, a soft polymer with compliance-limited points, a filled damping rubber, and two
- * thermoplastics for which superposition fails. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+/* The shift fit on measured sweeps (if the shared reference data exist): polyisoprene with a
+ * published law, a soft polymer with points limited by compliance, a filled damping rubber, and two
+ * thermoplastics without superposition.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "weartrack/dma.h"
 
 #include "dma_data.h"
@@ -42,7 +43,7 @@ static wt_wlf published(double kelvin)
     return dma_moved((wt_wlf){243.15, 8.1893, 84.454}, kelvin);
 }
 
-/* Departures from the published law about their mean, which depends on the reference alone. */
+/* Deviations from the published law about their mean, which only depends on the reference. */
 static double rms_from_published(const wt_master *master)
 {
     const wt_wlf law = published(master->reference_temperature);
@@ -58,7 +59,7 @@ static double rms_from_published(const wt_master *master)
     return sqrt(square / n - mean * mean);
 }
 
-/* A misfit is likely, and what it leaves open is in the errors. */
+/* A lack of fit is likely, and the errors include it. */
 static void check_published(const wt_master *master)
 {
     const wt_wlf law = published(master->reference_temperature);
@@ -95,8 +96,7 @@ static void auhl_2008_polyisoprene(void **state)
         }
         wt_master_clear(&master);
     }
-    /* with the expansion that comes with the data, 10^-3.2147 per K, which free vertical shifts
-     * find by themselves */
+    /* with the published expansion, 10^-3.2147 per K, which free vertical shifts reproduce */
     wt_master_options options = at(-30.0, WT_VERTICAL_FREE);
     options.expansion = 6.1e-4;
     wt_master master = fit_good(&sweep, &options, NULL);
@@ -106,7 +106,7 @@ static void auhl_2008_polyisoprene(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* The law at a temperature that was not measured, and re-referenced. */
+/* The law at a temperature that was not measured, and with another reference. */
 static void auhl_2008_between_isotherms(void **state)
 {
     (void)state;
@@ -125,7 +125,7 @@ static void auhl_2008_between_isotherms(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* The series describes what was measured, up to its last point. */
+/* The series describes the measurement up to its last point. */
 static void auhl_2008_series(void **state)
 {
     (void)state;
@@ -155,8 +155,8 @@ static void auhl_2008_series(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* A melt has no slow terms, and none of the draws has: what is not known of them is less than what
- * the isotherms would see. */
+/* A melt has no slow terms, and no draw has any: their uncertainty is below the resolution of the
+ * isotherms. */
 static void auhl_2008_draws(void **state)
 {
     (void)state;
@@ -182,7 +182,7 @@ static void auhl_2008_draws(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* ARES-G2, 150..-40 degC: at -30 and -40 degC the machine is softer than the sample. */
+/* ARES-G2, 150..-40 degC: at -30 and -40 degC the machine is more compliant than the sample. */
 static void soft_polymer_with_compliance_limit(void **state)
 {
     (void)state;
@@ -191,7 +191,7 @@ static void soft_polymer_with_compliance_limit(void **state)
     wt_master_options options = at(20.0, WT_VERTICAL_FREE);
     wt_master master = fit_good(&sweep, &options, NULL);
     assert_int_equal(master.n_shifts, 20);
-    /* The vertical shift shows the compliance: stiffness reads too low. */
+    /* The vertical shift shows the compliance: the measured stiffness is too low. */
     assert_true(master.shifts[0].log_b.value < master.shifts[0].log_b_physical - 0.1);
     assert_non_null(strstr(master.shifts[0].note, "where rho T gives"));
     print_message("C1 %.2f +- %.2f, C2 %.1f +- %.1f K\n", master.c1.value, master.c1.standard_error,
@@ -199,7 +199,7 @@ static void soft_polymer_with_compliance_limit(void **state)
     assert_in_range((int)master.c2.value, 122, 145); /* other programs: 128 to 137 */
     wt_master_clear(&master);
 
-    /* One of the points the instrument could not measure: the loss modulus was negative. */
+    /* A point that the instrument could not measure: the loss modulus was negative. */
     sweep.isotherms[0].loss_modulus[sweep.isotherms[0].n - 1] = -3.1e6;
     wt_log *log = wt_log_new();
     master = fit_good(&sweep, &options, log);
@@ -210,8 +210,8 @@ static void soft_polymer_with_compliance_limit(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* Filled damping rubber: the network softens with temperature, rho T has the wrong sign. The
- * default finds that as a free shift does. */
+/* Filled damping rubber: the network softens with temperature, opposite to rho T. The default finds
+ * this like a free shift. */
 static void filled_rubber_departs_from_rubber_elasticity(void **state)
 {
     (void)state;
@@ -228,8 +228,8 @@ static void filled_rubber_departs_from_rubber_elasticity(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* Isotherms of a glassy polymer with the list of shifts that was published with them, and of a
- * thermoplastic with that of another program (pyvisco): of E' alone, without vertical shifts. */
+/* Isotherms of a glassy polymer with the published shifts, and of a thermoplastic with those of
+ * another program (pyvisco), from E' alone without vertical shifts. */
 static const double stare_published[] = {
     15.567775, 14.909775, 14.148900, 13.539838, 12.887275, 12.052650, 11.172525, 10.116838,
     8.942150,  7.463838,  5.942900,  4.580213,  3.740025,  2.502150,  1.061963,  -0.707975,
@@ -238,7 +238,7 @@ static const double nrel_published[] = {10.24,  9.36,   7.84,   6.09,   4.26,   
                                         -1.91,  -3.41,  -5.03,  -6.69,  -8.45,  -10.31, -12.10,
                                         -13.43, -14.51, -15.46, -16.31, -17.07, -17.75, -18.34};
 
-static void thermoplastics_do_not_superpose(void **state)
+static void thermoplastics_fail_superposition(void **state)
 {
     (void)state;
     static const struct {
@@ -288,7 +288,7 @@ int main(void)
         cmocka_unit_test(auhl_2008_draws),
         cmocka_unit_test(soft_polymer_with_compliance_limit),
         cmocka_unit_test(filled_rubber_departs_from_rubber_elasticity),
-        cmocka_unit_test(thermoplastics_do_not_superpose),
+        cmocka_unit_test(thermoplastics_fail_superposition),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

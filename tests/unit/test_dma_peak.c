@@ -1,8 +1,8 @@
-/* Peaks of curves against temperature and values between their points: intervals that hold the
- * truth, no peak where there is none, the plain parabola of the reference table.
+/* Peaks of curves against temperature and values between points: coverage of the intervals, no peak
+ * where there is none, the parabola of the reference table.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
+#include "assert_near.h"
+#include "draw_count.h"
 #include "weartrack/dma.h"
 
 #include "dma/numerics/gaussian_process.h"
@@ -11,7 +11,7 @@
 #define TIDY WT_SHARED_DIR "/data/dma/tidy/"
 #define REFERENCE WT_SHARED_DIR "/data/dma-scans/tg-from-isotherms.csv"
 
-/* A Havriliak-Negami process, which is not symmetric, beside a network. */
+/* A Havriliak-Negami process, which is asymmetric, with a network. */
 typedef struct rubber {
     double glassy, rubbery, width, skew;
     double c1, c2, reference; /* WLF, degC */
@@ -40,14 +40,14 @@ static double true_peak(const rubber *r, bool factor)
     return at;
 }
 
-enum { DRAWS = COUNTED(200), MOST = 400 };
+enum { DRAWS = DRAW_COUNT(200), MOST = 400 };
 static const rubber rubbers[] = {{2e9, 3e6, 0.6, 0.8, 12, 50, -40},
                                  {1.5e9, 8e6, 0.5, 0.9, 14, 55, -20},
                                  {2e9, 5e6, 0.75, 0.6, 14, 45, 0},
                                  {2.5e9, 2e6, 0.55, 1, 11, 60, 10}};
 static const double steps[] = {0.5, 1, 2, 3}, noises[] = {0.003, 0.01, 0.02};
 
-/* 200 sweeps of one rubber, step and noise after the other. */
+/* 200 sweeps of one rubber, with different steps and noise. */
 static size_t measure(size_t draw, bool factor, double *x, double *y, uint64_t *state,
                       const rubber **of)
 {
@@ -84,14 +84,15 @@ static void peaks_hold_the_truth(void **unused)
             assert_true(peak.misfit < 0.05 && peak.n >= 9);
         }
         print_message("peak of %s: %zu of %zu\n", factor ? "tan delta" : "E''", held, found);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_true(found > DRAWS * 95 / 100);
         assert_true((double)held > 0.92 * (double)found && (double)held <= 0.98 * (double)found);
     }
 }
 
-/* By its definition: tangents of ln E' at the steepest place and, colder, at a tenth of that. */
+/* By definition: tangents of ln E' at the steepest point and, on the cold side, at a tenth of that
+ * slope. */
 static double log_storage(const rubber *r, double celsius)
 {
     const double factor = value(r, celsius, true);
@@ -139,13 +140,13 @@ static void onsets_hold_the_truth(void **unused)
         width += onset.at.high - onset.at.low;
     }
     print_message("onset: %zu of %zu, %.2f K wide\n", held, found, width / (double)found);
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_true(found > DRAWS * 95 / 100);
     assert_true((double)held >= 0.92 * (double)found && (double)held <= 0.98 * (double)found);
 }
 
-/* None where the sweep begins in the fall, where nothing falls, of few points. */
+/* No peak if the sweep begins in the fall, if nothing falls, or with few points. */
 static void no_onset(void **unused)
 {
     (void)unused;
@@ -185,12 +186,12 @@ static void values_hold_the_truth(void **unused)
         held += got.low <= truth && truth <= got.high;
     }
     print_message("values: %zu of %d\n", held, DRAWS);
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_true(held >= 184 && held <= 196);
 }
 
-/* Nothing beyond the points, and none of a monotone or a scattered line. */
+/* No value outside the points, and no peak of a monotone or scattered line. */
 static void no_peak(void **unused)
 {
     double x[60], y[60];
@@ -228,7 +229,7 @@ static void no_peak(void **unused)
     assert_true(isnan(got.value));
 }
 
-/* Exact points tell a parabola exactly. */
+/* Exact points determine a parabola exactly. */
 static void parabola(void **unused)
 {
     double x[9], y[9];
@@ -268,7 +269,7 @@ static size_t slice(const wt_sweep *sweep, double omega, bool factor, double *x,
     return n;
 }
 
-/* Each vertex, height and misfit of five points, of another program. */
+/* Vertex, height and lack of fit of five points, from another program. */
 static void reference_parabolas(void **unused)
 {
     static const char *const sets[] = {"stare_E", "hermes_ares", "nrel_A", "PI_94.9k"};
@@ -296,8 +297,8 @@ static void reference_parabolas(void **unused)
             const size_t n = slice(&sweep, 2 * M_PI * f, strcmp(quantity, "tan_delta") == 0, x, y);
             assert_int_equal(n, n_t);
             assert_int_equal(wt_peak_find(x, y, n, 5, &peak, NULL), WT_OK);
-            /* the tidy tables of two sets have measured temperatures, the other table nominal ones
-             */
+            /* the tidy tables of two sets have measured temperatures, the other table nominal
+             * ones */
             const bool nominal = s == 1 || s == 2;
             assert_near_abs(peak.at.value, at, nominal ? 0.05 : 2e-6);
             assert_near(peak.height.value, height, nominal ? 1e-3 : 2e-6);
@@ -311,8 +312,8 @@ static void reference_parabolas(void **unused)
     assert_int_equal(checked, 152);
 }
 
-/* Through points of a parabola about 3 with half-width 5: its values, its slopes in units of x, and
- * on which side of a limit they are. */
+/* Parabola about 3 with half-width 5: its values, its slopes in units of x, and the side of a limit
+ * on which they are. */
 static void slopes(void **state)
 {
     (void)state;
@@ -334,7 +335,7 @@ static void slopes(void **state)
     gaussian_process_free(&s);
 }
 
-/* Two rubbers in a blend, the second one lower: where their sum has its maxima. */
+/* A blend of two rubbers, the second with a lower peak: maxima of the sum. */
 static double blend(double celsius, double share)
 {
     return exp(-pow((celsius + 45) / 9, 2)) + share * exp(-pow((celsius - 5) / 12, 2)) + 0.03;
@@ -348,7 +349,7 @@ static double true_top(double from, double to, double share)
     return at;
 }
 
-static void lower_peaks_are_told(void **unused)
+static void lower_peaks_are_found(void **unused)
 {
     (void)unused;
     uint64_t state = 11;
@@ -373,14 +374,14 @@ static void lower_peaks_are_told(void **unused)
     }
     print_message("lower peaks: %zu of %zu found, %zu of them held, %zu wrong\n", found,
                   (size_t)DRAWS, held, wrong);
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_true((double)found > 0.97 * DRAWS);
     assert_true((double)held > 0.91 * (double)found);
     assert_true(wrong <= 2);
 }
 
-/* One peak with scatter has no other beside it; nor has a shoulder. */
+/* A peak with scatter has no second peak, and neither has a shoulder. */
 static void no_lower_peak(void **unused)
 {
     (void)unused;
@@ -409,7 +410,7 @@ int main(void)
                                        cmocka_unit_test(parabola),
                                        cmocka_unit_test(reference_parabolas),
                                        cmocka_unit_test(slopes),
-                                       cmocka_unit_test(lower_peaks_are_told),
+                                       cmocka_unit_test(lower_peaks_are_found),
                                        cmocka_unit_test(no_lower_peak)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
-/* Few terms in place of a spectrum: what is asked for is kept, by moduli worked out here. The
+/* Reduction of a spectrum to few terms: the requested accuracy holds for moduli computed here. The
  * spectrum is that of two Cole-Cole processes in closed form. */
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/dma.h"
 
@@ -79,8 +79,8 @@ static wt_prony reduce(const wt_prony *from, unsigned terms, double error, doubl
     return to;
 }
 
-/* As close as is asked for, and not with one term less. */
-static void as_close_as_asked(void **state)
+/* As accurate as requested, and with no term to spare. */
+static void requested_accuracy_is_met(void **state)
 {
     (void)state;
     const double errors[] = {0.1, 0.02, 0.005, 0.0005};
@@ -106,8 +106,8 @@ static void as_close_as_asked(void **state)
         }
 }
 
-/* Lines are found again, and no more of them. */
-static void lines(void **state)
+/* Spectral lines are recovered, and no others. */
+static void spectral_lines_are_recovered(void **state)
 {
     (void)state;
     double tau[] = {1e-4, 1e-2, 1, 1e2, 1e4}, modulus[] = {1e6, 5e6, 2e6, 4e6, 3e6};
@@ -128,7 +128,7 @@ static void lines(void **state)
     wt_prony_clear(&few);
 }
 
-/* Given it is kept; without one a slow term stands for what there is. */
+/* A stated long-term modulus is kept; without one a slow term replaces it. */
 static void long_term(void **state)
 {
     (void)state;
@@ -143,7 +143,8 @@ static void long_term(void **state)
     assert_near(p.equilibrium_modulus, 1.9e6, 0);
     assert_true(furthest(&s.prony, &p, off) <= 0.02);
     wt_prony_clear(&p);
-    p = reduce(&s.prony, 5, 0.02, 1e7); /* above the modulus itself: said by the deviation */
+    /* above the modulus itself: the stated deviation shows it */
+    p = reduce(&s.prony, 5, 0.02, 1e7);
     assert_near(p.equilibrium_modulus, 1e7, 0);
     assert_true(furthest(&s.prony, &p, off) > 2);
     wt_prony_clear(&p);
@@ -176,8 +177,8 @@ static void refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_close_as_asked),
-        cmocka_unit_test(lines),
+        cmocka_unit_test(requested_accuracy_is_met),
+        cmocka_unit_test(spectral_lines_are_recovered),
         cmocka_unit_test(long_term),
         cmocka_unit_test(refused),
     };

@@ -1,7 +1,8 @@
-/* Temperature sweeps in the one spectrum: the master curve of sweeps at few frequencies is that of
- * isotherms of the same material. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Temperature sweeps in one spectrum: the master curve of sweeps at few frequencies equals that of
+ * isotherms of the same material.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "dma/master.h"
-#include "near.h"
 
 #include "dma_data.h"
 
@@ -25,7 +26,7 @@ static void moduli(double omega, double temperature, double *storage, double *lo
 enum { DRAWS = 10, PLACES = 21 };
 static const double noise = 0.005;
 
-/* -30 to 80 degC at so many frequencies over two decades, the temperature going on in between. */
+/* From -30 to 80 degC at several frequencies over two decades, while the temperature rises. */
 static void heat(wt_sweep *sweep, size_t frequencies, double step, uint64_t *state)
 {
     const size_t n = (size_t)(110 / step);
@@ -71,8 +72,8 @@ static wt_master_options options(void)
     return o;
 }
 
-/* Both ways of one material: each holds the truth, and they agree within their errors. */
-static void sweeps_are_isotherms(void **unused)
+/* Both methods for one material: each covers the truth, and they agree within their errors. */
+static void ramps_agree_with_isotherms(void **unused)
 {
     const wt_master_options o = options();
     size_t held = 0, agree = 0, law = 0;
@@ -118,7 +119,7 @@ static void sweeps_are_isotherms(void **unused)
     assert_true(law > 80);
 }
 
-/* One frequency beside isotherms goes where the law takes it; alone it has no law. */
+/* A single frequency with isotherms is placed by the law; alone it has no law. */
 static void one_frequency(void **unused)
 {
     const wt_master_options o = options();
@@ -143,7 +144,7 @@ static void one_frequency(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sweeps_are_isotherms),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(ramps_agree_with_isotherms),
                                        cmocka_unit_test(one_frequency)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

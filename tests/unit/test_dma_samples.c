@@ -1,6 +1,7 @@
-/* Sweeps of several samples: which there are, those of one, and files that may be two.
+/* Sweeps of several samples: their list, selection of one, and files of possibly different
+ * materials.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "dma/sweep_input.h"
 
@@ -36,8 +37,8 @@ static void add_others(const char *ramp, const char *strain)
     s->sample = copy(strain);
 }
 
-/* Each once, in the order of people: 2 before 10. */
-static void test_found(void **state)
+/* Each once, in natural order: 2 before 10. */
+static void test_list_of_samples(void **state)
 {
     (void)state;
     wt_sample_names samples = {0, NULL};
@@ -56,7 +57,7 @@ static void test_found(void **state)
     assert_int_equal(samples.n, 0);
 }
 
-static void test_taken(void **state)
+static void test_name_with_strain_sweeps_only(void **state)
 {
     (void)state;
     wt_error err = WT_ERROR_INIT;
@@ -78,8 +79,8 @@ static void test_taken(void **state)
     assert_string_equal(sweep.isotherms[0].sample, "NR");
 }
 
-/* A name that only strain sweeps or ramps have is there, too. */
-static void test_of_others(void **state)
+/* A name that only strain sweeps or ramps have is listed, too. */
+static void test_other_samples(void **state)
 {
     (void)state;
     add("NR", 300, "a");
@@ -104,13 +105,13 @@ static void test_one(void **state)
     assert_int_equal(flow_require_one_sample(&sweep, &set, 1, NULL, &err), WT_E_AMBIGUOUS);
     assert_string_equal(err.expected, "those of one");
     assert_int_equal(strncmp(err.found, "NR, compound 00, compound 01", 28), 0);
-    assert_string_equal(err.found + sizeof err.found - 4, "..."); /* cut, and says so */
+    assert_string_equal(err.found + sizeof err.found - 4, "..."); /* truncated, with a mark */
     set.read.sample = "NR";                                       /* was chosen */
     assert_int_equal(flow_require_one_sample(&sweep, &set, 1, NULL, &err), WT_OK);
     assert_int_equal(flow_require_one_sample(&sweep, NULL, 0, NULL, &err), WT_E_AMBIGUOUS);
 }
 
-/* Two files of one temperature, to half a kelvin, may be two materials: said once. */
+/* Two files at one temperature, within half a kelvin, may be two materials: one warning. */
 static void test_files(void **state)
 {
     (void)state;
@@ -159,8 +160,9 @@ static int end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(test_found, end), cmocka_unit_test_teardown(test_taken, end),
-        cmocka_unit_test_teardown(test_of_others, end), cmocka_unit_test_teardown(test_one, end),
-        cmocka_unit_test_teardown(test_files, end)};
+        cmocka_unit_test_teardown(test_list_of_samples, end),
+        cmocka_unit_test_teardown(test_name_with_strain_sweeps_only, end),
+        cmocka_unit_test_teardown(test_other_samples, end),
+        cmocka_unit_test_teardown(test_one, end), cmocka_unit_test_teardown(test_files, end)};
     return cmocka_run_group_tests_name("samples of sweeps", tests, NULL, NULL);
 }

@@ -1,8 +1,9 @@
-/* Shift factors: known truth, every vertical option, and the traps of real sweeps (no overlap, no
- * slope, collinear shifts, bad points, disorder, repeated temperatures, a reference between
- * isotherms). SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
+/* Shift factors: known truth, every vertical option, and difficult sweeps (no overlap, no slope,
+ * collinear shifts, bad points, unsorted data, repeated temperatures, a reference between
+ * isotherms).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
+#include "draw_count.h"
 #include "weartrack/dma.h"
 
 #include "dma/numerics/isotherm.h"
@@ -74,13 +75,13 @@ static void known_truth_for_every_vertical_option(void **state)
     }
 }
 
-/* Standard errors mean what they say: the shifts of 40 noise seeds scatter as they claim. */
+/* Coverage of standard errors: the shifts of 40 noise seeds scatter as stated. */
 static void standard_errors_match_the_scatter(void **state)
 {
     (void)state;
     double square_a = 0.0, square_b = 0.0;
     size_t n = 0;
-    for (uint64_t seed = 1; seed <= COUNTED(40); seed++) {
+    for (uint64_t seed = 1; seed <= DRAW_COUNT(40); seed++) {
         wt_sweep sweep = {0};
         dma_usual(&sweep, true, 0.01, 1000 * seed);
         const wt_master_options at = at_reference(293.15, WT_VERTICAL_FREE);
@@ -100,14 +101,14 @@ static void standard_errors_match_the_scatter(void **state)
         wt_master_clear(&master);
         wt_sweep_clear(&sweep);
     }
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_int_equal(n, 400);
     assert_near(sqrt(square_a / (double)n), 1.0, 0.3);
     assert_near(sqrt(square_b / (double)n), 1.0, 0.3);
 }
 
-/* Descending frequencies and temperatures (the instrument cools down) change nothing. */
+/* Descending frequencies and temperatures (cooling) change nothing. */
 static void order_of_the_data_does_not_matter(void **state)
 {
     (void)state;
@@ -181,7 +182,7 @@ static void no_overlap_at_all_is_an_error(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* A network far above its transition: a shift is no more than the scatter of clamping. */
+/* A network far above its transition: the shift has no more than the scatter of clamping. */
 static void a_plateau_without_slope_decides_nothing(void **state)
 {
     (void)state;
@@ -206,8 +207,8 @@ static void a_plateau_without_slope_decides_nothing(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* E' on a plateau, E'' still sloped: E'' decides (polyisoprene melts, warm networks). */
-static void on_the_plateau_of_storage_the_loss_decides(void **state)
+/* E' on a plateau, E'' still with a slope: E'' decides (polyisoprene melts, warm networks). */
+static void loss_decides_on_the_storage_plateau(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
@@ -236,7 +237,7 @@ static void on_the_plateau_of_storage_the_loss_decides(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* E', E'' ~ w^0.05: a horizontal shift a is a vertical one of 0.05 a. */
+/* E', E'' ~ w^0.05: a horizontal shift a is equivalent to a vertical one of 0.05 a. */
 static void on_a_power_law_both_shifts_are_one(void **state)
 {
     (void)state;
@@ -258,7 +259,7 @@ static void on_a_power_law_both_shifts_are_one(void **state)
     wt_master_options at = at_reference(300.0, WT_VERTICAL_FREE);
     wt_master master = {0};
     assert_int_equal(wt_master_fit(&sweep, &at, NULL, &master, NULL), WT_E_NO_OVERLAP);
-    /* With the vertical shift known there is nothing to confuse it with. */
+    /* With a known vertical shift there is no ambiguity. */
     at.vertical = WT_VERTICAL_NONE;
     master = fit_good(&sweep, &at, NULL);
     for (size_t i = 1; i < 4; i++) {
@@ -292,7 +293,7 @@ static void points_without_positive_modulus_are_left_out_and_named(void **state)
 
     for (size_t k = 0; k < 14; k++)
         sweep.isotherms[5].loss_modulus[k] = -1.0;
-    master = fit_good(&sweep, &at, log); /* one isotherm less is no reason to refuse the others */
+    master = fit_good(&sweep, &at, log); /* one isotherm less does not invalidate the others */
     assert_int_equal(master.n, 10 * 16 - 3);
     assert_false(master.shifts[5].determined);
     assert_non_null(strstr(master.shifts[5].note, "14 of 16 points have no positive modulus"));
@@ -303,7 +304,7 @@ static void points_without_positive_modulus_are_left_out_and_named(void **state)
     wt_master_clear(&master);
 
     const size_t n = sweep.n_isotherms;
-    sweep.n_isotherms = 2; /* of two isotherms nothing would remain */
+    sweep.n_isotherms = 2; /* two isotherms would leave nothing */
     for (size_t k = 0; k < 14; k++)
         sweep.isotherms[1].loss_modulus[k] = -1.0;
     wt_error err = WT_ERROR_INIT;
@@ -316,7 +317,7 @@ static void points_without_positive_modulus_are_left_out_and_named(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* 50 Hz hum and a first point that was not in equilibrium. */
+/* 50 Hz interference and a first point that was not in equilibrium. */
 static void single_bad_points_have_little_weight(void **state)
 {
     (void)state;
@@ -351,7 +352,7 @@ static void repeated_temperatures_get_one_shift(void **state)
     assert_string_equal(master.shifts[6].note, "");
     wt_master_clear(&master);
 
-    /* The second run was 5 K off: said, not averaged. */
+    /* The second run was off by 5 K: reported, not averaged. */
     for (size_t i = 0; i < sweep.n_isotherms; i++)
         if (strcmp(sweep.isotherms[i].source, "second run") == 0)
             for (size_t k = 0; k < sweep.isotherms[i].n; k++)
@@ -389,7 +390,7 @@ static void the_reference_temperature_need_not_be_measured(void **state)
     wt_error err = WT_ERROR_INIT;
     assert_int_equal(wt_master_fit(&sweep, &far, NULL, &master, &err), WT_E_RANGE);
     assert_non_null(strstr(err.message, "-93.15 °C"));
-    /* None asked for: the isotherm in the middle. */
+    /* Without a stated one: the isotherm in the middle. */
     far = wt_master_options_defaults();
     master = fit_good(&sweep, &far, NULL);
     assert_near(master.reference_temperature, 303.15, 0.0);
@@ -397,14 +398,14 @@ static void the_reference_temperature_need_not_be_measured(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* A law that is not WLF: the shifts have a hump on top of it. */
+/* A law other than WLF: the shifts have an additional hump. */
 static double humped_law(double temperature)
 {
     const double away = (temperature - 305.0) / 12.0;
     return truth_at(temperature) + 0.8 * exp(-away * away);
 }
 
-/* The largest difference of two results between isotherms, beyond a constant [decade]. */
+/* Largest difference of two results between isotherms, except for a constant [decade]. */
 static double spread_between(const wt_master *m, const wt_master *other)
 {
     double low = HUGE_VAL, high = -HUGE_VAL;
@@ -431,7 +432,7 @@ static void a_moved_reference_moves_all_shifts_alike(void **state)
     }
     wt_master_options options = at_reference(303.15, WT_VERTICAL_NONE);
     wt_master base = fit_good(&sweep, &options, NULL);
-    assert_true(base.law_rms > 0.08); /* the law alone misses the shifts */
+    assert_true(base.law_rms > 0.08); /* the law alone does not describe the shifts */
     double before = 0.0;
     for (double t = 255.65; t <= 350.15; t += t < 290.0 || t > 315.0 ? 12.5 : 1.25) {
         options.reference_temperature = t;
@@ -444,7 +445,7 @@ static void a_moved_reference_moves_all_shifts_alike(void **state)
         before = m.shifts[10].log_a.value;
         wt_master_clear(&m);
     }
-    /* continuous at an isotherm: two references, 0.2 K from it on either side */
+    /* continuous at an isotherm: two references, 0.2 K to either side */
     for (int i = 1; i < 20; i += 3) {
         const double at = 253.15 + 5.0 * i;
         double own[2], position[2];
@@ -478,8 +479,8 @@ static void thermal_expansion_enters_the_physical_shift(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* A second relaxation with another temperature dependence in E'' alone. */
-static void failing_superposition_is_said(void **state)
+/* A second relaxation with another temperature dependence, in E'' only. */
+static void failed_superposition_is_reported(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
@@ -505,7 +506,7 @@ static void failing_superposition_is_said(void **state)
     wt_sweep_clear(&other);
 }
 
-static void mixed_strain_amplitudes_are_said(void **state)
+static void mixed_strain_amplitudes_are_reported(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
@@ -538,9 +539,9 @@ static void expect_failure(const wt_sweep *sweep, const wt_master_options *optio
     assert_null(master.shifts);
 }
 
-/* One sharp process a decade: where the terms of the spectrum lie must not pull the isotherms, be
- * the lines on them or between them. */
-static void lines_between_the_terms_pull_nothing(void **state)
+/* One sharp process per decade: the positions of the spectrum terms do not attract the isotherms,
+ * for lines at or between them. */
+static void spectral_lines_do_not_bias_shifts(void **state)
 {
     (void)state;
     static const double phase[] = {0.0, 0.6, 0.0}, scatter[] = {0.005, 0.005, 0.03};
@@ -581,7 +582,7 @@ static void lines_between_the_terms_pull_nothing(void **state)
                               2.0) /
                           8.0;
         }
-        assert_true(square < 4.0); /* chance is 1e-5; with three terms a decade 160 */
+        assert_true(square < 4.0); /* the p value is 1e-5; with three terms a decade 160 */
         wt_master_clear(&master);
         wt_sweep_clear(&sweep);
     }
@@ -610,7 +611,7 @@ static void impossible_input_is_refused(void **state)
     wt_master_options at = at_reference(293.15, WT_VERTICAL_FREE);
     expect_failure(&sweep, &at, WT_E_MISSING);
     (void)dma_add(&sweep, &dma_rubber, 293.15, 0.1, 100.0, 16, true, 0.01, &noise);
-    at.reference_temperature = 310.0; /* no law takes one isotherm there */
+    at.reference_temperature = 310.0; /* no law applies to one isotherm there */
     expect_failure(&sweep, &at, WT_E_RANGE);
     at.reference_temperature = 293.15;
     (void)dma_add(&sweep, &dma_rubber, 303.15, 0.1, 100.0, 16, true, 0.01, &noise);
@@ -652,8 +653,8 @@ static void isotherms_of_few_points_are_left_out(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* Lines a decade apart, by the storage modulus alone: nothing between them is told, and yet there
- * is a spectrum. Many points of an isotherm say what they say when they are few. */
+/* Lines a decade apart, from the storage modulus alone: nothing is known between them, but there is
+ * a spectrum. Many points of an isotherm give the same result as few. */
 static void lines_at_six_temperatures(wt_sweep *sweep, size_t points, double scatter)
 {
     uint64_t noise = 5;
@@ -693,7 +694,7 @@ static void storage_alone_finds_a_spectrum_of_lines(void **state)
     }
 }
 
-static void many_points_say_what_few_say(void **state)
+static void many_points_give_the_result_of_few(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
@@ -710,8 +711,8 @@ static void many_points_say_what_few_say(void **state)
     wt_sweep_clear(&sweep);
 }
 
-/* How many points an isotherm of 3 decades has that is measured at `near` frequencies 0.005 decade
- * apart at each of 31 steps of a tenth. */
+/* Number of points of an isotherm over 3 decades, measured at `near` frequencies 0.005 decade apart
+ * at each of 31 steps of a tenth. */
 static size_t points_of(size_t near)
 {
     enum { STEPS = 31 };
@@ -738,9 +739,9 @@ static size_t points_of(size_t near)
     return n;
 }
 
-/* Neighbours become one where there are five for each that is left, for they do not stand evenly.
- */
-static void dense_points_become_one(void **state)
+/* Neighbouring points are merged if there are five for each remaining one, because their distances
+ * are uneven. */
+static void dense_points_are_merged(void **state)
 {
     (void)state;
     assert_int_equal(points_of(2), 62);
@@ -758,9 +759,9 @@ int main(void)
         cmocka_unit_test(an_isotherm_without_overlap_has_no_shift),
         cmocka_unit_test(no_overlap_at_all_is_an_error),
         cmocka_unit_test(a_plateau_without_slope_decides_nothing),
-        cmocka_unit_test(on_the_plateau_of_storage_the_loss_decides),
+        cmocka_unit_test(loss_decides_on_the_storage_plateau),
         cmocka_unit_test(storage_alone_finds_a_spectrum_of_lines),
-        cmocka_unit_test(many_points_say_what_few_say),
+        cmocka_unit_test(many_points_give_the_result_of_few),
         cmocka_unit_test(on_a_power_law_both_shifts_are_one),
         cmocka_unit_test(points_without_positive_modulus_are_left_out_and_named),
         cmocka_unit_test(single_bad_points_have_little_weight),
@@ -768,10 +769,10 @@ int main(void)
         cmocka_unit_test(the_reference_temperature_need_not_be_measured),
         cmocka_unit_test(a_moved_reference_moves_all_shifts_alike),
         cmocka_unit_test(thermal_expansion_enters_the_physical_shift),
-        cmocka_unit_test(failing_superposition_is_said),
-        cmocka_unit_test(mixed_strain_amplitudes_are_said),
-        cmocka_unit_test(dense_points_become_one),
-        cmocka_unit_test(lines_between_the_terms_pull_nothing),
+        cmocka_unit_test(failed_superposition_is_reported),
+        cmocka_unit_test(mixed_strain_amplitudes_are_reported),
+        cmocka_unit_test(dense_points_are_merged),
+        cmocka_unit_test(spectral_lines_do_not_bias_shifts),
         cmocka_unit_test(impossible_input_is_refused),
         cmocka_unit_test(isotherms_of_few_points_are_left_out),
     };

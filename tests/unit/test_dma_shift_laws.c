@@ -1,6 +1,6 @@
 /* Shift laws against the table tests/numeric/wlf.txt, and their invariants.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/dma.h"
 
 #include <stdio.h>
@@ -9,7 +9,7 @@
 
 static const double celsius = 273.15;
 
-/* Reads up to eight numbers ("nan" allowed) after the word; returns how many. */
+/* Reads up to eight numbers ("nan" allowed) after the word; returns their number. */
 static size_t numbers_of(char *line, double value[8])
 {
     size_t n = 0;

@@ -1,8 +1,8 @@
-/* What is left out of sweeps, shifts that a law or a table gives, and what one quantity alone
- * tells. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Excluded parts of sweeps, shifts from a law or a table, and results from one modulus alone.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "dma/master.h"
 #include "dma/sweep_input.h"
-#include "near.h"
 
 #include "dma_data.h"
 
@@ -16,7 +16,7 @@ static wt_master_options options(wt_shift_quantity by)
     return o;
 }
 
-/* Moduli of a tenth of a kelvin to the next at one frequency, and nothing beside. */
+/* Moduli every tenth of a kelvin at one frequency, and nothing else. */
 static void heat(wt_sweep *sweep, double omega, size_t n, uint64_t *state)
 {
     wt_ramp *ramp = wt_sweep_add_ramp(sweep, n, 0);
@@ -33,7 +33,7 @@ static void heat(wt_sweep *sweep, double omega, size_t n, uint64_t *state)
     }
 }
 
-static void cut_by_temperature_and_frequency(void **unused)
+static void excluded_by_temperature_and_frequency(void **unused)
 {
     static const char *const texts[] = {"temperature:..-5degC", "temperature:30degC",
                                         "frequency:10Hz.."};
@@ -54,14 +54,14 @@ static void cut_by_temperature_and_frequency(void **unused)
     }
     assert_int_equal(sweep.n_ramps, 1);
     assert_near_abs(sweep.ramps[0].angular_frequency, 2 * M_PI, 1e-9);
-    for (size_t k = 0; k < sweep.ramps[0].n; k++) /* 15 colder ones, 11 at 30 degC */
+    for (size_t k = 0; k < sweep.ramps[0].n; k++) /* 15 at colder temperatures, 11 at 30 degC */
         assert_true(sweep.ramps[0].temperature[k] > 268.15 &&
                     fabs(sweep.ramps[0].temperature[k] - 303.15) > 0.5);
     assert_in_range(sweep.ramps[0].n, 80, 84);
     wt_sweep_clear(&sweep);
 }
 
-static void words_that_cut_nothing(void **unused)
+static void invalid_exclusions(void **unused)
 {
     static const char *const bad[] = {
         "temperature",           "temperature:", "temperature:..",
@@ -79,7 +79,7 @@ static void words_that_cut_nothing(void **unused)
     }
 }
 
-/* One frequency and the law: the moduli at the reference, where without the law nothing is told. */
+/* One frequency with a law: the moduli at the reference; without the law there is no result. */
 static void one_frequency_by_a_law(void **unused)
 {
     enum { DRAWS = 12, PLACES = 9 };
@@ -114,8 +114,8 @@ static void one_frequency_by_a_law(void **unused)
     assert_true((double)held > 0.88 * 2 * DRAWS * PLACES);
 }
 
-/* Shifts of every second isotherm: these stay, the others are fitted between them. */
-static void some_given_others_fitted(void **unused)
+/* Shifts of every second isotherm are fixed, the others are fitted between them. */
+static void stated_shifts_are_fixed(void **unused)
 {
     wt_sweep sweep = {0};
     wt_master m = {0};
@@ -125,7 +125,7 @@ static void some_given_others_fitted(void **unused)
     dma_usual(&sweep, true, noise, 7);
     for (size_t i = 0; i < sweep.n_isotherms; i += 2) {
         wt_isotherm *t = &sweep.isotherms[i];
-        t->shift_is_stated = true; /* to another reference: differences count */
+        t->shift_is_stated = true; /* another reference: differences count */
         t->stated_log_a = 3 + wt_wlf_log_shift(&dma_rubber.wlf, t->temperature);
     }
     assert_int_equal(wt_master_fit(&sweep, &o, NULL, &m, NULL), WT_OK);
@@ -141,8 +141,8 @@ static void some_given_others_fitted(void **unused)
     wt_sweep_clear(&sweep);
 }
 
-/* One isotherm is 0.3 decade off by hand: it stays there, and the others are where they are without
- * it, for the spectrum is theirs. The value is against the isotherm nearest to the reference. */
+/* One isotherm is moved by hand by 0.3 decade. It stays there, and the others do not move, because
+ * they determine the spectrum. The value is relative to the isotherm nearest to the reference. */
 static void one_shift_by_hand(void **unused)
 {
     (void)unused;
@@ -172,8 +172,8 @@ static void one_shift_by_hand(void **unused)
     }
 }
 
-/* A shift by hand is on top of a law that gives all others, and is none of the reference. */
-static void by_hand_beside_a_law_and_where_it_is_none(void **unused)
+/* A manual shift is added to a law for all others, and is refused for the reference. */
+static void manual_shift_with_a_law(void **unused)
 {
     static const char *const forty[] = {"40degC=-1.5"}, *const reference[] = {"20.3degC=-1.5"},
                              *const other[] = {"25degC=1"},
@@ -213,8 +213,8 @@ static void by_hand_beside_a_law_and_where_it_is_none(void **unused)
     wt_sweep_clear(&sweep);
 }
 
-/* Two runs at one temperature have two shifts in the table, each its own; two for one isotherm, or
- * of temperatures that were not measured, are no small matter. */
+/* Two runs at one temperature have separate shifts in the table. Two shifts for one isotherm, or
+ * for temperatures that were not measured, are reported. */
 static void runs_at_one_temperature_keep_their_shifts(void **unused)
 {
     static const double temperature[] = {293.15, 293.15, 303.15, 393.15},
@@ -254,7 +254,7 @@ static void runs_at_one_temperature_keep_their_shifts(void **unused)
     }
 }
 
-/* Storage moduli that follow no rho T, for the closed form knows none. */
+/* Storage moduli without rho T, because the closed form has none. */
 static void closed_form_of_the_standard(void **unused)
 {
     wt_sweep sweep = {0};
@@ -271,8 +271,8 @@ static void closed_form_of_the_standard(void **unused)
     wt_sweep_clear(&sweep);
 }
 
-/* Each quantity alone: shifts of the truth in their intervals, and nothing said of what it leaves
- * open. */
+/* Each modulus alone: the intervals cover the true shifts, and there is no statement on what it
+ * leaves open. */
 static void one_quantity_alone(void **unused)
 {
     enum { DRAWS = 24 };
@@ -323,7 +323,7 @@ static void one_quantity_alone(void **unused)
     }
 }
 
-/* One modulus does not tell a free vertical shift. */
+/* One modulus does not determine a free vertical shift. */
 static void one_modulus_and_free_shifts(void **unused)
 {
     wt_sweep sweep = {0};
@@ -338,8 +338,7 @@ static void one_modulus_and_free_shifts(void **unused)
     wt_sweep_clear(&sweep);
 }
 
-/* tan delta of the rubber at 1 Hz against temperature, finely, has its peak where the reference is.
- */
+/* The reference is where tan delta of the rubber at 1 Hz, on a fine grid, has its peak. */
 static void glass_transition_as_reference(void **unused)
 {
     double peak = 0, largest = 0;
@@ -375,7 +374,7 @@ static void glass_transition_as_reference(void **unused)
 }
 
 /* Isotherms far above the transition that reach it by their frequencies: at 1 Hz it lies further
- * below them than the law is believed. */
+ * below them than the law is valid. */
 static void no_glass_transition_far_from_the_isotherms(void **unused)
 {
     wt_sweep sweep = {0};
@@ -398,14 +397,14 @@ static void no_glass_transition_far_from_the_isotherms(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cut_by_temperature_and_frequency),
-        cmocka_unit_test(words_that_cut_nothing),
+        cmocka_unit_test(excluded_by_temperature_and_frequency),
+        cmocka_unit_test(invalid_exclusions),
         cmocka_unit_test(one_frequency_by_a_law),
-        cmocka_unit_test(some_given_others_fitted),
+        cmocka_unit_test(stated_shifts_are_fixed),
         cmocka_unit_test(runs_at_one_temperature_keep_their_shifts),
         cmocka_unit_test(no_glass_transition_far_from_the_isotherms),
         cmocka_unit_test(one_shift_by_hand),
-        cmocka_unit_test(by_hand_beside_a_law_and_where_it_is_none),
+        cmocka_unit_test(manual_shift_with_a_law),
         cmocka_unit_test(closed_form_of_the_standard),
         cmocka_unit_test(one_quantity_alone),
         cmocka_unit_test(one_modulus_and_free_shifts),

@@ -1,9 +1,7 @@
-/* Relaxation and creep of a series of Maxwell elements, against closed forms and the convolution
- * that ties them; and isotherms of both, drawn from laws that are no series, against their truth.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* Relaxation and creep of a series of Maxwell elements, against closed forms and the convolution of
+ * both. Isotherms of both are drawn from laws without a series and compared with the truth.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "dma/numerics/spectrum.h"
 
@@ -32,7 +30,7 @@ static double value_at(const spectrum *s, const double *term, double t)
     return s->loading == WT_CREEP ? exp(-value) : exp(value);
 }
 
-/* The solid of Zener: one time for each. */
+/* Zener solid: one time for each function. */
 static void one_element_is_the_standard_solid(void **state)
 {
     (void)state;
@@ -52,7 +50,7 @@ static void one_element_is_the_standard_solid(void **state)
 
 enum { TERMS = 40 };
 
-/* Rising and falling, over nine orders, some of them nothing at all. */
+/* Increasing and decreasing, over nine decades, some of them zero. */
 static void fill_terms(double term[TERMS + 1])
 {
     for (int j = 0; j < TERMS; j++)
@@ -63,8 +61,8 @@ static void fill_terms(double term[TERMS + 1])
     term[TERMS] = 1.1e6;
 }
 
-/* The integral of E(t - s) J(s) from 0 to t is t: for sums of exponentials in closed form. Here by
- * Gauss's rule in pieces that follow both functions. */
+/* The integral of E(t - s) J(s) from 0 to t is t. For sums of exponentials it has a closed form;
+ * here it is a Gauss rule in subintervals that follow both functions. */
 static void compliance_and_modulus_are_a_pair(void **state)
 {
     (void)state;
@@ -78,7 +76,7 @@ static void compliance_and_modulus_are_a_pair(void **state)
     spectrum creeps = make_spectrum(WT_CREEP, TERMS, 1e-7, 0.7);
     for (double t = 1e-6; t < 1e4; t *= 47.0) {
         double sum = 0.0;
-        /* from both ends, for J moves fast at 0 and E(t - s) at t */
+        /* from both limits, because J is fast at 0 and E(t - s) at t */
         for (int end = 0; end < 2; end++)
             for (double high = 0.5 * t; high > 1e-13 * t; high *= 0.8)
                 for (int i = 0; i < 5; i++) {
@@ -140,7 +138,7 @@ enum { ISOTHERMS = 9, POINTS = 19 };
 static const double c1 = 6.0, c2 = 110.0, t0 = 293.15;
 static const double end = 2e6, glass = 4e8, place = 3e-6, power = 0.45;
 
-/* Powers of time, whose spectrum is a gamma distribution and no series. */
+/* Power laws of time, whose spectrum is a gamma distribution and no series. */
 static double true_relaxation(double t)
 {
     return end + (glass - end) * pow(1.0 + t / place, -power);
@@ -240,7 +238,7 @@ static void intervals_hold_the_truth(void **state)
     }
 }
 
-/* ---- what cannot be -------------------------------------------------------------------------- */
+/* ---- impossible input ------------------------------------------------------------------------ */
 
 static void steps_have_their_limits(void **state)
 {
@@ -251,7 +249,7 @@ static void steps_have_their_limits(void **state)
     wt_master_options options = wt_master_options_defaults();
     draw_sweep(WT_CREEP, 1, &sweep);
     options.liquid = true;
-    wt_log *log = wt_log_new(); /* what flows is fitted as a solid, and said to be */
+    wt_log *log = wt_log_new(); /* a liquid is fitted as a solid, with a warning */
     bool said = false;
     assert_int_equal(wt_master_fit(&sweep, &options, log, &m, &err), WT_OK);
     for (size_t i = 0; i < wt_log_count(log); i++)

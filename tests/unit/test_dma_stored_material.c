@@ -1,7 +1,7 @@
-/* A material that was stored: its draws are those of the isotherms, bit for bit, and what cannot be
- * such draws is refused. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A stored material: its draws equal those of the isotherms bit for bit; invalid draws are refused.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
-#include "truth.h"
+#include "truth_fixture.h"
 
 static double velocity[2] = {1e-3, 0.1};
 
@@ -32,7 +32,7 @@ static wt_table *friction_of(const wt_rubber *rubber, wt_estimate pressure)
 
 static const wt_estimate exact_pressure = {0.8e6, 0, 0, "Pa"};
 
-/* ---- as in memory ---------------------------------------------------------------------------- */
+/* ---- same as in memory ----------------------------------------------------------------------- */
 
 static wt_rubber of_isotherms(void)
 {
@@ -70,7 +70,7 @@ static void check_same(const wt_table *a, const wt_table *b)
         }
 }
 
-static void test_same(void **state)
+static void test_draws_are_identical(void **state)
 {
     (void)state;
     static const char path[] = "test_flow_stored.h5";
@@ -95,7 +95,7 @@ static void test_same(void **state)
     wt_result_free(stored);
 }
 
-/* As an older version wrote it: what is not known is not 0. */
+/* Table of an older version: unknown values are not 0. */
 static void test_without_draws(void **state)
 {
     (void)state;
@@ -118,7 +118,7 @@ static void test_without_draws(void **state)
     wt_result_free(old);
 }
 
-/* ---- from strangers -------------------------------------------------------------------------- */
+/* ---- foreign files --------------------------------------------------------------------------- */
 
 static bool not_the_last(const wt_table *table, size_t row)
 {
@@ -231,7 +231,7 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same),
+        cmocka_unit_test(test_draws_are_identical),
         cmocka_unit_test(test_without_draws),
         cmocka_unit_test(test_refused),
     };

@@ -1,8 +1,7 @@
-/* The tables of temperature and strain sweeps: every column against the law that the sweeps were
- * written from.
+/* Tables of temperature and strain sweeps: every column against the law of the sweeps.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "weartrack/case.h"
 
@@ -31,7 +30,7 @@ static void remove_files(void)
         unlink(paths[i]);
 }
 
-/* Number, error and interval: the truth lies in it, and it is narrow. */
+/* Number, error and interval: the interval contains the truth and is narrow. */
 static void check_interval(const wt_table *t, size_t row, const char *name, double truth,
                            double most)
 {
@@ -50,7 +49,7 @@ static void check_interval(const wt_table *t, size_t row, const char *name, doub
 
 /* ---- temperature sweeps ---------------------------------------------------------------------- */
 
-/* A step of ln E' and a hump of E''; decades of frequency move both by 6 K. */
+/* A step of ln E' and a hump of E''; one decade of frequency moves both by 6 K. */
 static double storage_at(double celsius, double f)
 {
     const double x = celsius + 20 - 6 * log10(f);
@@ -63,7 +62,7 @@ static double loss_at(double celsius, double f)
     return 1 + 60 * exp(-0.5 * x * x);
 }
 
-/* Of tan delta, by small steps. */
+/* Peak of tan delta, by small steps. */
 static double factor_peak(double f, double *height)
 {
     double best = 0;
@@ -76,7 +75,7 @@ static double factor_peak(double f, double *height)
     return best;
 }
 
-/* Both peaks are rows with their errors, and without where those are not known. Takes the table. */
+/* Both peaks are rows with their errors, or without them if they are unknown. Frees the table. */
 static void check_rows(wt_table *transition)
 {
     const wt_estimate factor = {280.45, (double)NAN, 0, "K"}, loss = {270.44, 0.31, 0, "K"};
@@ -129,7 +128,7 @@ static void test_ramps(void **state)
     assert_int_equal(wt_table_n_rows(ramp), FILES * POINTS);
     assert_int_equal(wt_table_n_rows(peaks), FILES);
     assert_int_equal(wt_table_n_rows(moduli), FILES * 3);
-    for (size_t i = 0; i < FILES; i++) { /* by rising frequency */
+    for (size_t i = 0; i < FILES; i++) { /* by increasing frequency */
         const double f = at_hertz[FILES - 1 - i];
         for (size_t k = 0; k < POINTS; k++) {
             const size_t row = i * POINTS + k;
@@ -204,7 +203,7 @@ static double kraus_loss(double percent)
     return rest + (most - rest) * 2 * z / (1 + z * z);
 }
 
-/* Where the storage modulus has lost a share of what it was at the start. */
+/* Strain where the storage modulus has lost a share of its initial value. */
 static double strain_lost(double start, double share)
 {
     double low = 1e-4, high = 1e4;
@@ -298,7 +297,7 @@ static void test_strain(void **state)
     wt_tables_clear(&tables, sizeof tables);
 }
 
-/* The range of the strains is that of the points that a sweep is left with. */
+/* The strain range is that of the remaining points of a sweep. */
 static void test_left_out(void **state)
 {
     (void)state;

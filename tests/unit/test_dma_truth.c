@@ -1,7 +1,7 @@
 /* The DMA job on sweeps of a known rubber, and the rubber at another temperature: every column of
- * the tables against the series and the law the sweeps were made from.
+ * the tables against the series and the law of the sweeps.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "dma_data.h"
 #include "weartrack/dma.h"
@@ -27,7 +27,7 @@ static double true_log_a(double temperature)
     return -8.0 * step / (110.0 + step);
 }
 
-/* What isotherm i shares on the way to the reference at least [decade]. */
+/* Minimum overlap of isotherm i towards the reference [decade]. */
 static double true_overlap(size_t i)
 {
     double least = (double)INFINITY;
@@ -40,7 +40,7 @@ static double true_overlap(size_t i)
     return least;
 }
 
-/* E' and E'' in tension from -20 to 80 degC, rising with rho T: b = T0/T. */
+/* E' and E'' in tension from -20 to 80 degC, proportional to rho T: b = T0/T. */
 static int make(void **state)
 {
     (void)state;
@@ -143,12 +143,12 @@ static void test_law(void **state)
     assert_near(key_estimate(t, "reference_temperature").value, REFERENCE, 0);
     assert_string_equal(wt_table_key(t, "vertical"), "tied");
     assert_string_equal(wt_table_key(t, "deformation"), "tension");
-    /* A lack of fit is found by chance in one draw of a hundred: then "inconclusive". */
+    /* Chance causes a lack of fit in one draw of a hundred: the verdict is then "inconclusive". */
     assert_int_not_equal(strncmp(wt_table_key(t, "superposition"), "fails", 5), 0);
     assert_true(atof(wt_table_key(t, "misfit_high")) < 0.002);
 }
 
-/* The loss is far from the storage modulus, so that neither passes for the other. */
+/* The loss modulus differs much from the storage modulus, so that an exchange is detected. */
 static void test_master_curve(void **state)
 {
     (void)state;
@@ -211,9 +211,9 @@ static void test_prony(void **state)
     assert_string_equal(wt_table_key(t, "deformation"), "tension");
 }
 
-/* ---- what the tables say of one another ------------------------------------------------------ */
+/* ---- relations of the tables ----------------------------------------------------------------- */
 
-/* Points, shifts, law and series are of one fit: each follows from the others. */
+/* Points, shifts, law and series are from one fit: each follows from the others. */
 static void test_relations(void **state)
 {
     (void)state;
@@ -256,7 +256,8 @@ static void test_relations(void **state)
         assert_near(cell(curve, row, "fitted_storage"), sum[0], 3e-3);
         assert_near(cell(curve, row, "fitted_loss"), sum[1], 3e-3);
         static const char *const fitted[] = {"fitted_storage", "fitted_loss", "fitted_loss_factor"};
-        for (size_t q = 0; q < 3; q++) { /* symmetrical in the logarithm, and worth stating */
+        /* symmetric in the logarithm, and small enough to be useful */
+        for (size_t q = 0; q < 3; q++) {
             char low[40], high[40];
             snprintf(low, sizeof low, "%s_low", fitted[q]);
             snprintf(high, sizeof high, "%s_high", fitted[q]);
@@ -279,7 +280,7 @@ static void test_relations(void **state)
                     cell(prony, 1, "relaxation_time") / cell(prony, 0, "relaxation_time"), 1e-6);
 }
 
-/* The density is that of the series: a term over its width in ln tau, where it is measured. */
+/* The density is that of the series, a term over its width in ln tau, within the measured range. */
 static void test_relaxation_spectrum(void **state)
 {
     (void)state;
@@ -304,7 +305,7 @@ static void test_relaxation_spectrum(void **state)
     assert_string_equal(wt_table_key(t, "deformation"), "tension");
 }
 
-/* The draws scatter as the errors say that stand beside the constants. */
+/* The scatter of the draws agrees with the errors of the constants. */
 static void test_draws(void **state)
 {
     (void)state;
@@ -345,7 +346,7 @@ static void test_draws(void **state)
 
 /* ---- the rubber ------------------------------------------------------------------------------ */
 
-/* What the later stages get, and get again from the tables. */
+/* Input of the later stages, also when read from the tables. */
 static void test_rubber(void **state)
 {
     (void)state;
@@ -422,8 +423,8 @@ static void test_at(void **state)
     }
 }
 
-/* Spread of log10 a over replicates: by propagation from c1, c2 and their correlation, whose sign
- * decides whether the two errors add up or cancel. */
+/* Scatter of log10 a over replicates: propagated from c1, c2 and their correlation, whose sign
+ * decides whether both errors add or cancel. */
 static void test_shift_error(void **state)
 {
     (void)state;

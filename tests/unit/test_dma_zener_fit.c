@@ -1,6 +1,6 @@
-/* A fractional Zener law through points: found again where it holds, and told from a series where
- * it does not. */
-#include "near.h"
+/* A fractional Zener law through points: recovered where it holds, and distinguished from a series
+ * where it does not. */
+#include "assert_near.h"
 
 #include "dma_data.h"
 #include "weartrack/dma.h"
@@ -42,7 +42,7 @@ static void measure(points *p, double noise, double second)
                             .is_outlier = p->left_out};
 }
 
-/* What a series is off, and its criterion, by the textbook. */
+/* Deviation of a series and its criterion, by the textbook. */
 static double criterion(const points *p, const wt_prony *s, double rms[2])
 {
     double sum[2] = {0, 0};
@@ -73,7 +73,7 @@ static wt_prony series(double decades, double *tau, double *modulus, size_t n)
         .equilibrium_modulus = 3e6, .n = n, .relaxation_time = tau, .modulus = modulus};
 }
 
-static void found_again(void **state)
+static void law_is_recovered(void **state)
 {
     (void)state;
     points p;
@@ -102,7 +102,7 @@ static void found_again(void **state)
     assert_true(z.aicc < z.series_aicc);
 }
 
-/* Two processes are none of its kind; what is off then is no noise. */
+/* Two processes are not a Zener law; the deviation is not noise. */
 static void two_processes(void **state)
 {
     (void)state;
@@ -124,7 +124,7 @@ static void two_processes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(found_again),
+        cmocka_unit_test(law_is_recovered),
         cmocka_unit_test(two_processes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

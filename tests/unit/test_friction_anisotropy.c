@@ -1,6 +1,5 @@
-/* Friction on roughness that is not the same in all directions: numeric cases, and the laws that it
- * must obey. */
-#include "near.h"
+/* Friction on anisotropic roughness: numeric cases, and required relations. */
+#include "assert_near.h"
 
 #include "friction/numerics/angular.h"
 #include "numeric/friction_scene.h"
@@ -148,8 +147,8 @@ static void none_is_isotropic_to_the_bit(void **state)
     }
 }
 
-/* Half a turn is nothing, the other way round the side force points to the other side, and so it
- * does backwards. */
+/* Half a turn changes nothing. In the opposite direction the lateral force changes its sign, and so
+ * it does backwards. */
 static void directions(void **state)
 {
     (void)state;
@@ -162,7 +161,7 @@ static void directions(void **state)
     assert_near(mirrored.hysteresis.value, p.hysteresis.value, 1e-12);
     assert_near(mirrored.lateral.value, -p.lateral.value, 1e-12);
     assert_true(p.lateral.value > 0.01);
-    /* less of it a quarter turn on is as much of it here */
+    /* a negative amplitude a quarter turn away is equivalent */
     const wt_friction_point less = solve(&s, texture(-0.6, 0, 90), 1e-10),
                             more = solve(&s, texture(0.6, 0, 0), 1e-10);
     assert_near(less.hysteresis.value, more.hysteresis.value, 1e-12);
@@ -173,9 +172,9 @@ static void directions(void **state)
     assert_near(back.lateral.value, -p.lateral.value, 1e-14);
 }
 
-/* In full contact the friction is linear in the spectrum: what two directions a quarter turn apart
- * have more and less is the same, and as sin(phi) sin(2 phi) = cos(phi) (1 - cos(2 phi)), the side
- * force at 45 deg and the friction at 0 make up the whole. */
+/* In full contact friction is linear in the spectrum: the changes in two directions a quarter turn
+ * apart cancel. With sin(phi) sin(2 phi) = cos(phi) (1 - cos(2 phi)), the lateral force at 45 deg
+ * and the friction at 0 add up to the whole. */
 static void full_contact_is_linear(void **state)
 {
     (void)state;
@@ -272,8 +271,8 @@ static void groove_angular(const wt_material *m, const double *omega, size_t n, 
     }
 }
 
-/* Perfect grooves across, whose profile has the spectrum C1: C = C1 / (pi q). What anisotropy of
- * all orders goes to, which four do not reach. */
+/* Perfect grooves across the velocity, whose profile has the spectrum C1: C = C1 / (pi q). This is
+ * the limit of anisotropy of all orders, which four do not reach. */
 static void grooves_across(void **state)
 {
     (void)state;
@@ -310,7 +309,7 @@ static void grooves_across(void **state)
     free(c);
 }
 
-static void what_cannot_be(void **state)
+static void impossible_input(void **state)
 {
     (void)state;
     wt_error err = WT_ERROR_INIT;
@@ -349,7 +348,7 @@ static void no_static_limit(void **state)
     wt_material_free(material);
 }
 
-/* The terms of the weight over their sum, where it is worst: by quadrature over phi. */
+/* Maximum over phi of the terms of the weight over their sum, by quadrature. */
 static double worst_terms(const double power[WEIGHT_POWERS])
 {
     enum { STEPS = 20000 };
@@ -368,15 +367,15 @@ static double worst_terms(const double power[WEIGHT_POWERS])
     return worst;
 }
 
-/* What errors are multiplied by: where terms cancel they are larger than without a weight. */
-static void caution_of_weights(void **state)
+/* Factor of the errors: where terms cancel they are larger than without a weight. */
+static void error_factor_of_weights(void **state)
 {
     (void)state;
     const wt_anisotropy across = {.amplitude = {0.8}, .angle = {M_PI / 2}},
                         along = {.amplitude = {0.8}, .angle = {0}},
                         askew = {.amplitude = {0.5, 0.3}, .angle = {0.7, 0.2}};
     double shift = 0;
-    /* (1 + a + 2 a r) / (1 + a - 2 a r), r = 3/4 of E'' that goes with the frequency squared */
+    /* (1 + a + 2 a r) / (1 + a - 2 a r), r = 3/4 for E'' proportional to the frequency squared */
     assert_near(weight_longitudinal(&across).cancellation, (1 + 2.5 * 0.8) / (1 - 0.5 * 0.8),
                 1e-12);
     assert_near(weight_longitudinal(&along).cancellation, 1, 1e-12);
@@ -390,10 +389,14 @@ static void caution_of_weights(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numeric_cases),      cmocka_unit_test(none_is_isotropic_to_the_bit),
-        cmocka_unit_test(directions),         cmocka_unit_test(full_contact_is_linear),
-        cmocka_unit_test(all_orders),         cmocka_unit_test(grooves_across),
-        cmocka_unit_test(caution_of_weights), cmocka_unit_test(what_cannot_be),
+        cmocka_unit_test(numeric_cases),
+        cmocka_unit_test(none_is_isotropic_to_the_bit),
+        cmocka_unit_test(directions),
+        cmocka_unit_test(full_contact_is_linear),
+        cmocka_unit_test(all_orders),
+        cmocka_unit_test(grooves_across),
+        cmocka_unit_test(error_factor_of_weights),
+        cmocka_unit_test(impossible_input),
         cmocka_unit_test(no_static_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

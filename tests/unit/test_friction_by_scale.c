@@ -1,9 +1,9 @@
-/* Friction by decades of the wavenumber and to the side: against the friction job, and sums.
+/* Contributions to friction by scale, and lateral friction: against the friction job, and sums.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "sliding.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
 
-#include "near.h"
+#include "assert_near.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +12,7 @@ enum { VELOCITIES = 5 };
 static const double velocity[VELOCITIES] = {0.01, 0.03, 0.1, 0.3, 1};
 static double shifted[3] = {263.15, 293.15, 333.15}, log_b[3] = {-0.08, 0, 0.05};
 
-/* Shifted both ways. */
+/* Shifted in both directions. */
 static void set_up(void)
 {
     sliding_set_up(velocity, VELOCITIES);
@@ -26,7 +26,7 @@ static void set_up(void)
     work.replicates = 0;
 }
 
-/* What the friction job says at a temperature and a pressure. */
+/* Friction job at a temperature and a pressure. */
 static wt_table *make_friction(double temperature, double pressure)
 {
     wt_sliding there = sliding;
@@ -73,7 +73,7 @@ static void decades_add_up(void **state)
     wt_table_free(friction);
 }
 
-/* Where the roughness ends at the last decade, shearing and all of it are those of the contact. */
+/* If the roughness ends at the last decade, shearing and the total are those of the contact. */
 static void decades_have_the_shearing(void **state)
 {
     (void)state;
@@ -113,7 +113,7 @@ static void decades_end_at_decades(void **state)
 
 /* ---- direction of sliding -------------------------------------------------------------------- */
 
-static void sides(void **state)
+static void lateral_force(void **state)
 {
     (void)state;
     wt_table *table = NULL, *plain;
@@ -155,7 +155,7 @@ int main(void)
         cmocka_unit_test(decades_add_up),
         cmocka_unit_test(decades_have_the_shearing),
         cmocka_unit_test(decades_end_at_decades),
-        cmocka_unit_test(sides),
+        cmocka_unit_test(lateral_force),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

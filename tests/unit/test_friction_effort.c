@@ -1,5 +1,5 @@
-/* What friction costs: nodes by tolerance, and evaluations of a closed form by its terms. */
-#include "near.h"
+/* Cost of friction: nodes for a tolerance, and evaluations of a closed form for its terms. */
+#include "assert_near.h"
 
 #include "weartrack/friction.h"
 
@@ -42,7 +42,7 @@ static wt_material *table(void)
     return material;
 }
 
-/* At n velocities, of those from 0.1 mm/s to 10 m/s the first ones. */
+/* The first n of the velocities from 0.1 mm/s to 10 m/s. */
 static void compute(const wt_material *material, double tolerance, size_t n,
                     wt_friction_point *points)
 {
@@ -60,7 +60,8 @@ static void compute(const wt_material *material, double tolerance, size_t n,
     wt_roughness_free(road);
 }
 
-/* Nodes of a velocity on the average; within the stated error of the tight ones. */
+/* Mean number of nodes per velocity; the result is within the stated error of the tight
+ * tolerance. */
 static double nodes_at(const wt_material *material, double tolerance,
                        const wt_friction_point *tight)
 {
@@ -80,7 +81,7 @@ static void nodes_follow_the_tolerance(void **state)
 {
     (void)state;
     wt_material *const materials[] = {prony(12), table()};
-    /* of the rules that sufficed: smaller ones have fewer, and more panels are taken again */
+    /* nodes of the accepted rules: smaller rules have fewer, and more subintervals are repeated */
     const double most[][3] = {{62, 122, 157}, {225, 350, 370}};
     for (size_t m = 0; m < 2; m++) {
         wt_friction_point tight[VELOCITIES];
@@ -99,7 +100,7 @@ static void nodes_follow_the_tolerance(void **state)
 
 enum { DENSE = 20000 };
 
-/* A power law over eight decades, with the same end values held. */
+/* A power law over eight decades, with the end values extrapolated. */
 static void power_law(size_t knots, wt_friction_point *point)
 {
     double *omega = calloc(knots, sizeof *omega), *storage = calloc(knots, sizeof *storage),
@@ -130,9 +131,9 @@ static void assert_same(wt_estimate a, wt_estimate b)
     assert_true(fabs(a.value - b.value) <= a.numerical_error + b.numerical_error + rounding);
 }
 
-/* Knots on a line change nothing, and as many as this do not make the time grow with their square:
- * half a minute where they did. */
-static void knots_on_a_line(void **state)
+/* Knots on a straight line change nothing. As many as here must not make the time grow
+ * quadratically; it was half a minute. */
+static void collinear_knots_change_nothing(void **state)
 {
     (void)state;
     wt_friction_point few, many;
@@ -143,11 +144,11 @@ static void knots_on_a_line(void **state)
     assert_same(few.area_ratio, many.area_ratio);
 }
 
-/* ---- what stands beside -----------------------------------------------------------------------*/
+/* ---- independence of velocities -------------------------------------------------------------- */
 
-/* The digits of a velocity are its own: those of other velocities and their number, 0 among them,
- * move nothing. */
-static void neighbours_move_nothing(void **state)
+/* The digits of a velocity are independent of the other velocities and their number; 0 is among
+ * them. */
+static void velocities_are_independent(void **state)
 {
     (void)state;
     wt_material *const materials[] = {prony(5), prony(12), prony(40), table()};
@@ -204,8 +205,9 @@ static void many_terms(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nodes_follow_the_tolerance), cmocka_unit_test(knots_on_a_line),
-        cmocka_unit_test(neighbours_move_nothing), cmocka_unit_test(many_terms)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(nodes_follow_the_tolerance),
+                                       cmocka_unit_test(collinear_knots_change_nothing),
+                                       cmocka_unit_test(velocities_are_independent),
+                                       cmocka_unit_test(many_terms)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

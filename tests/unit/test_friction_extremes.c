@@ -1,9 +1,9 @@
-/* Extreme materials, surfaces, velocities and pressures, drawn at random: the true error of
- * friction lies within the stated one. The truth is that of friction_truth.h.
+/* Friction of randomly drawn extreme materials, surfaces, velocities and pressures: the true error
+ * is within the stated one. The truth is that of friction_truth.h.
  *
- * With an argument that many other scenes are drawn: test_friction_extremes CASES [SEED [FIRST]],
- * and those before FIRST are left out. */
-#include "near.h"
+ * Arguments draw other scenes: test_friction_extremes CASES [SEED [FIRST]]; scenes before FIRST are
+ * skipped. */
+#include "assert_near.h"
 
 #include "numeric/drawn_numbers.h"
 #include "numeric/friction_truth.h"
@@ -21,7 +21,7 @@ typedef struct drawn {
     double e[MOST], tau[MOST], loss[MOST], wavenumber[SPECTRUM], density[SPECTRUM];
     double strain[FEW], f[FEW], g[FEW];
     double tolerance;
-    size_t n_velocities; /* the one in question is in the middle */
+    size_t n_velocities; /* the tested one is in the middle */
 } drawn;
 
 static const char *const law_names[] = {"prony", "table", "zener"};
@@ -51,7 +51,7 @@ static void draw_terms(drawn *d)
     }
 }
 
-/* Jumps, knots that nearly coincide, and many noisy ones. */
+/* Jumps, nearly coincident knots, and many noisy ones. */
 static void draw_table(drawn *d)
 {
     scene *s = &d->s;
@@ -118,7 +118,7 @@ static void draw_scene(drawn *d, law_kind law, bool transverse)
     d->n_velocities = uniform(0, 1) < 0.7 ? 1 : SWEEP;
 }
 
-/* From gentle to absurd; some met next to q0, some never. */
+/* From small to extreme strains; some are reached next to q0, some never. */
 static void draw_softening(drawn *d)
 {
     scene *s = &d->s;
@@ -142,7 +142,7 @@ static void draw_softening(drawn *d)
 
 static size_t n_cases = 24, first_case, n_checks, reached, refused, broken;
 
-/* Each test counts its own. */
+/* Each test has its own count. */
 static int begin(void **ignored)
 {
     (void)ignored;
@@ -150,7 +150,7 @@ static int begin(void **ignored)
     return 0;
 }
 
-/* `most`: that a stated error may be, relative to the number. */
+/* `most`: largest permitted stated error, relative to the number. */
 static void check(const drawn *d, size_t number, const char *what, wt_estimate actual, real exact,
                   double most)
 {
@@ -168,7 +168,7 @@ static void check(const drawn *d, size_t number, const char *what, wt_estimate a
                 error, exact, actual.numerical_error);
 }
 
-/* At the velocity in question, with others beside it. */
+/* At the tested velocity, together with others. */
 static wt_status compute(const drawn *d, wt_friction_workspace *ws, wt_friction_point *p,
                          wt_error *err)
 {
@@ -184,7 +184,7 @@ static wt_status compute(const drawn *d, wt_friction_workspace *ws, wt_friction_
     return status;
 }
 
-/* False if it is refused for its directions. */
+/* Returns false if it is refused for its anisotropy. */
 static bool compute_scene(const drawn *d, wt_friction_point *p)
 {
     wt_material *material = NULL;
@@ -228,7 +228,7 @@ static void compare(drawn *d, size_t number)
     reached += p.meets_tolerance;
 }
 
-/* Cases in quad precision, that of the truth with other angular integrals than here among them. */
+/* Cases in quad precision, also with other angular integrals for the truth. */
 static void softened_cases(void **ignored)
 {
     (void)ignored;
@@ -261,7 +261,7 @@ static void softened_cases(void **ignored)
     fclose(in);
 }
 
-/* The truth itself, against values of 30-digit arithmetic by another program. */
+/* The truth itself, against values of another program with 30 digits. */
 static void truth_of_reference(void **ignored)
 {
     (void)ignored;
@@ -285,7 +285,7 @@ static void truth_of_reference(void **ignored)
     fclose(in);
 }
 
-/* ---- the edges of the domain ----------------------------------------------------------------- */
+/* ---- limits of validity ---------------------------------------------------------------------- */
 
 static double seconds(void)
 {
@@ -294,7 +294,7 @@ static double seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* `most`: that a stated error may be, relative to the number. */
+/* `most`: largest permitted stated error, relative to the number. */
 static void check_edge(const numeric_case *c, double tolerance, double most, const char *key,
                        wt_estimate actual)
 {
@@ -317,7 +317,7 @@ static void check_refusal(const numeric_case *c, wt_status status, const wt_erro
                  err->found);
 }
 
-/* One row at one tolerance: right within the stated error, or refused by the limit. */
+/* One row at one tolerance: correct within the stated error, or refused by the limit. */
 static void try_edge(const numeric_case *c, const scene *s, double tolerance)
 {
     wt_material *material = NULL;
@@ -348,7 +348,7 @@ static void try_edge(const numeric_case *c, const scene *s, double tolerance)
         check_edge(c, tolerance, most, "stress_variance", p.stress_variance);
         check_edge(c, tolerance, most, "area_ratio", p.area_ratio);
         check_edge(c, tolerance, most, "hysteresis", p.hysteresis);
-        /* no promise: ln(1 - P) is about -1 / (4 G) */
+        /* not promised: ln(1 - P) is about -1 / (4 G) */
         check_edge(c, tolerance, most * (1 + 0.5 / p.stress_variance.value), "one_minus_area",
                    p.one_minus_area);
     }
@@ -357,7 +357,7 @@ static void try_edge(const numeric_case *c, const scene *s, double tolerance)
     wt_material_free(material);
 }
 
-static void edges_of_the_domain(void **ignored)
+static void limits_of_validity(void **ignored)
 {
     (void)ignored;
     FILE *in = fopen(WT_SOURCE_DIR "/tests/numeric/friction-edges.txt", "r");
@@ -379,15 +379,15 @@ static void edges_of_the_domain(void **ignored)
 
 static void draw_case(drawn *d, size_t i)
 {
-    /* of sixteen: three tables, two Zener, two with directions */
+    /* of sixteen: three tables, two Zener, two transversely isotropic */
     draw_scene(d, i % 8 == 7 || i % 16 == 11 ? TABLE : i % 8 == 5 ? ZENER : PRONY, i % 8 == 3);
 }
 
-/* Where the error was once more than the stated one: tables whose knots nearly coincide, one with
- * directions whose moduli are next to singular between its knots, and one whose storage modulus
- * rises by six decades between two knots and its loss modulus by two, so that the hysteresis comes
+/* Scenes whose error once exceeded the stated one: tables with nearly coincident knots; an
+ * anisotropic one with nearly singular moduli between its knots; and a storage modulus that rises
+ * by six decades between two knots while the loss modulus rises by two. The hysteresis then comes
  * from where G has hardly begun to rise. */
-static void once_broken(void **ignored)
+static void earlier_failures(void **ignored)
 {
     (void)ignored;
     static const struct {
@@ -413,10 +413,10 @@ static void once_broken(void **ignored)
     drawn_state = kept;
 }
 
-/* A table with directions whose modulus nearly vanishes between the edges of the panels of its
+/* An anisotropic table whose modulus nearly vanishes between the edges of the subintervals of its
  * angular integrals, with a loss modulus that softens less than the storage modulus; and two that
  * soften so close to q0 that a rounded wavenumber loses the strain. */
-static void softened_once_broken(void **ignored)
+static void earlier_failures_with_softening(void **ignored)
 {
     (void)ignored;
     static const struct {
@@ -444,8 +444,8 @@ static void softened_once_broken(void **ignored)
     drawn_state = kept;
 }
 
-/* With directions and slopes that go on downwards the moduli are rounded by more than the tightest
- * tolerance asks for: cutting does not help, and took half a minute and more. */
+/* With anisotropy and decreasing end slopes, rounding of the moduli exceeds the tightest tolerance.
+ * Bisection does not help; it took half a minute and more. */
 static void steep_and_continued(void **ignored)
 {
     (void)ignored;
@@ -499,7 +499,7 @@ static void extreme_friction(void **ignored)
     assert_true(20 * refused <= n_cases);
 }
 
-/* Half the number of cases, softened. */
+/* Half the number of cases, with softening. */
 static void softened_friction(void **ignored)
 {
     (void)ignored;
@@ -525,9 +525,9 @@ int main(int argc, char **argv)
     make_rule();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(truth_of_reference, begin),
-        cmocka_unit_test_setup(edges_of_the_domain, begin),
-        cmocka_unit_test_setup(once_broken, begin),
-        cmocka_unit_test_setup(softened_once_broken, begin),
+        cmocka_unit_test_setup(limits_of_validity, begin),
+        cmocka_unit_test_setup(earlier_failures, begin),
+        cmocka_unit_test_setup(earlier_failures_with_softening, begin),
         cmocka_unit_test_setup(steep_and_continued, begin),
         cmocka_unit_test_setup(extreme_friction, begin),
         cmocka_unit_test_setup(softened_cases, begin),

@@ -1,6 +1,6 @@
-/* Flash temperature, contact area in partial contact, shear stress: against numeric cases, and what
- * must hold of them. */
-#include "near.h"
+/* Flash temperature, area in partial contact, shear stress: against numeric cases and required
+ * relations. */
+#include "assert_near.h"
 
 #include "friction/numerics/persson_contact.h"
 #include "numeric/friction_scene.h"
@@ -37,7 +37,7 @@ static wt_shift_law reference_law(void)
                           .wlf = {.c1 = 7.4, .c2 = 121.6, .reference_temperature = 293.15}};
 }
 
-/* The moduli at the temperature of the surroundings. */
+/* The moduli at the ambient temperature. */
 static wt_material *material_at(const rig *r, double temperature)
 {
     case_scene made;
@@ -96,7 +96,7 @@ static wt_friction_point solve(const rig *r, double tolerance)
     return point;
 }
 
-/* Every case whose name begins so. */
+/* Runs every case with this prefix. */
 static size_t for_cases(const char *begin, void (*check)(rig *r))
 {
     FILE *in = fopen(WT_SOURCE_DIR "/tests/numeric/friction-beyond.txt", "r");
@@ -199,7 +199,7 @@ static void test_flash_cases(void **state)
     assert_int_equal(for_cases("flash_", check_flash), 14);
 }
 
-/* A rig of a case, by its whole name. */
+/* Returns the parameters of a case by its full name. */
 static rig *rig_named(const char *name)
 {
     FILE *in = fopen(WT_SOURCE_DIR "/tests/numeric/friction-beyond.txt", "r");
@@ -215,7 +215,7 @@ static rig *rig_named(const char *name)
     return r;
 }
 
-/* Off is none, to the last bit, whatever its constants. */
+/* Without flash temperature there is none, to the last bit, for any constants. */
 static void test_flash_off(void **state)
 {
     (void)state;
@@ -232,8 +232,8 @@ static void test_flash_off(void **state)
     rig_free(r);
 }
 
-/* What comes of a velocity depends neither on those beside it nor on the threads. */
-static void test_flash_alone(void **state)
+/* The result of a velocity depends neither on other velocities nor on the threads. */
+static void test_flash_is_independent_of_other_velocities(void **state)
 {
     (void)state;
     enum { N = 9 };
@@ -256,7 +256,7 @@ static void test_flash_alone(void **state)
     rig_free(r);
 }
 
-/* A loose tolerance is off by less than it says. */
+/* The error with a loose tolerance is below the stated one. */
 static void test_flash_error(void **state)
 {
     (void)state;
@@ -290,7 +290,7 @@ static void test_flash_error(void **state)
     rig_free(r);
 }
 
-/* Limits: heat that is carried off at once, and heat that stays where it is made. */
+/* Limits: heat that is removed at once, and heat that stays at its source. */
 static void test_flash_limits(void **state)
 {
     (void)state;
@@ -307,7 +307,7 @@ static void test_flash_limits(void **state)
     rig_free(r);
 }
 
-/* Two solutions over a range of velocities, and the cold one without a jump. */
+/* Two solutions over a range of velocities; the cold one has no jump. */
 static void test_flash_branches(void **state)
 {
     (void)state;
@@ -325,8 +325,8 @@ static void test_flash_branches(void **state)
     rig_free(r);
 }
 
-/* Rubber that would burn has no friction, and nothing is returned for it. */
-static void test_flash_unsettled(void **state)
+/* Rubber above the limit of temperature has no friction, and nothing is returned. */
+static void test_flash_without_convergence(void **state)
 {
     (void)state;
     wt_error err = WT_ERROR_INIT;
@@ -357,7 +357,7 @@ static void test_flash_unsettled(void **state)
     rig_free(r);
 }
 
-/* The power of all waves is that of friction. */
+/* The power of all waves equals that of friction. */
 static void test_flash_energy(void **state)
 {
     (void)state;
@@ -402,11 +402,16 @@ static void test_flash_table(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_area_cases),     cmocka_unit_test(test_flash_cases),
-        cmocka_unit_test(test_flash_off),      cmocka_unit_test(test_flash_alone),
-        cmocka_unit_test(test_flash_error),    cmocka_unit_test(test_flash_limits),
-        cmocka_unit_test(test_flash_branches), cmocka_unit_test(test_flash_unsettled),
-        cmocka_unit_test(test_flash_energy),   cmocka_unit_test(test_flash_table),
+        cmocka_unit_test(test_area_cases),
+        cmocka_unit_test(test_flash_cases),
+        cmocka_unit_test(test_flash_off),
+        cmocka_unit_test(test_flash_is_independent_of_other_velocities),
+        cmocka_unit_test(test_flash_error),
+        cmocka_unit_test(test_flash_limits),
+        cmocka_unit_test(test_flash_branches),
+        cmocka_unit_test(test_flash_without_convergence),
+        cmocka_unit_test(test_flash_energy),
+        cmocka_unit_test(test_flash_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Friction against numeric cases, its stated errors, and the laws it must obey. */
-#include "near.h"
+/* Friction against numeric cases, its stated errors, and required relations. */
+#include "assert_near.h"
 
 #include "friction/numerics/persson_contact.h"
 #include "numeric/friction_scene.h"
@@ -38,7 +38,7 @@ static FILE *open_cases(void)
     return in;
 }
 
-/* A rig with the material and roughness of a named case. */
+/* Material and roughness of a named case. */
 static rig rig_named(const char *name)
 {
     rig r = {.c = malloc(sizeof *r.c)};
@@ -132,7 +132,7 @@ static void numeric_cases(void **state)
     fclose(in);
 }
 
-/* The contact area on the way to the full range of wavenumbers. */
+/* The contact area as a function of magnification, up to the full range of wavenumbers. */
 static void numeric_profiles(void **state)
 {
     (void)state;
@@ -169,7 +169,7 @@ static void numeric_profiles(void **state)
     fclose(in);
 }
 
-/* The ends of the profile: nothing at q0, everything at q1. */
+/* Limits of the profile: zero at q0, the total at q1. */
 static void profile_ends(void **state)
 {
     (void)state;
@@ -214,8 +214,8 @@ static void area_functions(void **state)
     assert_int_equal(n, 9);
 }
 
-/* Many areas at a time, from full contact to next to none, where the ways to them meet too. */
-static void areas_of_many(void **state)
+/* Many areas at once, from full contact to almost none, including where the methods change. */
+static void many_areas_at_once(void **state)
 {
     (void)state;
     enum { MANY = 700 };
@@ -232,7 +232,7 @@ static void areas_of_many(void **state)
     }
 }
 
-/* What an error of G makes of P and of 1 - P is within what is stated, and that is no guess. */
+/* The effect of an error of G on P and on 1 - P is within the stated error, and close to it. */
 static void errors_of_the_area(void **state)
 {
     (void)state;
@@ -241,7 +241,7 @@ static void errors_of_the_area(void **state)
             const long double y = 0.5L / sqrtl((long double)variance);
             const long double far = y / sqrtl(1 - (long double)e),
                               near = y / sqrtl(1 + (long double)e);
-            /* that one of the two which keeps its digits */
+            /* the one of both that keeps its digits */
             const long double low = y < 0.5L ? erfl(far) - erfl(y) : erfcl(y) - erfcl(far);
             const long double high = y < 0.5L ? erfl(y) - erfl(near) : erfcl(near) - erfcl(y);
             const double most = (double)fmaxl(low, high);
@@ -286,7 +286,7 @@ static void odd_in_velocity(void **state)
     assert_near(p[2].hysteresis.value, 0, 0);
     assert_true(p[2].stress_variance.value > 0 && p[2].meets_tolerance);
 
-    /* together: each begins where the one before it ended, and the last digits differ */
+    /* computed together: each begins where the previous one ends, and the last digits differ */
     const double alone = p[0].hysteresis.value;
     assert_int_equal(wt_friction_compute(ws, r.pressure, velocity, 3, p, NULL), WT_OK);
     assert_true(fabs(p[0].hysteresis.value - alone) <= p[0].hysteresis.numerical_error);
@@ -328,8 +328,8 @@ static void scalings(void **state)
     rig_free(&r);
 }
 
-/* Where P is 1, mu and G go with C; and everywhere mu <= 4 sigma0 max(J1 / J2) int P dG. One
- * Maxwell element has J1 = 2 pi E s and J2 = 2 pi E^2 a s with a = omega tau. */
+/* Where P is 1, mu and G are proportional to C; and always mu <= 4 sigma0 max(J1 / J2) int P dG.
+ * One Maxwell element has J1 = 2 pi E s and J2 = 2 pi E^2 a s with a = omega tau. */
 static void linear_and_bounded(void **state)
 {
     (void)state;
@@ -355,7 +355,7 @@ static void linear_and_bounded(void **state)
     wt_material_free(r.material);
 }
 
-/* The 12 terms of the cases, with factors on them. */
+/* The 12 terms of the cases, multiplied by factors. */
 static wt_material *transverse(double axial_storage, double axial_loss, double plane_storage,
                                double plane_loss, double nu_p, double nu_zp)
 {
@@ -374,8 +374,8 @@ static wt_material *transverse(double axial_storage, double axial_loss, double p
     return made;
 }
 
-/* Scaled moduli and pressure change nothing; without loss there is no friction; the sign is that of
- * the velocity; what the isotropic solid is that the moduli are given as does not matter. */
+/* Scaled moduli and pressure change nothing. Without loss there is no friction. The sign is that of
+ * the velocity. The isotropic solid of the stated moduli has no effect. */
 static void transverse_laws(void **state)
 {
     (void)state;
@@ -383,7 +383,7 @@ static void transverse_laws(void **state)
     const wt_friction_point plain = solve(&r, 1e-12);
     wt_material_free(r.material);
     const double s = 7.3;
-    r.material = transverse(2.5, 1, 1, 1, 0.49, 0.49); /* as of nu = 0.3 */
+    r.material = transverse(2.5, 1, 1, 1, 0.49, 0.49); /* as for nu = 0.3 */
     const wt_friction_point other = solve(&r, 1e-12);
     assert_near(other.hysteresis.value, plain.hysteresis.value, 3e-14);
     r.velocity = -r.velocity;
@@ -416,7 +416,8 @@ static void transverse_laws(void **state)
     rig_free(&r);
 }
 
-/* All factors 1 and equal Poisson ratios: nothing but the isotropic solid, bit by bit. */
+/* With all factors 1 and equal Poisson ratios the result is that of the isotropic solid, bit by
+ * bit. */
 static void isotropic_limit(void **state)
 {
     (void)state;
@@ -434,7 +435,7 @@ static void isotropic_limit(void **state)
         rig_free(&base);
         const wt_friction_point q = solve(&r, 1e-12);
         assert_memory_equal(&p, &q, offsetof(wt_friction_point, extrapolated_share));
-        /* one in ten thousand stiffer along its axis: that way, and no further */
+        /* stiffer along its axis by one in ten thousand: a small change in that direction */
         wt_material_free(r.material);
         r.material = transverse(1.0001, 1.0001, 1, 1, nu[i], nu[i]);
         const wt_friction_point near = solve(&r, 1e-12);
@@ -445,8 +446,8 @@ static void isotropic_limit(void **state)
     }
 }
 
-/* Figures 3.3 and 3.4 of the thesis: reinforcing the loss raises friction, reinforcing the storage
- * lowers friction and takes most of the contact. */
+/* Figures 3.3 and 3.4 of the thesis: more loss raises friction, more storage lowers friction and
+ * most of the contact area. */
 static void trends_of_reinforcement(void **state)
 {
     (void)state;
@@ -469,13 +470,13 @@ static void trends_of_reinforcement(void **state)
     rig_free(&r);
 }
 
-/* What can be no solid is refused when frequencies are known. */
+/* An impossible solid is refused once frequencies are known. */
 static void transverse_refused(void **state)
 {
     (void)state;
     rig r = rig_named("ti_isotropic_limit");
     wt_material_free(r.material);
-    r.material = transverse(2.5, 2.5, 1, 1, 0.49, 1.225); /* nu_pz taken for nu_zp */
+    r.material = transverse(2.5, 2.5, 1, 1, 0.49, 1.225); /* nu_pz exchanged with nu_zp */
     wt_friction_workspace *ws = prepare(&r, 1e-10, 1);
     wt_friction_point point;
     wt_error err = WT_ERROR_INIT;
@@ -510,7 +511,7 @@ static void same_bits_for_any_threads(void **state)
     memset(one, 0, sizeof one);
     memset(many, 0, sizeof many);
     wt_friction_workspace *ws = prepare(&r, 1e-9, 1);
-    /* another range first: results must not depend on what was asked before */
+    /* another range first: the result must not depend on earlier calls */
     assert_int_equal(wt_friction_compute(ws, r.pressure, &velocity[20], 1, one, NULL), WT_OK);
     assert_int_equal(wt_friction_compute(ws, r.pressure, velocity, 37, one, NULL), WT_OK);
     wt_friction_workspace_free(ws);
@@ -528,8 +529,8 @@ static void same_bits_for_any_threads(void **state)
     rig_free(&r);
 }
 
-/* The share of mu from frequencies outside the data, against mu of a material that loses nothing
- * there: where P is 1 everywhere, mu is linear in the loss. */
+/* Share of mu from unmeasured frequencies, against mu of a material without loss there: where P is
+ * 1 everywhere, mu is linear in the loss. */
 static void extrapolated_share(void **state)
 {
     (void)state;
@@ -560,8 +561,8 @@ static void extrapolated_share(void **state)
     wt_roughness_free(r.roughness);
 }
 
-/* G = (E* h' / sigma0)^2 / 8 and P = 1 / sqrt(pi G), up to where G is no number. */
-static void largest_variance(void **state)
+/* G = (E* h' / sigma0)^2 / 8 and P = 1 / sqrt(pi G), until G overflows. */
+static void variance_overflow(void **state)
 {
     (void)state;
     rig r = rig_named("normal_prony_v1e-2");
@@ -569,7 +570,7 @@ static void largest_variance(void **state)
     wt_roughness_free(r.roughness);
     for (double c0 = 1e100; c0 < 1e280; c0 *= 1e30) {
         double mu[2], variance[2];
-        for (int k = 0; k < 2; k++) { /* four times as rough, half as much contact */
+        for (int k = 0; k < 2; k++) { /* four times as rough, half the contact area */
             assert_int_equal(wt_roughness_self_affine(1e3, 5e3, 1e7, 0.8, (k ? 4 : 1) * c0 * height,
                                                       &r.roughness, NULL),
                              WT_OK);
@@ -587,7 +588,7 @@ static void largest_variance(void **state)
     rig_free(&r);
 }
 
-/* The numbers of the text file are those of the shared reference data, where present. */
+/* The numbers of the text file are those of the shared reference data, if they exist. */
 static void same_as_shared_reference(void **state)
 {
     (void)state;
@@ -681,13 +682,13 @@ static void layer_limits(void **state)
         assert_near(p.hysteresis.value, bulk.hysteresis.value, 1e-10);
         assert_near(p.stress_variance.value, bulk.stress_variance.value, 1e-10);
     }
-    /* all layer: the bulk with another modulus, or the same at another pressure */
+    /* layer only: the bulk with another modulus, or the same at another pressure */
     const wt_friction_point thick = with_layer(&r, 1e6, 0.3);
     r.pressure /= 0.3;
     const wt_friction_point soft = solve(&r, 1e-10);
     assert_near(thick.hysteresis.value, soft.hysteresis.value, 1e-10);
     assert_near(thick.area_ratio.value, soft.area_ratio.value, 1e-10);
-    /* a real layer lies between */
+    /* a finite layer lies between */
     r.pressure *= 0.3;
     const wt_friction_point some = with_layer(&r, 1e-6, 0.3);
     assert_true(some.area_ratio.value > bulk.area_ratio.value);
@@ -710,8 +711,8 @@ static void total_friction(void **state)
     assert_near(mu.numerical_error, 1e-9 + 3004626.504404032 / 4e5 * 1e-8, 1e-14);
 }
 
-/* A spectrum that underflows to 0 far below q1, and one with a fall of twelve decades within 1e-4
- * of the wavenumber, come to the same by the density at every node as by its powers. */
+/* A spectrum that underflows to 0 far below q1, and one that falls by twelve decades within 1e-4 of
+ * the wavenumber: evaluating the density at every node gives the same as its power laws. */
 static void densities_and_powers(void **state)
 {
     (void)state;
@@ -754,7 +755,7 @@ int main(void)
         cmocka_unit_test(numeric_profiles),
         cmocka_unit_test(profile_ends),
         cmocka_unit_test(area_functions),
-        cmocka_unit_test(areas_of_many),
+        cmocka_unit_test(many_areas_at_once),
         cmocka_unit_test(errors_of_the_area),
         cmocka_unit_test(area_integral_with_correction),
         cmocka_unit_test(odd_in_velocity),
@@ -767,7 +768,7 @@ int main(void)
         cmocka_unit_test(elastic_area),
         cmocka_unit_test(same_bits_for_any_threads),
         cmocka_unit_test(extrapolated_share),
-        cmocka_unit_test(largest_variance),
+        cmocka_unit_test(variance_overflow),
         cmocka_unit_test(same_as_shared_reference),
         cmocka_unit_test(bad_input),
         cmocka_unit_test(layer_limits),

@@ -1,7 +1,6 @@
-/* A layer with moduli of its own: the phase of a ratio of moduli against the relations of Kramers
- * and Kronig, the angular integrals against plain sums, and the limits in which friction is known.
- */
-#include "near.h"
+/* A layer with its own moduli: the phase of a ratio of moduli against the Kramers-Kronig relations,
+ * the angular integrals against plain sums, and limits with known friction. */
+#include "assert_near.h"
 
 #include "friction/numerics/layered_moduli.h"
 #include "weartrack/friction.h"
@@ -10,7 +9,7 @@
 
 static const double complex unit = (double complex)I;
 
-/* The temperature of the frequencies: that of the material. */
+/* Temperature of the frequencies: that of the material. */
 #define NOT_SAID ((double)NAN)
 
 static double tau[] = {1e-7, 1e-5, 1e-3, 1e-1, 10};
@@ -71,8 +70,8 @@ static void assert_alike(const wt_friction_point *a, const wt_friction_point *b,
 
 /* ---- phase ----------------------------------------------------------------------------------- */
 
-/* phase(w) = 2 w / pi PV int (ln|r(w')| - ln|r(w)|) / (w^2 - w'^2) dw' over all frequencies, in
- * u = ln w', by the trapezium off the pole, whose two sides cancel. */
+/* phase(w) = 2 w / pi PV int (ln|r(w')| - ln|r(w)|) / (w^2 - w'^2) dw' over all frequencies, in u =
+ * ln w', by the trapezoidal rule without the pole, where both sides cancel. */
 static double kramers_kronig(const wt_ratio_slope *slope, double omega)
 {
     const double step = 1e-3, reach = 60;
@@ -82,7 +81,7 @@ static double kramers_kronig(const wt_ratio_slope *slope, double omega)
         for (int side = -1; side <= 1; side += 2) {
             const double at = omega * exp(side * y);
             ratio_slope_eval(slope, at, &other, &phase);
-            /* w w' / (w'^2 - w^2) is 1 / (2 sinh(y)), of either sign */
+            /* w w' / (w'^2 - w^2) is 1 / (2 sinh(y)), with either sign */
             sum += step * (other - own) / (2 * sinh(side * y));
         }
     }
@@ -112,7 +111,7 @@ static void phase_is_causal(void **state)
 
 /* ---- angular integrals ----------------------------------------------------------------------- */
 
-/* E of the surface at a wavenumber, by the formula as it is written. */
+/* E of the surface at a wavenumber, by the literal formula. */
 static double complex felt(const wt_material *bulk, const wt_layer_state *layer, double q,
                            double omega)
 {
@@ -161,8 +160,8 @@ static void integrals_are_sums(void **state)
 
 /* ---- limits ---------------------------------------------------------------------------------- */
 
-/* No thickness: the friction of the bulk, to the bit. */
-static void thin(void **state)
+/* Without thickness: the friction of the bulk, bit by bit. */
+static void zero_thickness(void **state)
 {
     (void)state;
     wt_material *bulk = rubber(modulus);
@@ -176,8 +175,9 @@ static void thin(void **state)
     wt_material_free(bulk);
 }
 
-/* A ratio that hardly goes with the frequency, or has no room to: that of one number. */
-static void one_ratio(void **state)
+/* A ratio that hardly depends on the frequency, or only over a short range: the result of a
+ * constant ratio. */
+static void constant_ratio(void **state)
 {
     (void)state;
     wt_material *bulk = rubber(modulus);
@@ -196,7 +196,7 @@ static void one_ratio(void **state)
     wt_material_free(bulk);
 }
 
-/* Frequencies of another temperature go with the shift law. */
+/* Frequencies at another temperature follow the shift law. */
 static void frequencies_are_shifted(void **state)
 {
     (void)state;
@@ -220,7 +220,7 @@ static void frequencies_are_shifted(void **state)
     wt_material_free(bulk);
 }
 
-/* Errors that are stated hold, by a tolerance that is smaller; the share outside of the rates. */
+/* Stated errors are correct, tested with a smaller tolerance; share outside the rates. */
 static void errors_hold(void **state)
 {
     (void)state;
@@ -244,9 +244,9 @@ static void errors_hold(void **state)
     wt_material_free(bulk);
 }
 
-/* Anisotropic roughness, a softening and a flash temperature find the same moduli in a layer that
- * is that of one ratio. */
-static void with_all_else(void **state)
+/* Anisotropic roughness, a softening and flash temperature use the same moduli for a layer with a
+ * constant ratio. */
+static void with_other_effects(void **state)
 {
     (void)state;
     wt_material *bulk = rubber(modulus);
@@ -279,13 +279,10 @@ static void with_all_else(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(phase_is_causal),
-        cmocka_unit_test(integrals_are_sums),
-        cmocka_unit_test(thin),
-        cmocka_unit_test(one_ratio),
-        cmocka_unit_test(frequencies_are_shifted),
-        cmocka_unit_test(errors_hold),
-        cmocka_unit_test(with_all_else),
+        cmocka_unit_test(phase_is_causal),         cmocka_unit_test(integrals_are_sums),
+        cmocka_unit_test(zero_thickness),          cmocka_unit_test(constant_ratio),
+        cmocka_unit_test(frequencies_are_shifted), cmocka_unit_test(errors_hold),
+        cmocka_unit_test(with_other_effects),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
-/* Friction and layer: every number of their tables by a plain double sum of Persson's integrals, by
- * a contact scaled by hand, or from the other numbers.
+/* Friction and layer: every number of their tables against a plain double sum of Persson's
+ * integrals, a contact scaled by hand, or other numbers of the tables.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "sliding.h"
-#include "truth.h"
+#include "sliding_fixture.h"
+#include "truth_fixture.h"
 #include "weartrack/layer.h"
 
 enum { VELOCITIES = 5 };
@@ -54,7 +54,7 @@ static summed sum_contact(double v)
             squares += 2 * M_PI / ANGLES * (storage * storage + loss * loss);
             losses += 2 * M_PI / ANGLES * across * loss;
         }
-        variance += weight * squares / 16; /* half of the shell before, half behind */
+        variance += weight * squares / 16; /* half of the previous shell, and half of the next */
         s.area_ratio = erf(1 / (2 * sqrt(variance)));
         variance += weight * squares / 16;
         const double part = sliding.gamma + (1 - sliding.gamma) * s.area_ratio * s.area_ratio;
@@ -110,7 +110,7 @@ static void test_friction(void **state)
             snprintf(key, sizeof key, "%s_at_reference", numbers[k]);
             snprintf(error, sizeof error, "%s_numerical_error", numbers[k]);
             assert_near(key_estimate(t, key).value, cell(t, 2, numbers[k]), 1e-9);
-            /* of a contact of its own, and of the same order */
+            /* of an independent contact, and of the same order */
             assert_true(key_estimate(t, key).numerical_error > 0.1 * cell(t, 2, error));
             assert_true(key_estimate(t, key).numerical_error < 10 * cell(t, 2, error));
         }
@@ -124,7 +124,7 @@ static void test_friction(void **state)
     }
 }
 
-/* The share from frequencies that were not measured: without those above, what is lost. */
+/* Share from unmeasured frequencies: the loss without the frequencies above the range. */
 static void test_extrapolated(void **state)
 {
     (void)state;
@@ -146,9 +146,9 @@ static void test_extrapolated(void **state)
     wt_table_free(t);
 }
 
-/* ---- the layer on top ------------------------------------------------------------------------ */
+/* ---- layer on the surface -------------------------------------------------------------------- */
 
-/* All moduli times a ratio: the pressure over it is the same contact. */
+/* All moduli times a ratio: the same contact at the pressure divided by it. */
 static void scale_rubber(double ratio)
 {
     static double term[3];
@@ -158,8 +158,8 @@ static void scale_rubber(double ratio)
     rubber.prony.modulus = term;
 }
 
-/* Thicker than every wave it is the rubber, thinner than all nothing; without a ratio nothing
- * either. */
+/* A layer thicker than every wave has the friction of its rubber; a very thin one, or one without a
+ * ratio, has no effect. */
 static void test_layered(void **state)
 {
     (void)state;
@@ -184,7 +184,7 @@ static void test_layered(void **state)
                             (bulk_shear ? 1 : ratio) * cell(soft, i, "adhesion"),
                         1e-6);
             assert_near(cell(thin, i, "friction"), without, 1e-12);
-            /* the shear stress is that of the top, however thin it is */
+            /* the shear stress is that of the top, for any thickness */
             assert_near(cell(thin, i, "friction_with_layer"),
                         cell(thin, i, "hysteresis") +
                             (bulk_shear ? 1 : ratio) * cell(thin, i, "adhesion"),
@@ -227,7 +227,7 @@ static void test_layered(void **state)
 
 /* ---- errors ---------------------------------------------------------------------------------- */
 
-/* One source at a time: the standard error is that of the derivative, taken by two runs. */
+/* One error source at a time: the standard error follows from the derivative, taken by two runs. */
 static void test_errors(void **state)
 {
     (void)state;
@@ -256,7 +256,7 @@ static void test_errors(void **state)
                 const double change =
                     (cell(moved[1], i, numbers[k]) - cell(moved[0], i, numbers[k])) / 2;
                 snprintf(error, sizeof error, "%s_standard_error", numbers[k]);
-                if (source == 1 && k > 0) /* which does not enter it */
+                if (source == 1 && k > 0) /* not an input of it */
                     assert_true(!(cell(t, i, error) > 1e-12));
                 else
                     assert_near_abs(cell(t, i, error), fabs(change),
@@ -268,7 +268,7 @@ static void test_errors(void **state)
     }
 }
 
-/* ---- the layer in time ----------------------------------------------------------------------- */
+/* ---- layer against time ---------------------------------------------------------------------- */
 
 static wt_table *layer_of(const wt_layer_job *job)
 {
@@ -282,7 +282,7 @@ static wt_table *layer_of(const wt_layer_job *job)
     return table;
 }
 
-/* The time by hand at which the thickness goes through a value. */
+/* Time when the thickness reaches a value, by hand. */
 static double time_of(const wt_table *t, double thickness)
 {
     size_t i = 1;
@@ -312,7 +312,7 @@ static void test_layer(void **state)
                      relaxation = key_estimate(chosen, "relaxation_time").value,
                      rate = wear * 0.4e6 * 0.3 * duties[d];
         assert_true(balance > 0 && start > 0 && relaxation > 0);
-        /* chosen times: from half the first scale to the span of the last */
+        /* chosen times: from half the first time scale to the last span */
         assert_int_equal(wt_table_n_rows(chosen), 61);
         assert_near(cell(chosen, 0, "time"), fmin(start, relaxation) / 2, 1e-6);
         assert_near(cell(chosen, 60, "time"), 100 * fmax(start, relaxation), 1e-6);
@@ -334,7 +334,7 @@ static void test_layer(void **state)
         assert_near(cell(chosen, 60, "thickness"), balance, 1e-6);
         assert_near(cell(chosen, 60, "formation_rate"), rate, 1e-6);
         assert_near(key_estimate(t, "time_to_90_percent").value, time_of(t, 0.9 * balance), 2e-3);
-        /* the first that forms, against wear, and the wear that leaves nothing */
+        /* first formation against wear, and the wear that leaves no layer */
         const double ratio = key_estimate(t, "formation_wear_ratio").value;
         assert_near(key_estimate(t, "critical_specific_wear_rate").value, ratio * wear, 1e-9);
         assert_near(cell(t, 0, "formation_rate") / rate, ratio, 1e-6);
@@ -355,7 +355,7 @@ static void test_layer(void **state)
     }
 }
 
-/* Without incubation the layer grows by what forms and does not wear, from the beginning. */
+/* Without incubation the layer grows by formation minus wear, from the start. */
 static void test_growth(void **state)
 {
     (void)state;
@@ -382,7 +382,7 @@ static void test_growth(void **state)
         assert_near_abs(grows, cell(t, i, "formation_rate") - cell(t, i, "wear_rate"),
                         0.01 * cell(t, i, "formation_rate"));
     }
-    /* near the balance the rest falls by e in each relaxation time */
+    /* near the steady state the difference falls by e in each relaxation time */
     const wt_estimate balance = key_estimate(t, "balance_thickness");
     const double rest[] = {balance.value - cell(t, TIMES / 2, "thickness"),
                            balance.value - cell(t, TIMES - 1, "thickness")};
@@ -391,7 +391,7 @@ static void test_growth(void **state)
     wt_table_free(t);
 }
 
-/* Errors of wear and critical energy through the balance by finite differences. */
+/* Errors by wear and critical energy through the steady state, by finite differences. */
 static void test_layer_errors(void **state)
 {
     (void)state;
@@ -429,8 +429,8 @@ static void test_layer_errors(void **state)
     }
 }
 
-/* Of many velocities the replicates are computed at some: the errors are those that each has when
- * there are few, and values are not touched. The last one, the reference, is exact. */
+/* With many velocities the replicates are computed at some of them. The errors are those with few
+ * velocities, and values do not change. The last velocity, the reference, is exact. */
 static void test_many_velocities(void **state)
 {
     enum { MANY = 2400, EVERY = 6, FEW = MANY / EVERY };

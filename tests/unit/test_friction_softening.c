@@ -1,8 +1,9 @@
-/* Softening with strain in the jobs: the mean of strain sweeps, what is drawn, what the table
- * softening says, and a case that asks for it. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+/* Strain softening in the jobs: mean of strain sweeps, draws, the table softening, and a case that
+ * requests it.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma_data.h"
-#include "sliding.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
 
 #include "core/table/registry.h"
 #include "weartrack/case.h"
@@ -48,7 +49,7 @@ static int free_sweeps(void **state)
 
 /* ---- mean ------------------------------------------------------------------------------------ */
 
-/* Linear in the logarithm of the strain, of the i-th source of the table. */
+/* Linear in the logarithm of the strain, for source i of the table. */
 static double of_source(const char *source, const char *column, double strain)
 {
     double x[2] = {(double)NAN, (double)NAN}, y[2] = {0, 0};
@@ -69,7 +70,7 @@ static double of_source(const char *source, const char *column, double strain)
     return y[0] + (y[1] - y[0]) * log(strain / x[0]) / log(x[1] / x[0]);
 }
 
-/* Of three sweeps, beside their mean and what a fourth one would scatter. */
+/* Three sweeps: their mean and the scatter of a fourth one. */
 static void test_mean(void **state)
 {
     (void)state;
@@ -104,7 +105,7 @@ static void test_mean(void **state)
             for (size_t i = 0; i < N_SWEEPS; i++)
                 squares += (value[i] - mean) * (value[i] - mean);
             assert_near(both[c].value[k], mean, 1e-12);
-            /* Student's t of 2 over 1.96 */
+            /* Student's t with 2 degrees of freedom over 1.96 */
             const double other = 4.302652729749464 / 1.959963984540054 *
                                  sqrt(squares / (N_SWEEPS - 1) * (1 + 1.0 / N_SWEEPS));
             assert_true(fabs(both[c].error[k] - other) <= 1e-9 * other + 1e-12);
@@ -112,8 +113,8 @@ static void test_mean(void **state)
     wt_strain_softening_clear(&s);
 }
 
-/* Two sweeps whose strains do not meet are not one, though their strains rise from end to end. */
-static void test_apart(void **state)
+/* Two sweeps with disjoint strains are two, although their strains increase throughout. */
+static void test_disjoint_strains(void **state)
 {
     (void)state;
     static const double strain[] = {1e-3, 1e-2, 0.1, 0.2, 0.5, 1},
@@ -145,8 +146,8 @@ static void test_apart(void **state)
     }
 }
 
-/* Sweeps of several temperatures or samples are no repeats: one is chosen. */
-static void test_chosen(void **state)
+/* Sweeps at several temperatures or of several samples are not repeats: one is selected. */
+static void test_selected_sweep(void **state)
 {
     (void)state;
     static const double at[] = {296.15, 296.65, 333.15, 333.15}, end[] = {0.5, 0.52, 0.7, 0.9};
@@ -214,8 +215,8 @@ static wt_strain_softening given(bool errors)
     return s;
 }
 
-/* Friction up to a wavenumber does not know what comes behind it: where the strain leaves the table
- * the surface is cut off, and what is missing is the share from above. */
+/* Friction up to a wavenumber does not depend on larger ones. Where the strain leaves the table the
+ * surface is truncated, and the missing part is the share from above. */
 static void test_shares(void **state)
 {
     (void)state;
@@ -255,9 +256,9 @@ static void test_shares(void **state)
     wt_table_free(cut);
 }
 
-/* The table softening and the table friction say the same; without softening it is that of a call
- * that never heard of it. */
-static void test_same(void **state)
+/* The tables softening and friction agree; without softening friction is that of a call without the
+ * option. */
+static void test_tables_agree(void **state)
 {
     (void)state;
     const wt_strain_softening s = given(false);
@@ -284,8 +285,7 @@ static void test_same(void **state)
     wt_table_free(table);
 }
 
-/* f and g alone have an error: the scatter is that of friction with both moved by it, for a small
- * one. */
+/* Only f and g have errors: the scatter is that of friction with both moved by a small error. */
 static void test_drawn(void **state)
 {
     (void)state;
@@ -329,9 +329,8 @@ static void test_drawn(void **state)
     }
 }
 
-/* Sweeps of a population in which the whole curves of f and of g scatter: the friction of another
- * piece of it lies in 1.96 standard errors as often as that says. The curves are made by a law of
- * their own. */
+/* Sweeps from a population in which the curves of f and g scatter: 1.96 standard errors cover the
+ * friction of another sample with the right probability. An independent law creates the curves. */
 static void test_covered(void **state)
 {
     (void)state;
@@ -346,7 +345,7 @@ static void test_covered(void **state)
             wt_strain_softening s = {0};
             wt_friction_tables found = {0};
             double x[POINTS], f[POINTS], g[POINTS];
-            for (size_t i = 0; i <= n_sweeps[c]; i++) { /* the last is the other piece */
+            for (size_t i = 0; i <= n_sweeps[c]; i++) { /* the last one is the other sample */
                 const double of_f = exp(0.15 * dma_normal(&seed)),
                              of_g = exp(0.15 * dma_normal(&seed));
                 if (i < n_sweeps[c])
@@ -450,8 +449,8 @@ static double hysteresis(const wt_result *result)
     return number_cell(wt_result_find(result, "friction"), 0, "hysteresis");
 }
 
-/* The strain sweeps of the case, or the same from a file; without either there is no friction that
- * looks as if there had been one. */
+/* Strain sweeps from the case or from a file; without either there is no friction that appears to
+ * have softening. */
 static void test_cases(void **state)
 {
     (void)state;
@@ -480,8 +479,8 @@ static void test_cases(void **state)
     wt_result_free(without);
 }
 
-/* A table that is given, columns in any order, strain in any unit: both errors or none. */
-static void test_given(void **state)
+/* A stated table, with columns in any order and strain in any unit: both errors or none. */
+static void test_stated_table(void **state)
 {
     (void)state;
     static const char *const names[] = {"strain", "g_error", "g", "f_error", "f"};
@@ -531,11 +530,11 @@ static void test_given(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mean),   cmocka_unit_test(test_apart),
-        cmocka_unit_test(test_chosen), cmocka_unit_test(test_covered),
-        cmocka_unit_test(test_shares), cmocka_unit_test(test_same),
-        cmocka_unit_test(test_drawn),  cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_cases),  cmocka_unit_test(test_given),
+        cmocka_unit_test(test_mean),           cmocka_unit_test(test_disjoint_strains),
+        cmocka_unit_test(test_selected_sweep), cmocka_unit_test(test_covered),
+        cmocka_unit_test(test_shares),         cmocka_unit_test(test_tables_agree),
+        cmocka_unit_test(test_drawn),          cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_cases),          cmocka_unit_test(test_stated_table),
     };
     return cmocka_run_group_tests_name("softening", tests, make_sweeps, free_sweeps);
 }

@@ -1,5 +1,5 @@
-/* The kernel against the plain textbook method, which shares nothing with it but the laws. */
-#include "near.h"
+/* The kernel against the plain textbook method, which only shares the laws. */
+#include "assert_near.h"
 
 #include "numeric/friction_scene.h"
 #include "study/textbook_methods.c"
@@ -35,7 +35,7 @@ static void kernel_against_textbook(void **state)
             WT_OK);
         assert_near(fine.stress_variance, point.stress_variance.value, 1e-3);
         assert_near(fine.hysteresis, point.hysteresis.value, 1e-3);
-        /* and it takes more nodes to get there */
+        /* and it needs more nodes for that */
         assert_true(fabs(coarse.stress_variance / point.stress_variance.value - 1) > 1e-4);
         wt_friction_workspace_free(ws);
         wt_material_free(material);

@@ -1,7 +1,7 @@
-/* Directions of a material: the trends that the source draws (figures 3.3 and 3.4), on the bundled
- * case. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "sliding.h"
+/* Transverse isotropy: the trends of the source (figures 3.3 and 3.4), on the bundled case.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sliding_fixture.h"
+#include "table_cells.h"
 
 #include "weartrack/case.h"
 
@@ -40,7 +40,8 @@ static double at(const wt_table *table, const char *factors, size_t i, const cha
     return 0;
 }
 
-/* More loss along the normal: more friction. More storage: less contact, and that most. */
+/* More loss along the normal: more friction. More storage: less contact area, the largest
+ * effect. */
 static void test_trends(void **state)
 {
     (void)state;
@@ -58,8 +59,8 @@ static void test_trends(void **state)
     }
 }
 
-/* Both: the friction of the case. None: that of the rubber without directions. */
-static void test_ends(void **state)
+/* Both: the friction of the case. None: that of the isotropic rubber. */
+static void test_limits(void **state)
 {
     (void)state;
     const wt_table *table = wt_result_find(result, "transverse_isotropy"),
@@ -99,6 +100,7 @@ static void test_ends(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_trends), cmocka_unit_test(test_ends)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_trends),
+                                       cmocka_unit_test(test_limits)};
     return cmocka_run_group_tests_name("transverse_isotropy", tests, run_case, free_result);
 }

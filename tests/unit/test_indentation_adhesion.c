@@ -1,7 +1,5 @@
-/* Adhesive contact: values in 12 digits, limits, derivatives.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Adhesive contact: values with 12 digits, limits, derivatives.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference_contact.h"
 
 #include "indentation/law/adhesion.h"
@@ -102,7 +100,7 @@ static void derivatives(void **state)
     wt_contact_table_free(table);
 }
 
-/* A soft lever and a sphere: the textbook's 3/2 pi w R, whatever the modulus; Tabor's number. */
+/* A soft cantilever and a sphere: 3/2 pi w R of the textbook for any modulus; Tabor's number. */
 static void textbook(void **state)
 {
     (void)state;
@@ -123,8 +121,8 @@ static void textbook(void **state)
     wt_contact_table_free(table);
 }
 
-/* A sphere that is hardly dented is its paraboloid; where it is, depth, force and their derivative
- * follow from the law without adhesion, and the pull-off is the lowest point of the branch. */
+/* At a small depth a sphere is its paraboloid. At a large one depth, force and their derivative
+ * follow from the law without adhesion, and the pull-off is the minimum of the branch. */
 static void sphere(void **state)
 {
     (void)state;
@@ -158,8 +156,8 @@ static void sphere(void **state)
     wt_contact_table_free(table);
 }
 
-/* Positions of a whole curve, with noise, are in balance to rounding, past the end of the branch
- * and the corner of the tip; and each is where it is alone. */
+/* Positions of a whole curve with noise are in equilibrium to rounding, also beyond the end of the
+ * branch and the edge of the tip. Each equals its single computation. */
 static void curve_in_balance(void **state)
 {
     (void)state;
@@ -193,7 +191,7 @@ static void curve_in_balance(void **state)
                     assert_near_abs(at.depth + at.force / k, position[i], 1e-12 * reach);
                 double alone;
                 adhesion_balance(&law, k, release, &position[i], 1, &alone);
-                /* where it lets go a position says little of the place */
+                /* at pull-off the base position hardly determines the contact radius */
                 if (bare[i] > 1.001 * release)
                     assert_near(alone, bare[i], 1e-9);
             }
@@ -202,7 +200,7 @@ static void curve_in_balance(void **state)
     }
 }
 
-/* The edge of a punch lets go all at once: Kendall. */
+/* The edge of a punch detaches at once: Kendall. */
 static void punch(void **state)
 {
     (void)state;
@@ -212,7 +210,7 @@ static void punch(void **state)
     wt_contact_table *table = table_of(&tip);
     assert_true(isnan(adhesion_tabor(&(adhesion){table, 1e7, 0.02})));
     wt_contact_table_free(table);
-    /* beyond what any surface has there is no number, not that of the limit */
+    /* beyond the plausible range the result is not a number, rather than the limit */
     const wt_tip round = {.shape = WT_TIP_PARABOLOID, .radius = 2e-6};
     assert_near(work_of(&round, 1e7, 0.0, 1.5 * M_PI * 900 * 2e-6), 900, 1e-9);
     assert_true(isnan(work_of(&round, 1e7, 0.0, 1.5 * M_PI * 1100 * 2e-6)));

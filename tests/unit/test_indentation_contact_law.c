@@ -1,8 +1,6 @@
 /* Tips and contact laws: reference values, limits, continuity, the table against the function.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "weartrack/indentation.h"
 
@@ -78,7 +76,7 @@ static void numeric_cases(void **state)
     assert_true(n >= 40);
 }
 
-/* All rows of the shared reference data, where present: E = 1e6 Pa, nu = 0.5. */
+/* All rows of the shared reference data, if they exist: E = 1e6 Pa, nu = 0.5. */
 static void shared_reference(void **state)
 {
     (void)state;
@@ -117,7 +115,7 @@ static void sharp_limits(void **state)
         wt_contact_function(&sharp, 1e-7, &g, &slope);
         assert_near(g, expected, 1e-14);
         assert_near(slope, 2.0 * expected / 1e-7, 1e-14);
-        /* b -> 0: what is left of the cap is of the order b/delta. */
+        /* b -> 0: the remaining effect of the cap is of the order b/delta. */
         wt_tip nearly = pyramid(cases[i].sides, 35, 20e-9, 1e-16);
         wt_contact_function(&nearly, 1e-7, &g, &slope);
         assert_near(g, expected, 1e-8);
@@ -133,8 +131,8 @@ static void sharp_limits(void **state)
     assert_near(slope, 2.0 * M_2_PI * tan(20 * degree) * 3e-8, 1e-14);
 }
 
-/* From a millionth of the radius to a million radii; the sphere of Hertz where it is shallow, the
- * end of a punch where it is deep. */
+/* From a millionth of the radius to a million radii: the sphere of Hertz for small depths, the flat
+ * punch for large ones. */
 static void sphere_of_sneddon(void **state)
 {
     (void)state;
@@ -154,8 +152,8 @@ static void sphere_of_sneddon(void **state)
     assert_int_equal(n, 15);
 }
 
-/* A thin sample against the integral equation: 0.4 %, but 2.5 % at a wide cap and for a sphere that
- * is dented by more than a ninth. Without a base to speak of it is a half-space. */
+/* A thin sample against the integral equation: 0.4 %, but 2.5 % at a wide cap and for a sphere with
+ * a depth above a ninth. With a distant base it is a half-space. */
 static void thin_sample(void **state)
 {
     (void)state;
@@ -239,7 +237,7 @@ static void continuous_at_the_switch(void **state)
         wt_contact_function(&tips[i], at * (1 - 1e-14), &below, &below_slope);
         wt_contact_function(&tips[i], at * (1 + 1e-14), &above, &above_slope);
         assert_near(above, below, 1e-13);
-        /* The slope 2a goes on from 2b; its own slope jumps (not for the smooth cap). */
+        /* The slope 2a is continuous at 2b; its derivative jumps (not for the smooth cap). */
         assert_near(above_slope, 2.0 * b, 1e-12);
         assert_near(below_slope, 2.0 * b, 1e-12);
     }
@@ -281,7 +279,7 @@ static void no_contact_and_not_a_number(void **state)
     wt_contact_table_free(table);
 }
 
-/* Dense, across the switch and across the ends of the table. */
+/* Dense points across the switch and the limits of the table. */
 static void table_agrees_with_function(void **state)
 {
     (void)state;

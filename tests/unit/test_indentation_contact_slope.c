@@ -1,7 +1,7 @@
-/* Slope in contact: the truth of hard surfaces, intervals that hold it, soft surfaces that show.
+/* Slope in contact: known hard surfaces, coverage of the intervals, detection of soft surfaces.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
+#include "assert_near.h"
+#include "draw_count.h"
 #include "weartrack/indentation.h"
 
 #include "dma_data.h"
@@ -10,10 +10,10 @@
 #include <locale.h>
 #include <math.h>
 
-enum { MOST = 4000, DRAWS = COUNTED(600) };
+enum { MOST = 4000, DRAWS = DRAW_COUNT(600) };
 
-/* Written down apart from the library: a lever of sensitivity s on a surface into which a sphere
- * sinks by `give` times deflection^(2/3). */
+/* Independent of the library: a cantilever of sensitivity s on a surface into which a sphere sinks
+ * by `give` times deflection^(2/3). */
 typedef struct drawn_curve {
     double sensitivity; /* m/V */
     double give;        /* indentation over deflection at the end */
@@ -77,8 +77,8 @@ static void test_truth(void **state)
     }
 }
 
-/* The share of the sensitivity that a sphere's contact adds is 2.42 times the change of the slope,
- * and more where it is no longer small. */
+/* The contact of a sphere adds 2.42 times the change of the slope to the sensitivity, and more
+ * where it is not small. */
 static void test_soft(void **state)
 {
     (void)state;
@@ -95,14 +95,15 @@ static void test_soft(void **state)
     assert_true(measured(&dull, &seed).change < -0.1);
 }
 
-/* The interval of a single curve, with noise that lasts shorter than a block. */
+/* Interval of a single curve, with noise that is correlated over less than a block. */
 static void test_within(void **state)
 {
     (void)state;
     static const struct {
         double memory;
         size_t n;
-        double free; /* 90 nm: a baseline hardly longer than the part, whose tilt is as uncertain */
+        /* 90 nm: a baseline hardly longer than the part, with an equally uncertain tilt */
+        double free;
     } cases[] = {{0, 400, 0}, {0, 4000, 0}, {0.8, 4000, 0}, {0, 4000, 90e-9}};
     uint64_t seed = 7;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
@@ -122,14 +123,14 @@ static void test_within(void **state)
         }
         print_message("memory %g, %zu samples, %g m free: slope %.3f, change %.3f\n",
                       cases[k].memory, cases[k].n, cases[k].free, slope / DRAWS, change / DRAWS);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_in_range((long)(1000 * change / DRAWS), 920, 980);
         assert_in_range((long)(1000 * slope / DRAWS), 920, 980);
     }
 }
 
-/* Curves that scatter, and files that scatter more: the interval of the mean holds the truth. */
+/* Curves that scatter, and files that scatter more: the interval of the mean contains the truth. */
 static void test_between(void **state)
 {
     (void)state;
@@ -162,7 +163,7 @@ static void test_between(void **state)
         }
         print_message("%zu files of %zu curves: %.3f\n", cases[k].files, cases[k].curves,
                       held / DRAWS);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_in_range((long)(1000 * held / DRAWS), 920, 980);
     }

@@ -1,8 +1,6 @@
-/* The fit of one force curve on curves of known truth: values, errors and their coverage, the
- * sensitivity budget, the way from a force curve as it was read.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Fit of a force curve with known truth: values, errors and their coverage, the sensitivity budget,
+ * and curves as read from a file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fitted_curve.h"
 
 #include "indentation/numerics/curve_model.h"
@@ -29,14 +27,14 @@ static void exact_curves_give_the_truth(void **state)
         t.noise = 0.0;
         wt_indent_options options = every_curve();
         if (variant == 1)
-            t.direction = -1.0; /* the height falls towards the sample */
-        if (variant == 2) {     /* a lever much softer than the contact */
+            t.direction = -1.0; /* the height decreases towards the sample */
+        if (variant == 2) {     /* a cantilever much softer than the contact */
             t.spring_constant = 0.1;
             t.travel = 900e-9;
             t.contact_point = 296.37e-9;
             t.tilt = 1e-4;
         }
-        if (variant == 3) { /* a sphere on something soft, another Poisson ratio */
+        if (variant == 3) { /* a sphere on a soft sample, another Poisson ratio */
             t.tip = (wt_tip){.shape = WT_TIP_PARABOLOID, .radius = 5e-6};
             t.modulus = 1234.5;
             t.poisson_ratio = options.poisson_ratio = 0.3;
@@ -77,8 +75,8 @@ static void exact_curves_give_the_truth(void **state)
     }
 }
 
-/* 95 % intervals of all four parameters, white and correlated noise, stiff and soft lever. The
- * share of 240 intervals that hold the truth scatters by 1.4 %. */
+/* 95 % intervals of all four parameters with white and correlated noise, stiff and soft cantilever.
+ * The coverage of 240 intervals has a standard deviation of 1.4 %. */
 static void intervals_cover_the_truth(void **state)
 {
     (void)state;
@@ -90,7 +88,7 @@ static void intervals_cover_the_truth(void **state)
         {1.0, 600e-9, 556.43e-9, 1e-3, 50e-12, 0.0, 400}, /* a short contact */
         {1.0, 600e-9, 476.43e-9, 1e-3, 50e-12, 0.8, 1000},
         {1.0, 600e-9, 476.43e-9, 1e-3, 50e-12, 0.95, 2000},
-        {0.1, 900e-9, 296.37e-9, 1e-4, 50e-12, 0.0, 600}, /* 13 times stiffer than the lever */
+        {0.1, 900e-9, 296.37e-9, 1e-4, 50e-12, 0.0, 600}, /* 13 times stiffer than the cantilever */
         {0.1, 900e-9, 296.37e-9, 1e-4, 50e-12, 0.8, 1000},
     };
     enum { CURVES = 240 };
@@ -145,7 +143,7 @@ static void intervals_cover_the_truth(void **state)
             "covered: E %d, c %d, offset %d, tilt %d of %d\n",
             t.spring_constant, t.correlation, 100 * bias, 100 * scatter, 100 * errors / CURVES,
             covered[0], covered[1], covered[2], covered[3], CURVES);
-        /* A baseline half as long as the contact does not tell much of waves as long as that. */
+        /* A baseline half as long as the contact hardly determines waves of that length. */
         const bool little = t.spring_constant < 1.0;
         for (int p = 0; p < 4; p++)
             assert_in_range(covered[p], 0.88 * CURVES, (little ? 1.0 : 0.99) * CURVES);
@@ -160,9 +158,9 @@ static void intervals_cover_the_truth(void **state)
     }
 }
 
-/* Why the plain residual is not the default: with a lever 12 times softer than the contact its
- * modulus is biased by many of its own scatter. */
-static void plain_least_squares_is_biased_with_a_soft_lever(void **state)
+/* The plain residual is not the default because of its bias: with a cantilever 12 times softer than
+ * the contact the modulus is wrong by many standard deviations. */
+static void plain_least_squares_is_biased_with_a_soft_cantilever(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -183,11 +181,11 @@ static void plain_least_squares_is_biased_with_a_soft_lever(void **state)
     assert_true(bias_plain < -0.03);
 }
 
-/* d ln E/d ln sensitivity against a fit with another sensitivity. The textbook figure for a single
- * point at known contact is 1 + S/k: for 20 MPa at 70 nm under this tip S = 1.2261 N/m, hence 13.3
- * with 0.1 N/m and 2.2 with 1 N/m, and 14.6 % and 2.25 % for a step of a whole 1 % upwards.
- * (Figures of 15.6 % and 2.3 % are also quoted for this case.) A fit of the whole curve, contact
- * point included, lies near them, not on them. */
+/* d ln E/d ln sensitivity against a fit with another sensitivity. The textbook value for a single
+ * point with known contact is 1 + S/k. For 20 MPa at 70 nm under this tip S = 1.2261 N/m, hence
+ * 13.3 with 0.1 N/m and 2.2 with 1 N/m, and 14.6 % and 2.25 % for an increase by 1 %. (15.6 % and
+ * 2.3 % are also quoted for this case.) A fit of the whole curve with its contact point is close to
+ * these values. */
 static void sensitivity_budget(void **state)
 {
     (void)state;
@@ -223,9 +221,9 @@ static void sensitivity_budget(void **state)
     }
 }
 
-/* The cost of a baseline that enters by its sums is that of its samples, also where the contact
- * point moves into it. */
-static void sums_stand_for_the_baseline(void **state)
+/* A baseline that enters by its sums has the same cost as its samples, also when the contact point
+ * moves into it. */
+static void baseline_by_sums(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -255,20 +253,20 @@ static void sums_stand_for_the_baseline(void **state)
     wt_contact_table_free(table);
 }
 
-/* The largest force is that of any sample, the first one too. */
+/* The largest force may be at any sample, the first one included. */
 static void largest_force(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
     curve_make(&t, 1, &data);
     const double largest = fit_with(&t, NULL).max_force;
-    for (size_t i = 0; i < 20; i++) /* few would be spikes */
+    for (size_t i = 0; i < 20; i++) /* few are spikes */
         data.force[i] += 10 * largest;
     wt_indent_fit fit = fit_with(&t, NULL);
     assert_near(fit.max_force, 10 * largest, 0.1);
 }
 
-/* At the ends, where there are neighbours on one side only. */
+/* At the ends there are neighbours on one side only. */
 static void spikes_at_the_ends(void **state)
 {
     (void)state;
@@ -286,7 +284,7 @@ static void spikes_at_the_ends(void **state)
     assert_near(fit.modulus.value, modulus, 0.01);
 }
 
-/* A contact point that is given is not moved and has no error. */
+/* A stated contact point is fixed and has no error. */
 static void contact_point_given(void **state)
 {
     (void)state;
@@ -304,8 +302,8 @@ static void contact_point_given(void **state)
     assert_true(fit_with(&t, &options).modulus.value > 1.02 * t.modulus);
 }
 
-/* A baseline with a step before and a bend after the chosen part: the modulus is that of a straight
- * one, and the contact point stays free. */
+/* A baseline with a step before the chosen part and a curvature after it: the modulus is that of a
+ * straight baseline, and the contact point is free. */
 static void baseline_given(void **state)
 {
     (void)state;
@@ -332,8 +330,8 @@ static void baseline_given(void **state)
     assert_int_equal(fit_with(&t, &options).verdict, WT_CURVE_NO_BASELINE);
 }
 
-/* Another zero of height and force, another order of curves before it: the same answer. */
-static void nothing_hidden_decides(void **state)
+/* Another zero of height and force, or other curves before it: the same result. */
+static void irrelevant_changes_have_no_effect(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -352,7 +350,7 @@ static void nothing_hidden_decides(void **state)
     assert_true(first.modulus.value == again.modulus.value &&
                 first.modulus.standard_error == again.modulus.standard_error &&
                 first.contact_point.value == again.contact_point.value);
-    assert_ptr_equal(workspace->block, block); /* warm: no new memory */
+    assert_ptr_equal(workspace->block, block); /* no allocation after the first curves */
 
     t.height0 += 1e-6;
     t.offset -= 7e-9;
@@ -383,14 +381,14 @@ static void points_for_plots(void **state)
     }
 }
 
-/* ---- as it was read -------------------------------------------------------------------------- */
+/* ---- curves from files ----------------------------------------------------------------------- */
 
 static void add_segment(wt_force_curve *curve, wt_segment_kind kind, wt_quantity quantity,
                         double factor, const curve_truth *t)
 {
     wt_segment *segment = wt_force_curve_add_segment(curve, kind, t->n, 2);
     assert_non_null(segment);
-    /* The last sample is half a second after the first; the duration has room for the next. */
+    /* The last sample is half a second after the first; the duration includes the next one. */
     segment->duration = 0.5 * (double)t->n / (double)(t->n - 1);
     segment->channels[0].quantity = WT_Q_HEIGHT;
     segment->channels[1].quantity = quantity;
@@ -436,7 +434,7 @@ static void force_curve_as_read(void **state)
                      WT_E_MISSING);
     assert_non_null(strstr(err.advice, "--spring-constant"));
 
-    /* Retract before approach in the file; and no approach at all. */
+    /* Retract before approach in the file, and a file without approach. */
     wt_force_curve_reset(&curve);
     curve.cantilever.spring_constant = t.spring_constant;
     add_segment(&curve, WT_SEGMENT_RETRACT, WT_Q_FORCE, 1.0, &t);
@@ -497,7 +495,7 @@ static double modelled(const curve_truth *t, const double p[UNKNOWNS], double z)
     return p[2] + p[3] * (z - p[1]) + curve_contact_force(&at, z - p[1]);
 }
 
-/* Solves for both right sides. */
+/* Solves for two right sides. */
 static void solve_normal(double a[UNKNOWNS][UNKNOWNS], double b[2][UNKNOWNS])
 {
     for (int k = 0; k < UNKNOWNS; k++)
@@ -513,8 +511,8 @@ static void solve_normal(double a[UNKNOWNS][UNKNOWNS], double b[2][UNKNOWNS])
             b[j][k] /= a[k][k];
 }
 
-/* Gauss-Newton by differences from where the fit ended, relative: the step of the modulus, and the
- * largest that a step of this length in all unknowns can be. */
+/* Gauss-Newton step by differences from the end of the fit, relative: the step of the modulus, and
+ * the largest possible one for a step of this length in all unknowns. */
 static void step_from(const curve_truth *t, const wt_indent_fit *fit, double *step, double *most)
 {
     const double unit[UNKNOWNS] = {1e5, 1e-10, 1e-11, 1e-5};
@@ -548,7 +546,7 @@ static void step_from(const curve_truth *t, const wt_indent_fit *fit, double *st
     *most = sqrt(length * solved[1][0]) * unit[0] / p[0];
 }
 
-static void what_a_further_step_would_change(void **state)
+static void fit_has_converged(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -566,12 +564,12 @@ static void what_a_further_step_would_change(void **state)
         assert_near_abs(workspace->step_left, most, 0.02 * most + 3e-10);
         assert_true(step <= workspace->step_left + 3e-10);
         assert_true(workspace->step_left <= workspace->step_allowed);
-        /* 1e-5 of the error by noise that is not correlated */
+        /* 1e-5 of the error by uncorrelated noise */
         assert_true(workspace->step_allowed < 2e-5 * share);
         assert_true(workspace->step_allowed > 2e-6 * share);
         largest = fmax(largest, most);
     }
-    assert_true(largest > 5e-9); /* there was something to say */
+    assert_true(largest > 5e-9); /* the test has found cases */
 }
 
 int main(void)
@@ -579,18 +577,18 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_curves_give_the_truth),
         cmocka_unit_test(intervals_cover_the_truth),
-        cmocka_unit_test(plain_least_squares_is_biased_with_a_soft_lever),
+        cmocka_unit_test(plain_least_squares_is_biased_with_a_soft_cantilever),
         cmocka_unit_test(sensitivity_budget),
-        cmocka_unit_test(sums_stand_for_the_baseline),
+        cmocka_unit_test(baseline_by_sums),
         cmocka_unit_test(largest_force),
         cmocka_unit_test(spikes_at_the_ends),
         cmocka_unit_test(contact_point_given),
         cmocka_unit_test(baseline_given),
-        cmocka_unit_test(nothing_hidden_decides),
+        cmocka_unit_test(irrelevant_changes_have_no_effect),
         cmocka_unit_test(points_for_plots),
         cmocka_unit_test(force_curve_as_read),
         cmocka_unit_test(arguments),
-        cmocka_unit_test(what_a_further_step_would_change),
+        cmocka_unit_test(fit_has_converged),
     };
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

@@ -1,8 +1,6 @@
-/* Awkward force curves: each has its own verdict and a reason with numbers.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "counted.h"
+/* Unusual force curves: each has its verdict and a reason with numbers.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "draw_count.h"
 #include "fitted_curve.h"
 
 #include "indentation/law/adhesion.h"
@@ -12,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Fits and checks the verdict and a word of the reason; a curve that was fitted keeps its modulus,
- * whatever the verdict. */
+/* Fits and tests the verdict and a word of the reason. A fitted curve keeps its modulus for any
+ * verdict. */
 static wt_indent_fit expect(const curve_truth *t, wt_curve_verdict verdict, const char *words)
 {
     wt_indent_options options = wt_indent_defaults();
@@ -53,7 +51,7 @@ static void starts_in_contact(void **state)
     t.travel = 100e-9;
     t.contact_point = -30e-9;
     curve_make(&t, 1, &data);
-    /* an error that could not be found is not 0 */
+    /* an unknown error is not 0 */
     assert_true(isnan(expect(&t, WT_CURVE_NO_BASELINE, "before the first sample").misfit_error));
     t.contact_point = 0.3e-9;
     curve_make(&t, 1, &data);
@@ -74,12 +72,12 @@ static void saturated_detector(void **state)
         assert_near(fit.modulus.value, t.modulus, 4 * fit.modulus.standard_error / t.modulus);
         assert_true(fit.n_fitted < t.n && fit.max_force > 26e-9 /* of all */);
         wt_indent_options options = wt_indent_defaults();
-        options.fit_force_fraction = 0.9; /* told, nothing is doubtful */
+        options.fit_force_fraction = 0.9; /* with a stated one, nothing is doubtful */
         fit = fit_with(&t, &options);
         assert_int_equal(fit.verdict, WT_CURVE_ACCEPTED);
         assert_near(fit.modulus.value, t.modulus, 4 * fit.modulus.standard_error / t.modulus);
     }
-    /* A piezo that rests at the end is no saturation. */
+    /* A piezo that rests at the end is not a saturation. */
     curve_make(&t, 1, &data);
     for (size_t i = t.n - 200; i < t.n; i++) {
         data.height[i] = data.height[t.n - 200];
@@ -89,7 +87,7 @@ static void saturated_detector(void **state)
     }
     wt_indent_options options = wt_indent_defaults();
     assert_int_not_equal(fit_with(&t, &options).verdict, WT_CURVE_SATURATED);
-    /* A coarse converter with steps of 0.5 nN neither. */
+    /* Neither is a coarse converter with steps of 0.5 nN. */
     curve_make(&t, 1, &data);
     for (size_t i = 0; i < t.n; i++)
         data.force[i] = 0.5e-9 * round(data.force[i] / 0.5e-9);
@@ -136,20 +134,20 @@ static void disturbed_baseline(void **state)
     (void)state;
     curve_truth t = curve_standard();
     curve_make(&t, 1, &data);
-    for (size_t i = 0; i < t.n; i++) { /* a wave that is no sine */
+    for (size_t i = 0; i < t.n; i++) { /* a wave other than a sine */
         const double x = data.height[i] / 30e-9;
         data.force[i] += 4e-9 * (sin(x) + sin(1.3 * x) + sin(0.6 * x));
     }
     expect(&t, WT_CURVE_WIDE, "the 95 % interval is wide: E +- ");
     curve_make(&t, 1, &data);
-    for (size_t i = 0; i < t.n; i++) { /* drag that settles */
+    for (size_t i = 0; i < t.n; i++) { /* drag that becomes constant */
         double x = (data.height[i] - t.height0) / t.travel;
         data.force[i] += 400e-9 * x * exp(-8.0 * x);
     }
     assert_int_not_equal(fit_with(&t, NULL).verdict, WT_CURVE_ACCEPTED);
 
-    /* A sine is fitted. A ripple too short for one of light, of 2 %, is carried by the error
-     * instead. */
+    /* A sine is fitted. A ripple of 2 % that is too short for optical interference is part of the
+     * error. */
     curve_make(&t, 1, &data);
     for (size_t i = 0; i < t.n; i++)
         data.force[i] += 0.5e-9 * sin(data.height[i] / 20e-9);
@@ -158,7 +156,7 @@ static void disturbed_baseline(void **state)
     assert_true(fabs(fit.modulus.value - t.modulus) < 4 * fit.modulus.standard_error);
 }
 
-static void wrong_way(void **state)
+static void wrong_direction(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -175,7 +173,7 @@ static void wrong_way(void **state)
     for (size_t i = 0; i < t.n; i++)
         data.force[i] = -data.force[i];
     expect(&t, WT_CURVE_NEGATIVE, "sign of the deflection");
-    /* the means of the first and last tenth of a ramp are nine tenths of it apart */
+    /* the means of the first and last tenth of a ramp differ by nine tenths of it */
     for (size_t i = 0; i < t.n; i++)
         data.force[i] = -1e-9 * (double)i / (double)t.n;
     expect(&t, WT_CURVE_NEGATIVE, "falls by 900 pN");
@@ -188,7 +186,7 @@ static void wrong_way(void **state)
     expect(&t, WT_CURVE_NO_APPROACH, "does not go one way");
 }
 
-static void too_stiff_for_the_lever(void **state)
+static void too_stiff_for_the_cantilever(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -196,14 +194,14 @@ static void too_stiff_for_the_lever(void **state)
     t.spring_constant = 0.1;
     curve_make(&t, 1, &data);
     expect(&t, WT_CURVE_RIGID, "bending of the cantilever");
-    /* Sensitivity 1 % too large: the tip seems to go back. */
+    /* Sensitivity 1 % too large: the tip seems to move backwards. */
     for (size_t i = 0; i < t.n; i++)
         data.force[i] *= 1.01;
     expect(&t, WT_CURVE_RIGID, "bending of the cantilever");
 }
 
-/* No sample bends the lever by more than the piezo moves, however soft: that of a technician who
- * gave the sensitivity of another lever is not called stiff, nor without contact. */
+/* No sample bends the cantilever by more than the piezo moves. A curve with the sensitivity of
+ * another cantilever is not called stiff or without contact. */
 static void more_bending_than_travel(void **state)
 {
     (void)state;
@@ -217,14 +215,14 @@ static void more_bending_than_travel(void **state)
     }
 }
 
-static void snap_on_is_left_out(void **state)
+static void snap_in_is_excluded(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
     t.contact_point = 450e-9;
     curve_make(&t, 1, &data);
     double depth = 4e-9;
-    for (size_t i = 0; i < t.n; i++) { /* pulled down by 4 nN from 4 nm before contact */
+    for (size_t i = 0; i < t.n; i++) { /* attraction of 4 nN from 4 nm before contact */
         double z = data.height[i] - t.height0 - t.contact_point + depth;
         if (z > 0.0 && z < 12e-9)
             data.force[i] -= 4e-9 * (1.0 - z / 12e-9) + curve_contact_force(&t, z - depth);
@@ -235,7 +233,7 @@ static void snap_on_is_left_out(void **state)
     assert_near_abs(fit.contact_point.value, t.height0 + t.contact_point, 0.5e-9);
 }
 
-static void not_this_tip(void **state)
+static void wrong_tip_is_detected(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -253,8 +251,8 @@ static void not_this_tip(void **state)
     assert_int_not_equal(fit.verdict, WT_CURVE_POOR_FIT);
 }
 
-/* A contact of 10 nm in slow noise: the noise makes contact points of its own, and some curves
- * cannot tell which one is right. */
+/* A contact of 10 nm in slow noise: the noise causes additional contact points, and some curves
+ * cannot decide between them. */
 static void several_contact_points(void **state)
 {
     (void)state;
@@ -278,7 +276,7 @@ static void several_contact_points(void **state)
             ambiguous++;
             const char *instead = strstr(fit.reason, "instead of ");
             assert_non_null(instead);
-            assert_true(atof(instead + 11) > 0); /* the modulus of the better one */
+            assert_true(atof(instead + 11) > 0); /* modulus of the better one */
             assert_true(fit.second_minimum_ratio < 1.5);
             assert_true(fit.modulus.standard_error > options.largest_error * fit.modulus.value);
         }
@@ -288,7 +286,7 @@ static void several_contact_points(void **state)
     assert_true(ambiguous > 0);
 }
 
-/* A soft lever, few samples in contact, and repulsion before it: means of neighbours show a second
+/* A soft cantilever, few samples in contact, and repulsion before it: block means show a second
  * minimum that the samples do not have. */
 static void one_contact_point(void **state)
 {
@@ -321,10 +319,8 @@ static void one_contact_point(void **state)
     }
 }
 
-/* Numbers of no meaning at all: always a verdict with a reason, never a modulus that is not a
- * number.
- */
-static void nonsense_has_a_verdict_too(void **state)
+/* Meaningless numbers: always a verdict with a reason, never a modulus that is not a number. */
+static void meaningless_data_have_a_verdict(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -353,7 +349,7 @@ static void nonsense_has_a_verdict_too(void **state)
     }
 }
 
-/* Spikes are left out, and then nothing else is said of the curve. */
+/* Spikes are excluded, without any other message about the curve. */
 static void spikes(void **state)
 {
     (void)state;
@@ -371,7 +367,7 @@ static void spikes(void **state)
     assert_int_not_equal(fit_with(&t, NULL).verdict, WT_CURVE_ACCEPTED);
 }
 
-/* Of a signal that is flat beyond `most`: the force of the contact through a tangent. */
+/* A signal that is flat beyond `most`: the contact force through a tanh. */
 static void flatten(const curve_truth *t, double most)
 {
     for (size_t i = 0; i < t->n; i++) {
@@ -397,15 +393,15 @@ static void softly_saturated_detector(void **state)
         assert_true(fit.n_fitted < t.n);
     }
     print_message("%d of 20 hold\n", held);
-    assert_in_range(held, 16, 20);     /* one of 400 holds fewer */
+    assert_in_range(held, 16, 20);     /* one of 400 holds fewer samples */
     options.fit_force_fraction = 0.15; /* where tanh x is x to 0.4 % */
     fit = fit_with(&t, &options);
     assert_int_equal(fit.verdict, WT_CURVE_ACCEPTED);
     assert_near(fit.modulus.value, t.modulus, 0.01);
-    /* A force that is nearly a line, of a lever much softer than the contact, is none: one in 1000
-     * at most. Of 4 in 600 the chance is 0.003. */
+    /* A nearly linear force with a cantilever much softer than the contact is not a saturation: at
+     * most one in 1000. The p value of 4 in 600 is 0.003. */
     int flat = 0;
-    enum { DRAWS = COUNTED(200) };
+    enum { DRAWS = DRAW_COUNT(200) };
     for (int k = 0; k < 3; k++) {
         t = curve_standard();
         t.n = 1000;
@@ -422,8 +418,8 @@ static void softly_saturated_detector(void **state)
     assert_in_range(flat, 0, 3);
 }
 
-/* Where samples are missing, or the piezo slows down, the force of a contact bends with the number
- * of the sample, but not with the height. */
+/* With missing samples or a slowing piezo, the contact force is curved against the sample number
+ * but not against the height. */
 static void uneven_heights(void **state)
 {
     (void)state;
@@ -435,7 +431,7 @@ static void uneven_heights(void **state)
             data.force[i] = (double)NAN;
         expect(&t, WT_CURVE_ACCEPTED, "accepted");
         uint64_t seed = 1 + 7919 * (uint64_t)draw;
-        for (size_t i = 0; i < t.n; i++) { /* to a third of its speed at the end */
+        for (size_t i = 0; i < t.n; i++) { /* to a third of its rate at the end */
             const double x = (double)i / (double)(t.n - 1);
             const double z =
                 t.travel * (x < 0.8 ? x : x - (x - 0.8) * (x - 0.8) / 0.6) / (14. / 15);
@@ -481,8 +477,8 @@ static void bend(const curve_truth *t, double force)
     }
 }
 
-/* Another tip, a bent baseline: what R squared lets pass at 0.999 and more. */
-static void not_by_the_noise(void **state)
+/* Another tip or a curved baseline: R squared accepts them at 0.999 and more. */
+static void weak_nonlinearity_is_not_saturation(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
@@ -491,7 +487,7 @@ static void not_by_the_noise(void **state)
     t.tip.transition_radius = wt_tip_tangent_transition(t.tip.radius, t.tip.half_angle);
     const wt_indent_fit blunt = expect(&t, WT_CURVE_ACCEPTED, "misfit: E +- ");
     assert_true(blunt.misfit_error > 0.7 * blunt.modulus.standard_error);
-    /* a bend that the residual does not show is in the error */
+    /* the error includes a curvature that the residual does not show */
     t = curve_standard();
     curve_make(&t, 1, &data);
     const double straight = fit_with(&t, NULL).modulus.standard_error;
@@ -534,8 +530,8 @@ static void curves_together(void **state)
     }
 }
 
-/* Lever and adhesive contact in balance: the modulus and the work come back, where without adhesion
- * the modulus is a third too large. */
+/* Cantilever and adhesive contact in equilibrium: modulus and work of adhesion are recovered;
+ * without adhesion the modulus is too large by a third. */
 static void adhesive_contact_is_fitted(void **state)
 {
     (void)state;
@@ -567,7 +563,7 @@ static void adhesive_contact_is_fitted(void **state)
     assert_true(fit.work_of_adhesion.standard_error < 0.003 && fit.tabor_number > 5);
 }
 
-/* A way out that gives back `share` of the force and begins some samples below the top. */
+/* A retraction that returns `share` of the force and begins some samples below the maximum. */
 static double loss_of(const curve_truth *t, double share, size_t late)
 {
     static curve_data out;
@@ -590,8 +586,8 @@ static double loss_of(const curve_truth *t, double share, size_t late)
     return fit.loss;
 }
 
-/* The lever takes most of the work. What is lost of all of it may be more than the sample had: that
- * is no loss of the sample. */
+/* The cantilever stores most of the work. A loss of the total may exceed the work of the sample: it
+ * is not a loss of the sample. */
 static void loss_of_the_sample(void **state)
 {
     (void)state;
@@ -606,8 +602,9 @@ static void loss_of_the_sample(void **state)
     assert_true((work - lever) / work < 0.25);
     assert_near(loss_of(&t, 0.97, 0), 0.03 * work / (work - lever), 0.05);
     assert_true(isnan(loss_of(&t, 0.7, 0)));
-    assert_true(isnan(loss_of(&t, 1.3, 0)));     /* nor does a sample give more than it took */
-    assert_near_abs(loss_of(&t, 1, 5), 0, 0.01); /* what is not there is not lost */
+    /* the sample does not return more than it received */
+    assert_true(isnan(loss_of(&t, 1.3, 0)));
+    assert_near_abs(loss_of(&t, 1, 5), 0, 0.01); /* absent work is not a loss */
 }
 
 static void names_of_verdicts(void **state)
@@ -631,18 +628,18 @@ int main(void)
         cmocka_unit_test(uneven_heights),
         cmocka_unit_test(deeper_than_the_sphere),
         cmocka_unit_test(too_uncertain),
-        cmocka_unit_test(not_by_the_noise),
+        cmocka_unit_test(weak_nonlinearity_is_not_saturation),
         cmocka_unit_test(curves_together),
         cmocka_unit_test(adhesive_contact_is_fitted),
         cmocka_unit_test(loss_of_the_sample),
-        cmocka_unit_test(wrong_way),
-        cmocka_unit_test(too_stiff_for_the_lever),
+        cmocka_unit_test(wrong_direction),
+        cmocka_unit_test(too_stiff_for_the_cantilever),
         cmocka_unit_test(more_bending_than_travel),
-        cmocka_unit_test(snap_on_is_left_out),
-        cmocka_unit_test(not_this_tip),
+        cmocka_unit_test(snap_in_is_excluded),
+        cmocka_unit_test(wrong_tip_is_detected),
         cmocka_unit_test(several_contact_points),
         cmocka_unit_test(one_contact_point),
-        cmocka_unit_test(nonsense_has_a_verdict_too),
+        cmocka_unit_test(meaningless_data_have_a_verdict),
         cmocka_unit_test(names_of_verdicts),
     };
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);

@@ -1,8 +1,8 @@
-/* Dwells: a power law by a hereditary integral summed step by step, files by an independent writer,
- * what is left out.
+/* Dwells: a power law by a hereditary integral in time steps, files by an independent writer,
+ * excluded dwells.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
-#include "cells.h"
+#include "table_cells.h"
 
 #include "dma_data.h"
 #include "indentation/numerics/relaxation.h"
@@ -15,7 +15,7 @@
 
 enum { STEPS = 20000 };
 
-/* E(t) of a power of time, or of relaxation times a decade apart. */
+/* E(t) as a power law of time, or with relaxation times a decade apart. */
 static bool lines;
 static double relaxed(double exponent, double t)
 {
@@ -25,8 +25,8 @@ static double relaxed(double exponent, double t)
     return lines ? sum : pow(t, -exponent);
 }
 
-/* A depth that rose over `load` so that the elastic force is time^power: sum of what each step of
- * the loading left. */
+/* Force after a depth that rose over `load` so that the elastic force is time^power: the sum over
+ * all steps of the loading. */
 static double summed(double exponent, double power, double load, double t)
 {
     double sum = 0;
@@ -37,8 +37,8 @@ static double summed(double exponent, double power, double load, double t)
     return sum;
 }
 
-/* What no dwell can be made of has words and no moduli. */
-static void test_none(void **state)
+/* An unusable dwell has a message and no moduli. */
+static void test_unusable_dwells(void **state)
 {
     (void)state;
     enum { FEW = 64 };
@@ -150,7 +150,7 @@ static const char *words(const wt_table *t, size_t row, const char *column)
     return wt_table_text(t, row, (size_t)wt_table_find(t, column));
 }
 
-/* Each dwell: its times, and force and indentation at its ends. */
+/* Each dwell: its times, and force and indentation at its limits. */
 static void check_dwells(const wt_table *t, const char *path)
 {
     const double step = load_time / (N - FREE), end = load_time + step + hold * (N - 1) / N;
@@ -172,7 +172,7 @@ static void check_dwells(const wt_table *t, const char *path)
     }
 }
 
-/* The points of each curve, a block each, and what an elastic rubber would have. */
+/* The points of each curve as a block, and the result for an elastic rubber. */
 static void check_points(const wt_table *t, const char *path)
 {
     const double g = 4.0 / 3 * sqrt(radius) / 0.75;
@@ -199,7 +199,7 @@ static void check_points(const wt_table *t, const char *path)
     assert_int_equal(row, wt_table_n_rows(t));
 }
 
-/* Each frequency of each dwell by the law itself: E1 Gamma(1 - n) (i omega)^n. */
+/* Each frequency of each dwell by the law: E1 Gamma(1 - n) (i omega)^n. */
 static void check_moduli(const wt_table *t, const wt_table *dwells, const char *path)
 {
     double pulls = 0;
@@ -228,7 +228,7 @@ static void check_moduli(const wt_table *t, const wt_table *dwells, const char *
                         number_cell(t, row, common) <= number_cell(t, row, error));
             pulls += pull * pull;
         }
-        /* the one in the middle is that of the dwell */
+        /* the middle one is that of the dwell */
         const bool last = row + 1 == n || number_cell(t, row + 1, "curve") != (double)i;
         held++;
         if (!last)
@@ -283,9 +283,9 @@ static void test_relaxation(void **state)
     assert_string_equal(err.message, "no curve dwells behind its approach");
 }
 
-/* Single relaxation times are no broad spectrum: said of each dwell, and neither it nor their mean
- * has an error, for a scatter does not show what all are off by. */
-static void test_lines(void **state)
+/* Single relaxation times are not a broad spectrum: each dwell states it. Neither a dwell nor the
+ * mean has an error, because the scatter does not show a shared error. */
+static void test_single_relaxation_times(void **state)
 {
     (void)state;
     static const char path[] = "test_dwell_lines.jpk-force-map";
@@ -313,7 +313,8 @@ static void test_lines(void **state)
     (void)remove(path);
 }
 
-/* A held segment with a sine, and the same drive out of contact, whose drag is to be taken off. */
+/* A held segment with a sine, and the same drive without contact, whose drag is to be
+ * subtracted. */
 static void test_modulation(void **state)
 {
     (void)state;
@@ -382,13 +383,13 @@ static void test_modulation(void **state)
                   wt_table_text(t.dwell, 1, (size_t)wt_table_find(t.dwell, "note")));
     assert_near(CELL("angular_frequency"), omega, 1e-4);
     assert_near(CELL("amplitude"), amplitude, 0.01);
-    /* Noise leaves 1.5 % of the loss; without weights the relaxation takes 7 % of it away. */
+    /* Noise leaves 1.5 % of the loss; without weights the relaxation removes 7 % of it. */
     assert_near(CELL("storage_modulus"), storage, 0.01);
     assert_near(CELL("loss_modulus"), loss, 0.02);
-    assert_true(isnan(CELL("storage_modulus_standard_error"))); /* none is stated of a sine */
+    assert_true(isnan(CELL("storage_modulus_standard_error"))); /* a sine states none */
     assert_true(isnan(CELL("loss_modulus_standard_error")));
     assert_near(CELL("indentation_start"), depth, 0.01);
-    /* the mean of the relaxing force, with the weight that falls to nothing at both ends */
+    /* mean of the relaxing force, with a weight that falls to zero at both ends */
     double mean = 0;
     for (int i = 0; i < 50; i++)
         mean += (1 - cos(2 * M_PI * (i + 0.5) / 50)) *
@@ -401,7 +402,7 @@ static void test_modulation(void **state)
     assert_near(number_cell(t.dwell_moduli, n_moduli, "storage_modulus"), CELL("storage_modulus"),
                 0);
     assert_near(number_cell(t.dwell_moduli, n_moduli, "loss_modulus"), CELL("loss_modulus"), 0);
-    /* what the depth of the contact point is off by, through the slope of the sphere's contact */
+    /* error of the depth by the contact point, through the slope of the sphere's contact */
     const double of_storage = number_cell(t.dwell_moduli, n_moduli, "storage_modulus_common_error"),
                  of_loss = number_cell(t.dwell_moduli, n_moduli, "loss_modulus_common_error");
     assert_true(of_storage > 0 && of_storage < 0.02 * storage);
@@ -412,7 +413,7 @@ static void test_modulation(void **state)
 }
 
 /* A pause of 3 s on a gel. */
-static void test_genuine(void **state)
+static void test_measured_dwell(void **state)
 {
     (void)state;
     static const char path[] =
@@ -426,9 +427,9 @@ static void test_genuine(void **state)
     wt_tables_clear(&t, sizeof t);
 }
 
-/* An adhesive way out: the neck holds until 4 um above the contact point, four times the depth, and
- * the force behind it is that of the baseline. What is free begins behind the neck. */
-static void test_free_of_the_neck(void **state)
+/* An adhesive retraction: the neck lasts until 4 um above the contact point, four times the depth,
+ * and the force after it is that of the baseline. The free part begins after the neck. */
+static void test_adhesive_neck(void **state)
 {
     (void)state;
     enum { IN = 600, HELD = 600, OUT = 700 };
@@ -466,8 +467,8 @@ static void test_free_of_the_neck(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_none),    cmocka_unit_test(test_relaxation),
-        cmocka_unit_test(test_lines),   cmocka_unit_test(test_modulation),
-        cmocka_unit_test(test_genuine), cmocka_unit_test(test_free_of_the_neck)};
+        cmocka_unit_test(test_unusable_dwells),         cmocka_unit_test(test_relaxation),
+        cmocka_unit_test(test_single_relaxation_times), cmocka_unit_test(test_modulation),
+        cmocka_unit_test(test_measured_dwell),          cmocka_unit_test(test_adhesive_neck)};
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

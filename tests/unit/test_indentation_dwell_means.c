@@ -1,6 +1,6 @@
-/* Means of dwells over files, whose intervals are by files where there are three.
+/* Means of dwells over files. With three or more files the intervals use the files as units.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+#include "table_cells.h"
 
 #include "core/table/registry.h"
 #include "indentation/dwell.h"
@@ -10,8 +10,8 @@
 enum { FILES = 3, EACH = 4 };
 #define T_2 4.302652729749464 /* 97.5 % point of Student's t */
 
-/* Three files that are 20 % apart, of four curves each; the frequencies of curves differ by up to
- * `jitter`, so that by frequency the files would interleave. */
+/* Three files that differ by 20 %, with four curves each. The frequencies of curves differ by up to
+ * `jitter`, so that sorted by frequency the files would interleave. */
 static dwell_mean mean_of(double jitter, size_t *n)
 {
     wt_error err = WT_ERROR_INIT;
@@ -100,8 +100,8 @@ static void check_mean(wt_interval m, double value, double error, double half)
     assert_near(m.high, value + half, 1e-9);
 }
 
-/* Of two files: the curves are the units. What they are off by alike is the root of the mean of its
- * squares, and adds to the scatter; it is unknown if most curves do not tell it. */
+/* Two files: the curves are the units. Their shared error is the root mean square and is added to
+ * the scatter. It is unknown if most curves do not state it. */
 static void test_common(void **state)
 {
     (void)state;
@@ -115,7 +115,7 @@ static void test_common(void **state)
     size_t n = 0;
     dwell_mean *m = means_of(rows, 5, &n);
     assert_int_equal(n, 3);
-    /* one curve has the error that it states */
+    /* one curve has its stated error */
     assert_near(m[0].angular_frequency, 1, 0);
     assert_int_equal(m[0].n, 1);
     check_mean(m[0].storage, 70, 3, 3 * z);
@@ -138,7 +138,7 @@ static void test_common(void **state)
     free(m);
 }
 
-/* Frequencies within a thousandth are one. */
+/* Frequencies within a thousandth are equal. */
 static void test_same_frequency(void **state)
 {
     (void)state;

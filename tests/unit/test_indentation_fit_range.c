@@ -1,9 +1,7 @@
-/* The range of the fit: by indentation, by radii of the tip, by force and by share of the largest
- * force, from below and from above.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "counted.h"
+/* Fit range: lower and upper limits by indentation, by radii of the tip, by force and by share of
+ * the largest force.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "draw_count.h"
 #include "fitted_curve.h"
 
 #include "indentation/numerics/curve.h"
@@ -44,7 +42,7 @@ static void range_of_the_fit(void **state)
     wt_contact_function(&t.tip, fit.max_indentation, &g, &slope);
     assert_near(t.modulus / 0.75 * g, 0.5 * fit.max_force, 0.02);
 
-    /* Above 35 nm the sample is stiffer: only the limit gives the modulus of what lies above. */
+    /* Above 35 nm the sample is stiffer: only the limit gives the modulus of the upper part. */
     for (size_t i = 0; i < t.n; i++) {
         double z = data.height[i] - t.height0 - t.contact_point;
         if (z > 60e-9)
@@ -65,8 +63,8 @@ static double force_at_depth(const curve_truth *t, double depth)
     return t->modulus / (1.0 - t->poisson_ratio * t->poisson_ratio) * g;
 }
 
-/* Every limit where it says, without noise: the modulus is the true one, and the first and the last
- * indentation that count are those of the limits, to a sample (0.3 nm). */
+/* Every limit is exact without noise: the modulus is the true one, and the first and last
+ * indentation are those of the limits, to a sample (0.3 nm). */
 static void every_limit(void **state)
 {
     (void)state;
@@ -77,7 +75,7 @@ static void every_limit(void **state)
     const double whole = fit_with(&t, NULL).max_indentation;
     const struct {
         double depth, radii, force, share, depth_from, force_from, share_from;
-        double from, to; /* indentation, or where that is 0 force */
+        double from, to; /* indentation, or force if it is 0 */
         double force_from_is, force_to_is;
     } cases[] = {
         {40e-9, 0, 0, 1, 0, 0, 0, 0, 40e-9, 0, 0},
@@ -114,20 +112,20 @@ static void every_limit(void **state)
             assert_near(force_at_depth(&t, fit.max_indentation), cases[i].force_to_is, 0.05);
         else
             assert_near_abs(fit.max_indentation, cases[i].to, step);
-        /* rates are those of what was fitted */
+        /* rates are those of the fitted part */
         const double end = fit.max_indentation + force_at_depth(&t, fit.max_indentation);
         assert_near_abs(fit.load_time, 0.5 * end / t.travel, 1e-3 * 0.5);
     }
 }
 
-/* A sample that is another one near its surface: only the range below gives what is below. */
-static void what_is_shallow_does_not_count(void **state)
+/* A sample that differs near its surface: only a lower limit gives the modulus below it. */
+static void shallow_part_is_excluded(void **state)
 {
     (void)state;
     curve_truth t = curve_standard();
     t.noise = 0.0;
     curve_make(&t, 0, &data);
-    for (size_t i = 0; i < t.n; i++) { /* a push that is over at 12 nm */
+    for (size_t i = 0; i < t.n; i++) { /* a force that ends at 12 nm */
         const double z = data.height[i] - t.height0 - t.contact_point;
         if (z > 0 && z < 14e-9)
             data.force[i] += 2e-9 * sin(M_PI * z / 14e-9);
@@ -140,8 +138,8 @@ static void what_is_shallow_does_not_count(void **state)
     assert_true(fabs(all.modulus.value / t.modulus - 1) > 0.02);
 }
 
-/* 95 % intervals of the modulus and of the contact point with ranges; of 240 the share scatters by
- * 1.4 %. */
+/* 95 % intervals of the modulus and of the contact point with ranges. The coverage of 240 has a
+ * standard deviation of 1.4 %. */
 static void intervals_cover(void **state)
 {
     (void)state;
@@ -151,7 +149,7 @@ static void intervals_cover(void **state)
         {0, 20e-9, 0, 1, 0.0}, {40e-9, 10e-9, 0, 1, 0.0}, {0, 0, 5e-9, 0.8, 0.0},
         {0, 20e-9, 0, 1, 0.8}, {35e-9, 0, 0, 1, 0.0},
     };
-    enum { CURVES = COUNTED(240) };
+    enum { CURVES = DRAW_COUNT(240) };
     int likely = 0, judged = 0;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         curve_truth t = curve_standard();
@@ -187,17 +185,17 @@ static void intervals_cover(void **state)
                       "mean error %.2f %%\n",
                       i, 100.0 * modulus / n, 100.0 * contact / n, refused, 100 * sum / n,
                       100 * errors / n);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_in_range(refused, 0, 0.04 * CURVES);
-        /* with what the law may miss, too, in the depths that are left out above all */
+        /* with the error by a lack of fit, mostly in the excluded depths */
         assert_in_range(modulus, 0.91 * n, n);
         assert_in_range(contact, 0.91 * n, n);
         assert_true(fabs(sum) < 0.25 * errors);
     }
-    /* a chance is above a half as often as below, of what is compared alone too */
+    /* p values above a half are as frequent as below, also in the compared part alone */
     print_message("%d of %d chances above a half\n", likely, judged);
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_in_range(likely, 0.44 * judged, 0.58 * judged);
 }
@@ -251,11 +249,9 @@ static void limits_in_order(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(range_of_the_fit),
-                                       cmocka_unit_test(every_limit),
-                                       cmocka_unit_test(what_is_shallow_does_not_count),
-                                       cmocka_unit_test(intervals_cover),
-                                       cmocka_unit_test(too_little_is_refused),
-                                       cmocka_unit_test(limits_in_order)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(range_of_the_fit),         cmocka_unit_test(every_limit),
+        cmocka_unit_test(shallow_part_is_excluded), cmocka_unit_test(intervals_cover),
+        cmocka_unit_test(too_little_is_refused),    cmocka_unit_test(limits_in_order)};
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

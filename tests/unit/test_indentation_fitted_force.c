@@ -1,8 +1,8 @@
-/* Curves to look at: the fit that is shown is the law that was fitted, with adhesion too; a named
- * curve is found, and the worst are the worst.
+/* Curves for viewing: the shown fit is the fitted law, also with adhesion. A named curve is found,
+ * and the worst curves are the worst.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
 #include "synthetic_curve.h"
+#include "table_cells.h"
 
 #include "indentation/law/adhesion.h"
 #include "weartrack/indentation.h"
@@ -34,11 +34,11 @@ static wt_indent_tables fitted(const wt_indent_job *job)
     return tables;
 }
 
-/* Lever and adhesive contact in balance, driven 300 nm beyond the place where the tip touches. */
+/* Cantilever and adhesive contact in equilibrium, moved 300 nm beyond the contact. */
 typedef struct scene {
     const char *tip;
     double modulus, work, spring, noise;
-    bool constant_pull; /* what the fit finds: the force of the sphere hardly tells the two apart */
+    bool constant_pull; /* what the fit finds: the force of a sphere hardly distinguishes both */
 } scene;
 
 static void write_adhesive(const scene *of, const char *path)
@@ -105,7 +105,7 @@ static void test_adhesion(void **state)
             }
             assert_true(n > 50);
             /* at the measured indentation the noise is that of the force times 1 + stiffness over
-             * that of the lever, and of the thinned curve the extremes are kept */
+             * spring constant; thinning keeps the extremes */
             if (!(sqrt(squares / (double)n) < 5 * scenes[k].noise))
                 fail_msg("%s, table %zu: the fit is %g N off", scenes[k].tip, t,
                          sqrt(squares / (double)n));
@@ -115,8 +115,8 @@ static void test_adhesion(void **state)
     }
 }
 
-/* The two with the largest relative errors, and a named one by the end of its path. */
-static void test_which(void **state)
+/* The two with the largest relative errors, and one named by the end of its path. */
+static void test_selected_curves(void **state)
 {
     (void)state;
     static const char *const file[] = {CASE "bulk-1.jpk-force-map"};
@@ -150,7 +150,7 @@ static void test_which(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_adhesion),
-                                       cmocka_unit_test(test_which)};
+                                       cmocka_unit_test(test_selected_curves)};
     if (wt_formats_new(NULL, &formats, NULL, NULL) != WT_OK)
         return 1;
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

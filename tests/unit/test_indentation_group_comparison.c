@@ -1,8 +1,7 @@
-/* Groups of moduli: the numeric cases, what has no answer, invariances, Holm, equivalent frequency.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* Groups of moduli: numeric cases, groups without a result, invariances, Holm's correction,
+ * equivalent frequency.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "weartrack/study.h"
 
@@ -124,7 +123,7 @@ static void order_does_not_matter(void **state)
     assert_true(c.log_ratio.value == d.log_ratio.value && c.p == d.p &&
                 c.bulk.mean == d.bulk.mean && c.mann_whitney_p == d.mann_whitney_p);
     assert_int_equal(c.bulk.n_rejected, 2);
-    /* Exchanged groups: the reciprocal ratio, the same p. */
+    /* Exchanged groups: the reciprocal ratio, the same p value. */
     assert_int_equal(wt_compare_moduli(&track, &bulk, NULL, &d, NULL), WT_OK);
     assert_near(c.ratio * d.ratio, 1.0, 1e-14);
     assert_near(c.ratio_low * d.ratio_high, 1.0, 1e-13);
@@ -132,7 +131,7 @@ static void order_does_not_matter(void **state)
     assert_near(c.mann_whitney_p, d.mann_whitney_p, 1e-14);
     assert_near(c.mann_whitney_u + d.mann_whitney_u, 20.0, 1e-14);
     assert_near(c.effect_size, -d.effect_size, 1e-14);
-    /* Another unit of the modulus changes no ratio and no p. */
+    /* Another unit of the modulus changes no ratio and no p value. */
     double a3[5], b3[4];
     for (int i = 0; i < 5; i++)
         a3[i] = 1e-3 * a[i];
@@ -146,7 +145,7 @@ static void order_does_not_matter(void **state)
     assert_near(d.mann_whitney_p, c.mann_whitney_p, 1e-14);
 }
 
-/* The exact distribution against all rankings counted one by one, and the approximation near it. */
+/* The exact distribution against an enumeration of all rankings, and the approximation near it. */
 static void mann_whitney_agrees_with_enumeration(void **state)
 {
     (void)state;
@@ -176,7 +175,8 @@ static void mann_whitney_agrees_with_enumeration(void **state)
     assert_true(c.mann_whitney_exact);
     assert_near(c.mann_whitney_p, 2.0 * tail / total, 1e-14);
 
-    /* 26 and 26 units: too many for exact counts; 25 and 25 are not. Both see the same shift. */
+    /* 26 and 26 units are too many for exact counts, 25 and 25 are not. Both find the same
+     * shift. */
     double x[26], y[26];
     for (int i = 0; i < 26; i++) {
         x[i] = 10.0 + i + 0.01 * (i * 7 % 26);
@@ -211,7 +211,7 @@ static void summary_of_one_group(void **state)
     assert_near(s.median, 2e6, 1e-14);
     assert_near(s.mean, 7e6 / 3, 1e-14);
     assert_near(s.log_standard_error, log(2.0) / sqrt(3.0), 1e-12);
-    /* t of 2 degrees of freedom: 4.302652729749462 */
+    /* t with 2 degrees of freedom: 4.302652729749462 */
     assert_near(s.high, 2e6 * exp(4.302652729749462 * log(2.0) / sqrt(3.0)), 1e-10);
     assert_near(s.low * s.high, 4e12, 1e-12);
     g.spot = spot;
@@ -226,7 +226,7 @@ static void summary_of_one_group(void **state)
     assert_true(isnan(s.standard_deviation));
 }
 
-/* Pulls and misfits by spot; chances of two tests; a tip of another radius. */
+/* Pull-offs and lack of fit by position; p values of two tests; a tip of another radius. */
 static void signs(void **state)
 {
     (void)state;
@@ -252,7 +252,8 @@ static void signs(void **state)
     /* -2 ln(0.05^2) = 11.98 of chi^2 with 4 degrees */
     assert_near(wt_combined_p_value(0.05, 0.05), 0.0174786613677699, 1e-12);
     assert_near(wt_combined_p_value(0.3, (double)NAN), 0.3, 0);
-    /* By an independent fit with baseline and lever (0.5 N/m, 5 MPa, 70 nm deep): 0.238, 0.661. */
+    /* By an independent fit with baseline and cantilever (0.5 N/m, 5 MPa, 70 nm deep): 0.238,
+     * 0.661. */
     wt_tip tip;
     wt_tip_wear worn;
     assert_int_equal(wt_tip_parse("pyramid:half-angle=35deg,radius=20nm", &tip, NULL), WT_OK);
@@ -265,7 +266,7 @@ static void signs(void **state)
     assert_true(fabs(worn.log_modulus) < 1e-5 && worn.misfit < 1e-5);
 }
 
-static void no_answer(void **state)
+static void groups_without_result(void **state)
 {
     (void)state;
     const double good[] = {1e6, 2e6, 3e6}, bad[] = {1e6, -2e6}, equal[] = {1e6, 1e6};
@@ -282,14 +283,15 @@ static void no_answer(void **state)
              two = {.modulus = good, .spot = spots, .n = 3};
     assert_int_equal(wt_group_summarise(&empty, &s, NULL), WT_E_EMPTY);
     assert_int_equal(wt_compare_moduli(&a, &empty, NULL, &c, NULL), WT_E_EMPTY);
-    /* One unit in a group and two in the other: a ratio, but no interval. */
+    /* One unit in one group and two in the other: a ratio, but no interval. */
     const wt_group *const alone[][2] = {{&pair, &single}, {&spot, &two}};
     for (int i = 0; i < 2; i++) {
         assert_int_equal(wt_compare_moduli(alone[i][0], alone[i][1], NULL, &c, NULL), WT_OK);
         assert_int_equal(c.undecided_reason, WT_UNDECIDED_ONE_SPOT);
         assert_true(isfinite(c.ratio) && isnan(c.ratio_low) && isnan(c.ratio_high) && isnan(c.p));
     }
-    /* Unless it is told how much spots scatter: a normal interval of one spot and of two. */
+    /* Exception with a stated scatter of positions: a normal interval of one position and of
+     * two. */
     wt_group lone = single, other[] = {single, pair};
     lone.spot_scatter = other[0].spot_scatter = other[1].spot_scatter = 0.2;
     for (int i = 0; i < 2; i++) {
@@ -306,7 +308,7 @@ static void no_answer(void **state)
     /* of both groups, */
     assert_int_equal(wt_compare_moduli(&single, &lone, NULL, &c, NULL), WT_OK);
     assert_int_equal(c.undecided_reason, WT_UNDECIDED_ONE_SPOT);
-    /* beside which the curves of a spot scatter, */
+    /* in addition to the scatter of the curves at a position */
     const double mean_3 = log(6) / 3;
     const double of_mean =
         (mean_3 * mean_3 + pow(log(2) - mean_3, 2) + pow(log(3) - mean_3, 2)) / 2 / 3;
@@ -315,13 +317,13 @@ static void no_answer(void **state)
     curves.spot_scatter = 0.1;
     assert_int_equal(wt_compare_moduli(&curves, &lone, NULL, &c, NULL), WT_OK);
     assert_near(c.log_ratio.standard_error, sqrt(0.01 + 0.04 + of_mean), 1e-12);
-    /* which three spots tell themselves. */
+    /* which three positions determine themselves. */
     lone = a;
     lone.spot_scatter = 0.2;
     assert_int_equal(wt_compare_moduli(&lone, &single, NULL, &c, NULL), WT_OK);
     assert_false(c.scatter_is_stated);
-    /* Of three the scatter is known, by Student's t of two degrees of freedom; the lone one may
-     * have twice as much. */
+    /* The scatter of three is known, by Student's t with two degrees of freedom; that of the single
+     * one may be twice as large. */
     const double mean = log(6) / 3,
                  scatter = sqrt((mean * mean + pow(log(2) - mean, 2) + pow(log(3) - mean, 2)) / 2);
     assert_int_equal(wt_compare_moduli(&a, &single, NULL, &c, NULL), WT_OK);
@@ -333,7 +335,7 @@ static void no_answer(void **state)
     assert_non_null(strstr(err.place, "2 of 2"));
     assert_int_equal(wt_compare_moduli(&missing, &a, NULL, &c, NULL), WT_E_RANGE);
     assert_int_equal(wt_compare_moduli(&same, &same, NULL, &c, NULL), WT_E_RANGE);
-    /* Spots of one group only: curves are compared, and the result says so. */
+    /* Positions in one group only: curves are compared, and the result states it. */
     assert_int_equal(wt_compare_moduli(&spot, &a, NULL, &c, NULL), WT_OK);
     assert_false(c.by_spot);
 }
@@ -342,8 +344,8 @@ static void no_answer(void **state)
 
 enum { SPOTS = 4 };
 
-/* Two rates a spot in each group; ln E = level + slope ln rate + spot + a small part of the cell.
- */
+/* Two rates per position in each group; ln E = level + slope ln rate + position + a small effect of
+ * the cell. */
 typedef struct two_rates {
     double modulus[2 * SPOTS], rate[2 * SPOTS];
     long spot[2 * SPOTS], rate_class[2 * SPOTS];
@@ -371,7 +373,7 @@ static void make_rates(two_rates *g, double level, double slope, int first)
                           .n = 2 * SPOTS};
 }
 
-/* A rate in one group only is left out; the slope drops out of what both have. */
+/* A rate in one group only is excluded; the slope cancels for common rates. */
 static void rates_in_common(void **state)
 {
     (void)state;
@@ -384,14 +386,14 @@ static void rates_in_common(void **state)
     assert_int_equal(c.curves_bulk, SPOTS);
     assert_int_equal(c.curves_track, SPOTS);
     assert_near(c.ratio, 0.5, 1e-12);
-    /* without the rates the ratio is that of a decade of them, too */
+    /* without the rates the ratio is the change over a decade of rate, too */
     a.group.rate = b.group.rate = NULL;
     assert_int_equal(wt_compare_moduli(&a.group, &b.group, NULL, &c, NULL), WT_OK);
     assert_near(c.ratio, 0.5 * exp(0.3 * log(10)), 1e-12);
 }
 
-/* No rate in common: through the slope within the spots, whose error enters with the square of the
- * distance of the rates. */
+/* Without a common rate the comparison uses the slope within the positions; its error enters with
+ * the square of the distance of the rates. */
 static void rates_by_slope(void **state)
 {
     (void)state;
@@ -416,18 +418,18 @@ static void rates_by_slope(void **state)
                 sqrt(2 * spots / SPOTS + pow(2 * step * slope_error, 2)), 1e-9);
 }
 
-static void rates_that_say_nothing(void **state)
+static void rates_without_information(void **state)
 {
     (void)state;
     two_rates a, b;
     wt_comparison c;
-    /* slopes that differ, and no rate in common */
+    /* slopes that differ, and no common rate */
     make_rates(&a, 0, 0.15, 0);
     make_rates(&b, log(0.7), 0.25, 2);
     assert_int_equal(wt_compare_moduli(&a.group, &b.group, NULL, &c, NULL), WT_OK);
     assert_int_equal(c.undecided_reason, WT_UNDECIDED_SLOPES_DIFFER);
     assert_true(c.interaction_p < 1e-4 && isnan(c.ratio_low));
-    /* the same with common rates is told beside the ratio */
+    /* with common rates the ratio states the slopes, too */
     make_rates(&b, log(0.7), 0.25, 0);
     assert_int_equal(wt_compare_moduli(&a.group, &b.group, NULL, &c, NULL), WT_OK);
     assert_int_equal(c.undecided_reason, WT_UNDECIDED_NOT);
@@ -435,7 +437,7 @@ static void rates_that_say_nothing(void **state)
     make_rates(&b, log(0.7), 0.15, 0);
     assert_int_equal(wt_compare_moduli(&a.group, &b.group, NULL, &c, NULL), WT_OK);
     assert_true(c.interaction_p > 0.5);
-    /* one rate in each group: nothing says what it does */
+    /* one rate in each group: the effect of the rate is unknown */
     make_rates(&b, log(0.7), 0.15, 2);
     for (int i = 0; i < 2 * SPOTS; i++) {
         a.rate_class[i] = 0;
@@ -446,7 +448,8 @@ static void rates_that_say_nothing(void **state)
     assert_true(isnan(c.ratio) && isnan(c.p));
 }
 
-/* Each spot has one rate: a line through the spots of each group, one slope for both. */
+/* Each position has one rate: a line through the positions of each group, with one slope for
+ * both. */
 static void rates_between_spots(void **state)
 {
     (void)state;
@@ -472,14 +475,14 @@ static void rates_between_spots(void **state)
     wt_comparison c;
     assert_int_equal(wt_compare_moduli(&g[0], &g[1], NULL, &c, NULL), WT_OK);
     assert_int_equal(c.rate_matching, WT_RATES_BETWEEN);
-    /* slope 0.3/2 and 4 between the groups: nothing is left of the 0.6 */
+    /* slope 0.3/2 and 4 between the groups: nothing remains of the 0.6 */
     assert_near(c.log_ratio.value + 1, 1, 1e-12);
     assert_near(c.df, 2 * N - 3, 1e-12);
     const double variance = 4 * 6e-4 / (2 * N - 3), xx = 2 * N;
     assert_near(c.log_ratio.standard_error, sqrt(variance * (2.0 / N + 16 / xx)), 1e-9);
 }
 
-/* What is known beside the difference is taken from it, and its error is a normal one. */
+/* A known difference is subtracted, with a normal error. */
 static void known_offset(void **state)
 {
     (void)state;
@@ -496,7 +499,7 @@ static void known_offset(void **state)
     assert_near(d.offset_variance_share, pow(0.2 / d.log_ratio.standard_error, 2), 1e-12);
 }
 
-/* Two units close together by chance do not make the interval narrow. */
+/* Two units that agree by chance do not make the interval narrow. */
 static void two_units_and_more(void **state)
 {
     (void)state;
@@ -512,12 +515,12 @@ static void two_units_and_more(void **state)
     sum += pow(log(1.0001), 2) / 2;
     assert_near(c.log_ratio.standard_error, sqrt(sum / 6 * (1.0 / 2 + 1.0 / 6)), 1e-9);
     assert_near(c.df, 6, 1e-9);
-    /* 2 of the 28 rankings of 2 among 8 are as far as can be */
+    /* 2 of the 28 rankings of 2 among 8 are as extreme as possible */
     assert_near(c.mann_whitney_smallest_p, 2.0 / 28, 1e-12);
 }
 
-/* As the theory text has it: 6 % scatter, ratio 0.8: 3 spots; 15 %: 8 or 9; and none if they are
- * as good as equal. */
+/* As in the theory text: scatter 6 %, ratio 0.8: 3 positions; 15 %: 8 or 9; none if the ratio is
+ * nearly 1. */
 static void spots_needed(void **state)
 {
     (void)state;
@@ -565,11 +568,11 @@ int main(void)
         cmocka_unit_test(order_does_not_matter),
         cmocka_unit_test(mann_whitney_agrees_with_enumeration),
         cmocka_unit_test(summary_of_one_group),
-        cmocka_unit_test(no_answer),
+        cmocka_unit_test(groups_without_result),
         cmocka_unit_test(signs),
         cmocka_unit_test(rates_in_common),
         cmocka_unit_test(rates_by_slope),
-        cmocka_unit_test(rates_that_say_nothing),
+        cmocka_unit_test(rates_without_information),
         cmocka_unit_test(rates_between_spots),
         cmocka_unit_test(known_offset),
         cmocka_unit_test(two_units_and_more),

@@ -1,14 +1,14 @@
-/* The interval of a group holds the errors that all its curves share, stated or assumed: groups
- * with another radius than stated, and curves of a rubber with one relaxation time.
+/* The interval of a group includes errors shared by all its curves, stated or assumed. The groups
+ * have another radius than stated, or a rubber with one relaxation time.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "indentation/indent.h"
 #include "indentation/numerics/curve.h"
 #include "weartrack/study.h"
 
 enum { SPOTS = 4, DRAWS = 40 };
-/* Relative scatter of the spots. */
+/* Relative scatter of the positions. */
 static const double scatter = 0.01;
 
 static char paths[SPOTS][32];
@@ -31,7 +31,7 @@ static void write_group(double factor, uint64_t *state)
     }
 }
 
-/* Fits the files as one group and checks that both tables have one interval. */
+/* Fits the files as one group and tests that both tables have the same interval. */
 static group_result fit_group(const wt_indent_job *settings, wt_table **indentation)
 {
     const char *patterns[SPOTS];
@@ -76,8 +76,8 @@ static wt_indent_job settings_of(const char *tip)
 }
 
 /* A paraboloid of another radius has the force of another modulus, by the root of the ratio, and no
- * residual shows it. Radii of a normal error of 10 % are covered by the assumed error of the radius
- * alone, because those of the lever are stated as small. */
+ * residual shows it. The assumed error of the radius covers radii with a normal error of 10 %;
+ * those of the cantilever are stated as small. */
 static void test_radius(void **state)
 {
     (void)state;
@@ -94,10 +94,10 @@ static void test_radius(void **state)
         n_wide += log(g.high / g.low) > 4 * 0.06;
     }
     assert_true(covered >= 36);
-    assert_int_equal(n_wide, 0); /* curves of the right law have no error by the range of the fit */
+    assert_int_equal(n_wide, 0); /* curves of the right law have no error by the fit range */
 }
 
-/* What is stated takes the place of what is assumed. */
+/* A stated error replaces an assumed one. */
 static void test_stated(void **state)
 {
     (void)state;
@@ -124,8 +124,8 @@ static void test_stated(void **state)
     wt_table_free(t);
 }
 
-/* Forces of a paraboloid on a rubber of one relaxation time, of which seven tenths relax, under a
- * rigid lever: E(t) = soft + fading exp(-t/time). */
+/* Forces of a paraboloid on a rubber with one relaxation time, of which seven tenths relax, and a
+ * rigid cantilever: E(t) = soft + fading exp(-t/time). */
 static void write_relaxing(double time)
 {
     enum { N = 600 };
@@ -153,8 +153,8 @@ static void write_relaxing(double time)
     }
 }
 
-/* Curves without a retract do not show a loss; the misfit and the range of the fit show the error.
- * The truth is |E*| at the inverse of the loading time of 0.1 s. */
+/* Curves without a retraction do not show a loss; lack of fit and fit range show the error. The
+ * truth is |E*| at the inverse of the loading time of 0.1 s. */
 static void test_one_relaxation_time(void **state)
 {
     (void)state;
@@ -171,8 +171,8 @@ static void test_one_relaxation_time(void **state)
     }
 }
 
-/* Half of the spread of the mean shifts, 0 for the whole range included, less the noise of the
- * mean. A range with too few samples does not count. */
+/* Half of the range of the mean shifts, with 0 for the whole fit range, minus the noise of the
+ * mean. A fit range with too few samples does not count. */
 static double spread_of(const double shift[2][WT_FIT_RANGES], double noise)
 {
     const wt_indent_options options = wt_indent_defaults();
@@ -207,9 +207,9 @@ static void test_range_error(void **state)
     assert_true(spread_of(both, 1) == 0);
 }
 
-/* A pull before contact that no law of adhesion describes is returned if it is above a tenth of the
- * largest force; the larger pull of the retract takes its place. */
-static void test_left_out_pull(void **state)
+/* An attraction before contact that no law of adhesion describes is returned if it is above a tenth
+ * of the largest force; the larger adhesion of the retraction replaces it. */
+static void test_excluded_attraction(void **state)
 {
     (void)state;
     const double none = (double)NAN;
@@ -224,7 +224,7 @@ static void test_left_out_pull(void **state)
     fit.max_force = 200e-9; /* small */
     assert_true(curve_left_out_pull(&fit) == 0);
     fit.max_force = 40e-9;
-    fit.adhesion_force = 0; /* a pull-off alone leaves the approach as it is */
+    fit.adhesion_force = 0; /* a pull-off alone does not change the approach */
     assert_true(curve_left_out_pull(&fit) == 0);
 }
 
@@ -246,6 +246,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_radius), cmocka_unit_test(test_stated),
                                        cmocka_unit_test(test_one_relaxation_time),
                                        cmocka_unit_test(test_range_error),
-                                       cmocka_unit_test(test_left_out_pull)};
+                                       cmocka_unit_test(test_excluded_attraction)};
     return cmocka_run_group_tests_name("error of a group", tests, open_formats, close_formats);
 }

@@ -1,8 +1,6 @@
-/* Contact of rubber with memory, in and out: values in 12 digits; what is left out of a series does
- * not matter.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Viscoelastic contact, approach and retraction: values with 12 digits; omitted terms of a series
+ * do not matter.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference_contact.h"
 
 #include "indentation/law/hereditary.h"
@@ -23,7 +21,7 @@ static size_t list(const char *at, const char *key, double to[TERMS])
     return n;
 }
 
-/* Lines between the times of a motion, or a squared sine. */
+/* Line segments between the times of a motion, or a squared sine. */
 static double depth_at(const char *at, const char *end, double t)
 {
     double times[TERMS], depths[TERMS];
@@ -38,7 +36,8 @@ static double depth_at(const char *at, const char *end, double t)
     return depths[i] + (depths[i + 1] - depths[i]) * (t - times[i]) / (times[i + 1] - times[i]);
 }
 
-/* In steps that grow from the contact on, where the force bends most; a line out in one step. */
+/* Steps that grow from the contact, where the curvature of the force is largest; a linear
+ * retraction in one step. */
 static double force_at(const wt_tip *tip, const wt_prony *series, const char *motion,
                        const char *end, double top, double t, int steps)
 {
@@ -85,7 +84,7 @@ static int check_case(const char *at, const char *next)
         const double expected = number_in(p, "F_N", next);
         const double coarse = force_at(&tip, &series, motion, p, top, t, STEPS / 2),
                      fine = force_at(&tip, &series, motion, p, top, t, STEPS);
-        /* the error of a step goes with its square */
+        /* the error is proportional to the square of the step */
         assert_near((4 * fine - coarse) / 3 / (1 - nu * nu), expected, 1e-10);
     }
     return n;
@@ -98,7 +97,8 @@ static void reference_cases(void **state)
         check_reference(WT_SHARED_DIR "/reference/indentation/viscoelastic.json", check_case), 24);
 }
 
-/* Terms far outside the motion go into the spring and the dashpot; the force hardly notices. */
+/* Terms far outside the range of the motion become a spring and a dashpot, with little effect on
+ * the force. */
 static void spring_and_dashpot(void **state)
 {
     (void)state;

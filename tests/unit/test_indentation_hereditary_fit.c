@@ -1,8 +1,6 @@
-/* The fit of a factor on a known relaxation spectrum: curves of rubber with memory, made step by
- * step from the relaxation modulus itself.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Fit of a factor on a known relaxation spectrum: curves of viscoelastic rubber, computed step by
+ * step from the relaxation modulus.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fitted_curve.h"
 
 #include "indentation/numerics/curve.h"
@@ -38,8 +36,8 @@ static double complex_modulus(double omega)
     return hypot(storage, loss);
 }
 
-/* The forces of the lever on `factor` times the spectrum, in place of those of `data`; `duration`
- * of the approach. Contact comes at a sample. */
+/* Cantilever forces on `factor` times the spectrum replace those of `data`; `duration` is that of
+ * the approach. Contact is at a sample. */
 static void make_lossy(const curve_truth *t, double factor, double duration)
 {
     static double f[CURVE_MAX], e[CURVE_MAX];
@@ -76,7 +74,7 @@ static curve_truth lossy_curve(void)
     return t;
 }
 
-/* At any rate the factor is the true one, and the modulus |E*| at 1/t_c; an elastic fit is not. */
+/* At any rate the factor is the true one and the modulus |E*| at 1/t_c; an elastic fit is wrong. */
 static void factor_of_all_rates(void **state)
 {
     (void)state;
@@ -105,7 +103,7 @@ static void factor_of_all_rates(void **state)
     assert_true(worst > 0.03);
 }
 
-/* The errors hold the truth, and a residual that is loss alone is none. */
+/* The errors cover the truth, and a residual due to loss alone is no lack of fit. */
 static void coverage(void **state)
 {
     (void)state;
@@ -132,8 +130,8 @@ static void coverage(void **state)
     assert_true(covered > 0.91 * accepted && covered < accepted);
 }
 
-/* Samples that are missing, repeated or spikes leave the times of the others where they were; the
- * direction of the height does not matter. Without times there is no memory. */
+/* Missing, repeated or spike samples do not move the times of the others; the direction of the
+ * height does not matter. Without times there is no viscoelastic response. */
 static void times(void **state)
 {
     (void)state;
@@ -157,8 +155,9 @@ static void times(void **state)
 
 enum { BASELINE = 800, CONTACT = 800, FINE = 4 }; /* samples of each branch; steps of one */
 
-/* In and out with a lever to a depth, in 1 s from contact, on seven terms with a tan delta at 1/s
- * of |E*| 5 MPa. kappa: lever over contact. Fits the way in with the way out. */
+/* Approach and retraction with a cantilever to a depth, in 1 s from contact, on seven terms with a
+ * tan delta at 1/s of |E*| 5 MPa. kappa: stiffness ratio of cantilever and contact. Fits the
+ * approach with the retraction. */
 typedef enum way { BY_MEMORY, PLAIN, WITHOUT_TIMES } way;
 static wt_indent_fit fit_lossy(double tan_delta, double kappa, way how)
 {
@@ -189,7 +188,7 @@ static wt_indent_fit fit_lossy(double tan_delta, double kappa, way how)
     const double reduced = whole / 0.75, k = kappa * reduced * slope;
     double top = depth + reduced * f / k;
     hereditary_reserve(&law, TERMS_7);
-    for (int round = 0; round < 8; round++) { /* until it is as deep */
+    for (int round = 0; round < 8; round++) { /* until the depth is reached */
         top += round > 0 ? depth - (top - force[CONTACT * FINE] / k) : 0;
         for (int i = 0; i < N; i++) {
             time[i] = (double)i / (CONTACT * FINE);
@@ -223,8 +222,8 @@ static wt_indent_fit fit_lossy(double tan_delta, double kappa, way how)
     return fit;
 }
 
-/* What a fit without memory returns is that of the reference; with one that loses as much the
- * modulus is |E*|, within its error, and the difference is stated. */
+/* The elastic fit returns the reference value. With a law of equal loss the modulus is |E*| within
+ * its error, and the difference is stated. */
 static void bias_of_loss(void **state)
 {
     (void)state;
@@ -245,7 +244,7 @@ static void bias_of_loss(void **state)
         assert_true(fit.loss_power > 0 && fit.loss_error < 0.06 * tan_delta + 0.02);
         assert_true(isnan(plain.loss_bias));
         rows++;
-        if (kappa < 1) /* of a soft lever the measured depth is as good as the tilt */
+        if (kappa < 1) /* with a soft cantilever the measured depth is as good as the tilt */
             continue;
         assert_near_abs(plain.modulus.value, ratio - 1, 0.008);
         assert_near_abs((1 + fit.modulus.value) * (1 + fit.loss_bias), 1 + plain.modulus.value,
@@ -255,8 +254,8 @@ static void bias_of_loss(void **state)
     assert_int_equal(rows, 14);
 }
 
-/* An elastic fit of lossy rubber says how near it is only where that was tried. */
-static void no_word_beyond_what_was_tried(void **state)
+/* The error of an elastic fit on lossy rubber is stated only where it was tested. */
+static void error_is_stated_within_tested_range(void **state)
 {
     (void)state;
     const wt_indent_fit some = fit_lossy(0.3, 1, WITHOUT_TIMES),
@@ -264,7 +263,7 @@ static void no_word_beyond_what_was_tried(void **state)
     assert_true(wt_curve_verdict_is_usable(some.verdict) &&
                 wt_curve_verdict_is_usable(much.verdict));
     assert_non_null(strstr(some.reason, "|E*| at 1/(loading time) within 20 %"));
-    /* of much loss the ranges of the fit disagree, which is then the reason */
+    /* with much loss the fit ranges disagree, which is then the reason */
     assert_int_equal(much.verdict, WT_CURVE_WIDE);
     assert_non_null(strstr(much.reason, "the 95 % interval is wide"));
     assert_true(some.loss < 0.85 && much.loss > 0.85);
@@ -277,7 +276,7 @@ int main(void)
         cmocka_unit_test(coverage),
         cmocka_unit_test(times),
         cmocka_unit_test(bias_of_loss),
-        cmocka_unit_test(no_word_beyond_what_was_tried),
+        cmocka_unit_test(error_is_stated_within_tested_range),
     };
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

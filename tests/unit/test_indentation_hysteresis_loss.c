@@ -1,13 +1,13 @@
-/* What is said of curves together that lose work on the way out: what their moduli may be off by
- * alike. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+/* Shared error of curves with hysteresis loss.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "table_cells.h"
 
 #include "indentation/indent.h"
 
 enum { CURVES = 8 };
 
-/* The key loss_error of curves of which so many lose work that tells its size, so many more work
- * whose effect is not known, and the others none. */
+/* Key loss_error for numbers of curves: with a loss of known size, with a loss of unknown effect,
+ * and without loss. */
 static double error_of(size_t known, size_t unknown)
 {
     wt_indent_job job = wt_indent_job_defaults();
@@ -44,7 +44,7 @@ static void test_loss(void **state)
     assert_true(isnan(error_of(0, CURVES / 2)));
     assert_near(error_of(0, CURVES / 2 - 1), 0, 0);
     assert_near(error_of(5, 3), 0.04, 1e-12);
-    assert_true(isnan(error_of(3, 3))); /* most lose, and of few is it known */
+    assert_true(isnan(error_of(3, 3))); /* most have a loss, and few state its effect */
 }
 
 int main(void)

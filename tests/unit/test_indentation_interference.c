@@ -1,9 +1,7 @@
-/* A sine on the baseline: fitted exactly where there is no noise, found in noise, not found where
- * there is none, and in the error.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "counted.h"
+/* A sine on the baseline (optical interference): exact without noise, found in noise, not found
+ * where there is none, and part of the error.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "draw_count.h"
 #include "fitted_curve.h"
 
 #include <string.h>
@@ -13,7 +11,7 @@ typedef struct sine {
     bool by_height;
 } sine;
 
-/* 1.2 um of baseline, and 250 nm in contact, of which a fifth bends the lever. */
+/* 1.2 um of baseline, and 250 nm in contact, of which a fifth bends the cantilever. */
 static curve_truth soft(void)
 {
     curve_truth t = curve_standard();
@@ -68,7 +66,7 @@ static void exact(void **state)
     }
 }
 
-/* What lies beyond the range of the fit is without the wave, too. */
+/* The part outside the fit range is corrected, too. */
 static void with_a_range(void **state)
 {
     (void)state;
@@ -94,7 +92,7 @@ static void with_a_range(void **state)
     }
 }
 
-/* Of a half and of three standard deviations of the noise, white and correlated. */
+/* Amplitudes of half and three standard deviations of the noise, white and correlated. */
 static void intervals_cover(void **state)
 {
     (void)state;
@@ -102,7 +100,7 @@ static void intervals_cover(void **state)
         double amplitude, period, correlation;
         int found; /* least share of them [%] */
     } cases[] = {{0.5, 250e-9, 0, 75}, {3, 400e-9, 0, 97}, {3, 400e-9, 0.9, 90}};
-    enum { CURVES = COUNTED(200) };
+    enum { CURVES = DRAW_COUNT(200) };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         curve_truth t = soft();
         t.n = 1500;
@@ -122,7 +120,7 @@ static void intervals_cover(void **state)
         }
         print_message("%g noises, correlation %g: %d accepted, %d found, E %d, contact %d\n",
                       cases[i].amplitude, cases[i].correlation, accepted, found, covered, contact);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_in_range(accepted, 0.96 * CURVES, CURVES);
         assert_in_range(100 * found, cases[i].found * accepted, 100 * accepted);
@@ -131,12 +129,12 @@ static void intervals_cover(void **state)
     }
 }
 
-/* Of baselines without a sine one in 1000 is said to have one; a bent one is bent. */
+/* One in 1000 baselines without a sine is said to have one; a curved one remains curved. */
 static void no_false_alarms(void **state)
 {
     (void)state;
     static const double correlation[] = {0, 0.8, 0.95};
-    enum { CURVES = COUNTED(800) };
+    enum { CURVES = DRAW_COUNT(800) };
     for (size_t k = 0; k < sizeof correlation / sizeof correlation[0]; k++) {
         int found = 0, bent = 0;
         curve_truth t = soft();
@@ -175,9 +173,9 @@ static void add(wt_force_curve *curve, wt_segment_kind kind, const curve_truth *
     }
 }
 
-/* A pull-off makes a fit with adhesion be tried. Where that does not describe the curve, all that
- * is told is as if it had not been. */
-static void adhesion_tried_in_vain(void **state)
+/* A pull-off causes a fit with adhesion. If that does not describe the curve, all results are as
+ * without it. */
+static void rejected_adhesion_changes_nothing(void **state)
 {
     (void)state;
     wt_contact_table *table = NULL;
@@ -222,6 +220,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact), cmocka_unit_test(with_a_range), cmocka_unit_test(intervals_cover),
-        cmocka_unit_test(no_false_alarms), cmocka_unit_test(adhesion_tried_in_vain)};
+        cmocka_unit_test(no_false_alarms), cmocka_unit_test(rejected_adhesion_changes_nothing)};
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

@@ -1,10 +1,8 @@
-/* Moduli of measured curves of the shared reference data, where present, as a user gets them: with
- * tilt, adhesion and misfit, beside those that another program makes of the same curves without.
- * The tips are those of its settings, not those of the probes: the numbers compare programs.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* Moduli of measured curves of the shared reference data, if they exist, with tilt, adhesion and
+ * lack of fit. They are compared with those of another program without these effects. The tips are
+ * those of its settings, not those of the probes: the numbers compare programs.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "weartrack/indentation.h"
 
@@ -20,7 +18,7 @@ enum { MOST = 200 };
 
 typedef struct reference {
     const char *name, *model, *tip; /* model NULL: a file of one */
-    size_t least;                   /* curves with a modulus on both sides */
+    size_t least;                   /* curves with a modulus in both programs */
     double median, within;          /* of our moduli over theirs, by its logarithm */
 } reference;
 
@@ -33,7 +31,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The n-th curve of a file; NaN without a modulus. */
+/* Curve n of a file; NaN without a modulus. */
 static double modulus_of(const wt_contact_table *table, const char *file, size_t number)
 {
     char path[512];
@@ -72,7 +70,7 @@ static bool read_row(const reference *r, const char *line, char file[256], size_
                                file, number, model, &weight, modulus, success)
                       : sscanf(line, "%255[^,],%zu,%lf,%lf,%*[^,],%*[^,],%*[^,],%15[^,]", file,
                                number, &weight, modulus, success);
-    /* without a spring constant of somebody's own */
+    /* no stated spring constant */
     return n == (r->model != NULL ? 6 : 5) && strncmp(file, "jpk/", 4) == 0 &&
            strstr(file, "cl_calibration") == NULL && !(weight > 0.0) &&
            strcmp(success, "True") == 0 && (r->model == NULL || strcmp(model, r->model) == 0);
@@ -110,7 +108,7 @@ static void compare(const reference *r)
 static void medians(void **state)
 {
     (void)state;
-    /* What was measured once, with room for one curve and for what another processor rounds. */
+    /* Earlier results, with a tolerance for one curve and for the rounding of another processor. */
     static const reference all[] = {
         {.name = "nanite-fits.csv",
          .model = "hertz_para",

@@ -1,15 +1,13 @@
-/* Measured JPK curves of the shared reference data, where present, against the fits of another
+/* Measured JPK curves of the shared reference data, if they exist, against the fits of another
  * program: blunted pyramid (n = 4, R = 20 nm, half-angle 20 degrees, b = R cos theta, nu = 0.5),
- * plain least squares over the whole approach, offset as the only baseline. The probes were other
- * ones, so the moduli compare programs and say nothing about materials.
+ * plain least squares over the whole approach, only an offset as baseline. The probes were others,
+ * so that the moduli compare programs and not materials.
  *
- * The same function of the same samples is minimised here, so modulus and smallest cost must agree.
- * The scan looks over the whole curve, the other program goes downhill from its first guess: where
- * the results part, the cost found here must be the lower one.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+ * The same function of the same samples is minimised here, so that modulus and smallest cost agree.
+ * The scan covers the whole curve, the other program descends from its first guess: where the
+ * results differ, the cost here is the lower one.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "indentation/numerics/curve.h"
 #include "weartrack/indentation.h"
@@ -67,7 +65,7 @@ static const row *find_row(const char *file, size_t curve)
     return NULL;
 }
 
-/* Calls visit for every curve of a file of the data folder. */
+/* Calls visit for every curve of a file in the data folder. */
 static void for_each_curve(const char *file,
                            void (*visit)(const char *file, const wt_force_curve *curve))
 {
@@ -78,7 +76,8 @@ static void for_each_curve(const char *file,
     wt_force_curve curve = {0};
     wt_read_options options = wt_read_defaults();
     wt_error err = WT_ERROR_INIT;
-    if (strstr(file, "cl_calibration") != NULL) { /* has none; what the reference assumed */
+    /* has none; the value that the reference assumed */
+    if (strstr(file, "cl_calibration") != NULL) {
         options.spring_constant = 0.05;
         options.sensitivity = 60e-9;
     }
@@ -97,7 +96,7 @@ static void for_each_curve(const char *file,
 
 static size_t n_compared, n_equal;
 
-/* The scan and the refinement alone, so that curves that would be rejected are compared, too. */
+/* Scan and refinement only, so that rejected curves are compared, too. */
 static void compare(const char *file, const wt_force_curve *curve)
 {
     const row *r = find_row(file, curve->index);
@@ -139,8 +138,7 @@ static void compare(const char *file, const wt_force_curve *curve)
     } else {
         print_message("%s %zu: %.6g Pa at cost %.7g, other program %.6g Pa at %.6g\n", file,
                       curve->index, modulus, cost, r->modulus, r->cost);
-        /* Another minimum as good as the other one to all digits that are known, or a better one.
-         */
+        /* Another minimum, equal to all known digits or better. */
         assert_true(cost < r->cost * (1.0 - cost_tolerance) ||
                     fabs(modulus / r->modulus - 1.0) < 5e-3);
     }
@@ -176,7 +174,7 @@ static void keep_answer(const char *file, const wt_force_curve *curve)
     n_answers++;
 }
 
-/* Curves with something wrong get an answer and a reason. */
+/* Faulty curves get a result and a reason. */
 static void awkward_curves(void **state)
 {
     (void)state;
@@ -201,14 +199,15 @@ static void awkward_curves(void **state)
             fail_msg("%s: %s: %s", cases[i].file, wt_curve_verdict_id(answers[0].verdict),
                      answers[0].reason);
     }
-    /* The tilt is what the offset-only fit of this curve could not describe: R^2 0.987 there. */
-    /* Its error holds what its bend and a misfit may do to it; by white noise alone it is far less.
-     */
+    /* The tilt explains the deviation of this curve from the fit with an offset only: R^2 0.987
+     * there. */
+    /* The error includes the effects of curvature and lack of fit; that of white noise alone is far
+     * smaller. */
     assert_true(answers[0].baseline_tilt.value > 20 * answers[0].baseline_tilt.standard_error);
 }
 
-/* Curves with a second contact point in sums over a few hundred means of neighbours, or in
- * contact points 4 % of the depth apart, that the samples themselves do not have. */
+/* Curves with a second contact point in block means over a few hundred samples, or in contact
+ * points 4 % of the depth apart, that the samples do not have. */
 static void contact_points_of_all_samples(void **state)
 {
     (void)state;
@@ -216,7 +215,7 @@ static void contact_points_of_all_samples(void **state)
         skip();
     const struct {
         const char *file;
-        size_t curve; /* of the file, by its place */
+        size_t curve; /* index in the file */
         bool tilt;
         double modulus;
     } cases[] = {

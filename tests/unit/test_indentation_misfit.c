@@ -1,9 +1,7 @@
-/* The error by a misfit: of the size of what it does to the modulus, next to none where the law
+/* Error by a lack of fit: as large as its effect on the modulus, and negligible where the law
  * holds.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "indentation/numerics/curve.h"
 #include "synthetic_curve.h"
@@ -11,7 +9,7 @@
 static curve_data data;
 static wt_indent_workspace *workspace;
 
-/* As if the tip were `stated`. */
+/* Fits with the tip `stated`. */
 static wt_indent_fit fit_tip(const curve_truth *t, const wt_tip *stated)
 {
     wt_contact_table *table = NULL;
@@ -25,7 +23,7 @@ static wt_indent_fit fit_tip(const curve_truth *t, const wt_tip *stated)
     return fit;
 }
 
-/* Errors of curves that the law describes are those of the noise, however little there is. */
+/* Errors of curves that fit the law are those of the noise, however small. */
 static void law_that_holds(void **state)
 {
     (void)state;
@@ -47,7 +45,7 @@ static void law_that_holds(void **state)
     }
 }
 
-/* The force of a contact of few samples rises from one to the next by more than any noise. */
+/* With few samples the contact force rises from one to the next by more than any noise. */
 static void few_samples_in_contact(void **state)
 {
     (void)state;
@@ -68,7 +66,7 @@ static void few_samples_in_contact(void **state)
     }
 }
 
-/* A quarter of the way before contact is baseline enough, whatever the samples are. */
+/* A quarter of the approach before contact is enough baseline, for any samples. */
 static void short_baselines(void **state)
 {
     (void)state;

@@ -1,8 +1,6 @@
-/* The modulus against depth, of many curves together: a layer that a homogeneous fit of one curve
- * hides, a wrong tip, no change, and too little to say.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Modulus against depth from many curves: a layer that a homogeneous fit of one curve hides, a
+ * wrong tip, no change, and too little data.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fitted_curve.h"
 
 #include "indentation/curve_tables.h"
@@ -13,7 +11,7 @@
 
 enum { CURVES = 30 };
 
-/* Over solutions of the integral equation in 11 digits. */
+/* Relative to solutions of the integral equation with 11 digits. */
 static void quick_form(void **state)
 {
     (void)state;
@@ -40,7 +38,7 @@ typedef struct scene {
     double ratio, thickness; /* of a layer; 0: none */
     double radius_factor;    /* of the true tip */
     double noise;            /* [N] */
-    double bow;              /* [N] of the force, over the way */
+    double bow;              /* bow of the force over the approach [N] */
     double loss_error;       /* of the modulus, as if the rubber had loss */
 } scene;
 
@@ -122,7 +120,7 @@ static wt_modulus_profile depth_of(const scene *s, size_t n, long spots)
     return depth;
 }
 
-/* The error is that of the basis, too: a line or a bent one in the contact radius. */
+/* The error includes that of the basis: linear or curved in the contact radius. */
 static void assert_moduli(const scene *s, const wt_modulus_profile *d, double rtol)
 {
     const curve_truth t = truth_of(s);
@@ -195,7 +193,8 @@ static void too_little(void **state)
     assert_true(loud.change.high > 1.1 || loud.change.low < 0.9);
 }
 
-/* One of a few per cent: shown or of no matter, but not shown by an interval that holds none. */
+/* A change of a few per cent is shown or negligible, but never shown by an interval that contains
+ * zero. */
 static void little_change(void **state)
 {
     (void)state;
@@ -213,9 +212,9 @@ static void assert_held(const scene *s, const wt_modulus_profile *d)
     assert_true(s->bow > 0 || d->curvature_share < 0.01);
 }
 
-/* A bend that all baselines have does not scatter: the intervals hold it, and no change is seen in
- * it; with no noise to speak of they do not without. */
-static void bent_baselines(void **state)
+/* A curvature that all baselines share does not scatter: the intervals include it, and no change is
+ * found. With little noise they would not without it. */
+static void curved_baselines(void **state)
 {
     (void)state;
     for (double bow = 150e-12; bow < 700e-12; bow *= 1.7) {
@@ -228,7 +227,8 @@ static void bent_baselines(void **state)
     }
 }
 
-/* So does the error of a memory; where what loss does is not known, nothing is said. */
+/* So does the error of a viscoelastic response; if the effect of the loss is unknown, there is no
+ * statement. */
 static void loss(void **state)
 {
     (void)state;
@@ -248,8 +248,8 @@ static void loss(void **state)
     assert_true(isnan(c.change.value) && c.n == 0 && c.n_excluded_by_loss == CURVES);
 }
 
-/* What the memory leaves open of the modulus of a layer and of the ground is what it leaves open of
- * the modulus at the full depth: by as much its intervals are wider, in squares of their width. */
+/* The viscoelastic error of the moduli of layer and substrate equals that of the modulus at full
+ * depth; it widens their intervals in the squares. */
 static void loss_of_layers(void **state)
 {
     (void)state;
@@ -277,9 +277,8 @@ static void loss_of_layers(void **state)
     assert_true(told > 0);
 }
 
-/* What is said of a change agrees with its interval, and what would settle it with what hides it.
- */
-static void words_of_a_change(void **state)
+/* The verdict on a change agrees with its interval, and the advice with its largest error. */
+static void text_of_a_change(void **state)
 {
     (void)state;
     static const struct {
@@ -310,7 +309,7 @@ static void words_of_a_change(void **state)
     }
 }
 
-static void words_of_no_answer(void **state)
+static void text_without_result(void **state)
 {
     (void)state;
     static const struct {
@@ -358,12 +357,12 @@ int main(void)
         cmocka_unit_test(layers),
         cmocka_unit_test(wrong_tip),
         cmocka_unit_test(too_little),
-        cmocka_unit_test(words_of_a_change),
+        cmocka_unit_test(text_of_a_change),
         cmocka_unit_test(little_change),
-        cmocka_unit_test(bent_baselines),
+        cmocka_unit_test(curved_baselines),
         cmocka_unit_test(loss),
         cmocka_unit_test(loss_of_layers),
-        cmocka_unit_test(words_of_no_answer),
+        cmocka_unit_test(text_without_result),
     };
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }

@@ -1,9 +1,7 @@
-/* Sums, spans and order statistics of the samples of a curve, which take several numbers at once:
- * against one number at a time, at every length around that.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* Sums, ranges and order statistics of samples, computed several numbers at a time: against one
+ * number at a time, for every length near that.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "indentation/numerics/curve.h"
 
@@ -67,7 +65,7 @@ static void order(void **state)
         for (size_t k = 0; k < n; k++) {
             double sorted[MOST], lost[MOST];
             draw((unsigned)n, n);
-            for (size_t i = 0; i < n; i++) /* from 0 on, over many powers of two, some equal */
+            for (size_t i = 0; i < n; i++) /* from 0 over many powers of two, some equal */
                 sorted[i] = lost[i] = i % 7 == 0 ? fabs(y[i]) : exp2(40 * (x[i] - 0.6));
             qsort(sorted, n, sizeof *sorted, by_size);
             const double found = curve_select(lost, n, k, sorted[n - 1]);

@@ -1,8 +1,8 @@
-/* Deflection sensitivity of files by independent writers: volts, calibrated files, forces alone,
- * both ways with friction, several files, a soft surface.
+/* Deflection sensitivity of files by independent writers: volts, calibrated files, forces only,
+ * both directions with friction, several files, a soft surface.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
-#include "cells.h"
+#include "table_cells.h"
 
 #include "dma_data.h"
 #include "weartrack/indentation.h"
@@ -18,8 +18,8 @@ static const double free_travel = 200e-9, press = 100e-9, spring = 0.3;
 
 static double height[MOST_CURVES][2][N], signal[MOST_CURVES][2][N];
 
-/* A curve whose way in is of sensitivity s (1 + friction), the way out of s (1 - friction). The
- * deflection is `scale` times volts; a surface that gives way lets it fall behind. */
+/* A curve with sensitivity s (1 + friction) for the approach and s (1 - friction) for the
+ * retraction. The deflection is `scale` times volts; a compliant surface reduces it. */
 static void draw_curve(size_t i, double s, double friction, double give, double scale,
                        uint64_t *seed)
 {
@@ -91,11 +91,11 @@ static const char *words(const wt_table *table, size_t row, const char *column)
     return wt_table_text(table, row, (size_t)c);
 }
 
-/* ---- the rows of all curves, worked out from those of the curves ----------------------------- */
+/* ---- rows of all curves, computed from those of single curves -------------------------------- */
 
 enum { MOST_ROWS = 2 * MOST_CURVES * MOST_FILES };
 
-/* Of the curves that a row is of: their numbers, and their files. */
+/* Numbers and files of the curves of a row. */
 typedef struct curve_role {
     double value[MOST_ROWS];
     const char *file[MOST_ROWS];
@@ -115,7 +115,7 @@ static curve_role take(const wt_table *curves, const char *direction, const char
             isnan(number_cell(curves, i, column)) ? (double)NAN : number_cell(curves, i, column);
         if (strcmp(direction, "both") != 0 && strcmp(direction, words(curves, i, "direction")) != 0)
             continue;
-        if (strcmp(direction, "both") == 0) { /* the retract stands behind its approach */
+        if (strcmp(direction, "both") == 0) { /* the retraction follows its approach */
             if (strcmp(words(curves, i, "direction"), "retract") != 0 || i == 0 ||
                 number_cell(curves, i - 1, "curve") != number_cell(curves, i, "curve") ||
                 !is_used(curves, i - 1))
@@ -135,7 +135,7 @@ typedef struct mean {
     size_t n;
 } mean;
 
-/* Of the means of three files or more, else of the curves. */
+/* Means of three or more files, else of curves. */
 static mean mean_of(curve_role all)
 {
     curve_role files = {.n = 0};
@@ -173,7 +173,7 @@ static void check_interval(const wt_table *t, size_t row, const char *name, mean
     assert_near_abs(number_cell(t, row, column), m.value + m.half, digits);
 }
 
-/* The mean of retract over approach of the curves that have both; NaN if none has. */
+/* Mean ratio of retraction and approach over curves with both; NaN if there is none. */
 static double ways_ratio(const wt_table *curves, const char *column)
 {
     curve_role all = {.n = 0};
@@ -189,8 +189,8 @@ static double ways_ratio(const wt_table *curves, const char *column)
     return all.n > 0 ? mean_of(all).value : (double)NAN;
 }
 
-/* Uniform between the ways: a width over sqrt(12) about their middle, over sqrt(3) about an end. A
- * soft surface adds its share to the half width. */
+/* Uniform between the directions: the width over sqrt(12) about the middle, over sqrt(3) about a
+ * limit. A soft surface adds its share to the half width. */
 static mean with_ways(mean m, double ratio, const char *direction, double share)
 {
     const double width = strcmp(direction, "approach") == 0  ? ratio - 1
@@ -203,7 +203,7 @@ static mean with_ways(mean m, double ratio, const char *direction, double share)
     return m;
 }
 
-/* Of two curves and more; a refused row has no sensitivity. */
+/* For two or more curves; a refused row has no sensitivity. */
 static void check_rows(const wt_sensitivity_tables *tables)
 {
     const wt_table *t = tables->sensitivity, *curves = tables->sensitivity_curves;
@@ -237,8 +237,8 @@ static void check_rows(const wt_sensitivity_tables *tables)
     }
 }
 
-/* Of white noise of 4 mV: what the formulas of least squares say of a line through so many samples
- * and of the parabola beyond it, in the mean of the curves. */
+/* White noise of 4 mV: least-squares errors of a line through these samples and of the parabola
+ * beyond it, for the mean of the curves. */
 static void check_noise(const wt_table *curves, double s)
 {
     double misfit = 0, slope = 0, change = 0, n_used = 0;
@@ -261,7 +261,7 @@ static void check_noise(const wt_table *curves, double s)
     assert_near(change / n_used, 1, 0.2);
 }
 
-/* Volts alone: both ways with their friction, whose mean is the truth. */
+/* Volts only: both directions with friction; their mean is the truth. */
 static void test_volts(void **state)
 {
     (void)state;
@@ -299,7 +299,8 @@ static void test_volts(void **state)
     assert_true(number_cell(t.sensitivity, 2, "sensitivity_low") < 60e-9);
     assert_true(number_cell(t.sensitivity, 2, "sensitivity_high") > 60e-9);
     assert_near(key(t.sensitivity, "retract_over_approach").value, 0.98 / 1.02, 0.003);
-    /* the stated interval holds both ways, the one of each the other way */
+    /* the stated interval contains both directions, that of each direction does not contain the
+     * other */
     assert_near(number_cell(t.sensitivity, 2, "direction_error"), 0.04 / sqrt(12), 0.03);
     assert_near(number_cell(t.sensitivity, 0, "direction_error"), 0.04 / 1.02 / sqrt(3), 0.03);
     for (size_t row = 0; row < 3; row++) {
@@ -315,7 +316,7 @@ static void test_volts(void **state)
     (void)remove(path[0]);
 }
 
-/* A file that was calibrated with 50 nm/V: the volts are taken back, and the factor is told. */
+/* A file calibrated with 50 nm/V: the volts are recovered, and the factor is stated. */
 static void test_calibrated(void **state)
 {
     (void)state;
@@ -336,7 +337,7 @@ static void test_calibrated(void **state)
     (void)remove(path[0]);
 }
 
-/* Forces and a spring constant alone: the factor on the deflection. */
+/* Forces and a spring constant only: the factor on the deflection. */
 static void test_forces(void **state)
 {
     (void)state;
@@ -370,8 +371,8 @@ static void test_forces(void **state)
     (void)remove(path[0]);
 }
 
-/* Four files whose laser moved: the files count, not their curves. A curve with dust is left out.
- */
+/* Four files after laser realignment: the files are the units, not their curves. A curve with dust
+ * is excluded. */
 static void test_files(void **state)
 {
     (void)state;
@@ -397,7 +398,7 @@ static void test_files(void **state)
         (void)remove(paths[f]);
 }
 
-/* Dust under the retract alone leaves the curve out, too, and of one curve the error is that within
+/* Dust in the retraction alone excludes the curve, too; the error of one curve is the one within
  * it. */
 static void test_retract_and_one(void **state)
 {
@@ -448,8 +449,8 @@ static void test_retract_and_one(void **state)
     (void)remove(path[0]);
 }
 
-/* A curve that was written over and over, and three that were measured: more than half of the
- * slopes are equal to the last bit, and those beside them are not far from them for that. */
+/* A curve stored many times, and three measured ones: more than half of the slopes are equal to the
+ * last bit. The others are not outliers for that reason. */
 static void test_equal(void **state)
 {
     (void)state;
@@ -506,7 +507,7 @@ static void test_mixed(void **state)
         (void)remove(paths[i]);
 }
 
-/* A soft surface: no number, and why; with a looser limit there is one. */
+/* A soft surface: no number, with the reason; with a looser limit there is one. */
 static void test_soft(void **state)
 {
     (void)state;
@@ -536,7 +537,7 @@ static void test_soft(void **state)
     (void)remove(path[0]);
 }
 
-/* 252 of 256 curves on mica, and one of finer steps, by the same lever. */
+/* 252 of 256 curves on mica, and one with finer steps, with the same cantilever. */
 static void test_genuine(void **state)
 {
     (void)state;

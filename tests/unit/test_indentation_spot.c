@@ -1,6 +1,6 @@
-/* A spot of a height image: surfaces written out here, whose roughness is known.
+/* A position in a height image: surfaces defined here, with known roughness.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "indentation/numerics/height_image.h"
 #include "weartrack/indentation.h"
@@ -42,7 +42,7 @@ static surface random_surface(uint64_t *state)
     return s;
 }
 
-/* The waves are products of what the columns and the lines have. */
+/* The waves are products of column and line factors. */
 static void add_wave(const surface *s, int wave, const double *x, const double *y, size_t n,
                      double *z)
 {
@@ -120,9 +120,8 @@ static int end(void **state)
     return 0;
 }
 
-/* A wave that is short beside the contact has amplitude / sqrt(2) on any disc; the tilt is taken
- * off. For a cone the area goes with the square of the depth, so 10 % of it are 5 % of the depth.
- */
+/* A wave shorter than the contact has amplitude / sqrt(2) on any disc; the tilt is subtracted. The
+ * area of a cone is proportional to the squared depth, so that 10 % of it are 5 % of the depth. */
 static void test_roughness(void **state)
 {
     (void)state;
@@ -151,7 +150,7 @@ static void test_roughness(void **state)
     }
 }
 
-/* The slope of a plane, and what noise leaves of it. */
+/* Slope of a plane, and its error by noise. */
 static void test_tilt(void **state)
 {
     (void)state;
@@ -183,8 +182,7 @@ static void write_field(const char *path, const double *z)
     assert_int_equal(fclose(file), 0);
 }
 
-/* Heights that end beside the contact: within the error of the position nobody knows how rough it
- * is. */
+/* The image ends beside the contact: the roughness is unknown within the error of the position. */
 static void test_hole(void **state)
 {
     (void)state;
@@ -207,8 +205,8 @@ static void test_hole(void **state)
     }
 }
 
-/* What the lever did is in metres too, and no height: it must be asked for by name. */
-static void test_images_of_the_lever(void **state)
+/* The deflection channel is in metres, too, but no height: it must be requested by name. */
+static void test_deflection_images(void **state)
 {
     (void)state;
     static const char *const names[] = {"DeflectionRetrace", "AmplitudeRetrace", "HeightRetrace"};
@@ -250,7 +248,7 @@ static void test_images_of_the_lever(void **state)
     }
 }
 
-static void test_cannot_say(void **state)
+static void test_inconclusive(void **state)
 {
     (void)state;
     uint64_t seed = 4;
@@ -281,7 +279,7 @@ static void test_cannot_say(void **state)
     assert_null(none);
 }
 
-/* Every column of one spot. */
+/* Every column of one position. */
 static void test_columns(void **state)
 {
     (void)state;
@@ -315,8 +313,8 @@ static void test_columns(void **state)
     wt_table_free(t);
 }
 
-/* Discs far off the image, also further than whole numbers count. */
-static void test_far_off(void **state)
+/* Discs far outside the image, also beyond the range of integers. */
+static void test_disc_outside_image(void **state)
 {
     (void)state;
     static const double z[4] = {1, 2, 3, 4};
@@ -337,10 +335,10 @@ int main(void)
         cmocka_unit_test(test_columns),
         cmocka_unit_test(test_roughness),
         cmocka_unit_test(test_tilt),
-        cmocka_unit_test(test_cannot_say),
-        cmocka_unit_test(test_far_off),
+        cmocka_unit_test(test_inconclusive),
+        cmocka_unit_test(test_disc_outside_image),
         cmocka_unit_test(test_hole),
-        cmocka_unit_test(test_images_of_the_lever),
+        cmocka_unit_test(test_deflection_images),
     };
     return cmocka_run_group_tests_name("spot", tests, begin, end);
 }

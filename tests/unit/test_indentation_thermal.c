@@ -1,8 +1,8 @@
-/* Spring constants of files with a known truth: a table in metres, one in volts, a thermal tune by
- * an independent writer, a genuine one; corrections, errors, what is missing.
+/* Spring constants of files with known truth: tables in metres and in volts, a thermal tune by an
+ * independent writer, a measured one; corrections, errors, missing values.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/indentation.h"
 #include "writers/nid_writer.h"
@@ -75,7 +75,7 @@ static void test_metres(void **state)
     wt_table_free(t);
 }
 
-/* Volts with the sensitivity of the file, and another one; without a temperature. */
+/* Volts with the sensitivity of the file, and with another one; without a temperature. */
 static void test_volts(void **state)
 {
     (void)state;
@@ -99,7 +99,7 @@ static void test_volts(void **state)
 
 enum { TUNE_POINTS = 3000, TUNES = 4 };
 
-/* A thermal tune by the writer, on a white floor of 10 fm/sqrt(Hz). */
+/* A thermal tune by the writer, with a white floor of 10 fm/sqrt(Hz). */
 static void write_tune(const char *path, double f0, double q, double peak)
 {
     static double density[TUNE_POINTS];
@@ -126,7 +126,7 @@ static void write_tune(const char *path, double f0, double q, double peak)
     assert_int_equal(nid_write(&file), 0);
 }
 
-/* 777 fm/sqrt(Hz) at the peak is the mean square that it makes. */
+/* 777 fm/sqrt(Hz) at the peak is the mean square that it causes. */
 static void test_tune(void **state)
 {
     (void)state;
@@ -151,7 +151,7 @@ static void test_tune(void **state)
     (void)remove(path);
 }
 
-/* One and more levers: each row by the equipartition, the keys by the rows. */
+/* One or more cantilevers: each row by equipartition, the keys by the rows. */
 static void test_several(void **state)
 {
     (void)state;
@@ -159,7 +159,7 @@ static void test_several(void **state)
                                              "test_thermal_2.nid", "test_thermal_3.nid"};
     static const double f0[TUNES] = {180e3, 150e3, 170e3, 190e3}, q[TUNES] = {400, 300, 500, 350},
                         peak[TUNES] = {445e-15, 400e-15, 458e-15,
-                                       650e-15}; /* the last is against the file */
+                                       650e-15}; /* the last one contradicts the file */
     const double common = hypot(2 * 0.03, 0.5 / 300);
     size_t n_contradicted = 0;
     wt_job work = wt_job_defaults();
@@ -216,7 +216,7 @@ static void test_several(void **state)
                                     "temperature");
         snprintf(text, sizeof text, "%zu", n);
         assert_string_equal(wt_table_key(t, "n_spectra"), text);
-        bool contradicted = false; /* by the 27.13 N/m of the file */
+        bool contradicted = false; /* with the 27.13 N/m of the file */
         for (size_t i = 0; i < n; i++)
             contradicted = contradicted || fabs(log(constants[i] / 27.13)) > log(1.5);
         assert_true((wt_table_key(t, "contradiction") != NULL) == contradicted);
@@ -239,8 +239,8 @@ static void test_several(void **state)
         (void)remove(paths[i]);
 }
 
-/* What the instrument fitted: 179.8 kHz, Q 442. */
-static void test_genuine(void **state)
+/* Fit of the instrument: 179.8 kHz, Q 442. */
+static void test_measured_tune(void **state)
 {
     (void)state;
     static const char path[] = WT_SHARED_DIR "/data/afm/nanosurf/thermal.nid";
@@ -254,8 +254,8 @@ static void test_genuine(void **state)
     wt_table_free(t);
 }
 
-/* Beside the noise Sader's method; who contradicts it by more than a factor 1.5 is not advised. */
-static void test_contradiction(void **state)
+/* Sader's method with the noise; a method that differs by more than a factor 1.5 is not advised. */
+static void test_inconsistency(void **state)
 {
     (void)state;
     wt_thermal_job job = wt_thermal_job_defaults();
@@ -275,7 +275,7 @@ static void test_contradiction(void **state)
         assert_int_equal(wt_table_key(t, "contradiction") != NULL, far);
         wt_table_free(t);
     }
-    /* one of the two is no lever, both ways are one too many */
+    /* one of the two is not a cantilever; both methods are one too many */
     wt_error err = WT_ERROR_INIT;
     job.width = (wt_estimate){30e-6, 0, 0, "m"};
     assert_int_equal(make(&job, NOISE "deflection.csv", (double)NAN, NULL, &t, &err), WT_E_ARG);
@@ -290,9 +290,9 @@ static void test_contradiction(void **state)
     wt_table_free(t);
 }
 
-/* What a spectrum that is no oscillator's is off by may be in all of them: the mean of several has
- * no error, either. */
-static void test_departing(void **state)
+/* The error of a spectrum that is not an oscillator may be shared: the mean of several has no
+ * error, either. */
+static void test_not_an_oscillator(void **state)
 {
     (void)state;
     static const char path[] = WT_SHARED_DIR "/data/afm/nanosurf/thermal.nid";
@@ -324,9 +324,9 @@ static void test_departing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_metres),       cmocka_unit_test(test_volts),
-        cmocka_unit_test(test_tune),         cmocka_unit_test(test_several),
-        cmocka_unit_test(test_genuine),      cmocka_unit_test(test_departing),
-        cmocka_unit_test(test_contradiction)};
+        cmocka_unit_test(test_metres),        cmocka_unit_test(test_volts),
+        cmocka_unit_test(test_tune),          cmocka_unit_test(test_several),
+        cmocka_unit_test(test_measured_tune), cmocka_unit_test(test_not_an_oscillator),
+        cmocka_unit_test(test_inconsistency)};
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

@@ -1,8 +1,9 @@
-/* Thermal noise: the truth comes back, and the intervals hold it, for sharp and broad peaks, few
- * and many averages, with and without a window; what is no oscillator shows.
+/* Thermal noise: the truth is recovered and covered by the intervals, for sharp and broad peaks,
+ * few and many averages, with and without a window. A spectrum that is not an oscillator is
+ * detected.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
+#include "assert_near.h"
+#include "draw_count.h"
 #include "weartrack/indentation.h"
 
 #include "dma_data.h"
@@ -10,15 +11,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST = 4000, DRAWS = COUNTED(400) };
+enum { MOST = 4000, DRAWS = DRAW_COUNT(400) };
 static const double pi = 3.14159265358979323846;
 
 typedef struct scene {
     double f0, q, floor; /* of the peak */
     size_t n, averages;
     double step;
-    bool window;  /* neighbours share what a Hann window leaves them */
-    double other; /* height of a second peak, of the first */
+    bool window;  /* a Hann window correlates neighbours */
+    double other; /* height of a second peak, relative to the first */
 } scene;
 
 static double truth(const scene *s, double f)
@@ -29,7 +30,7 @@ static double truth(const scene *s, double f)
            s->other * peak / ((1 - y * y) * (1 - y * y) + y * y / q2) + s->floor * peak * q2;
 }
 
-/* Means of the squares of complex normal amplitudes; with a window these are mixed before. */
+/* Means of squared complex normal amplitudes; a window mixes these before. */
 static wt_thermal drawn(const scene *s, uint64_t *seed)
 {
     static double f[MOST], p[MOST], re[MOST + 2], im[MOST + 2];
@@ -72,7 +73,7 @@ static void test_truth(void **state)
     assert_near(t.resonance.value, 30e3, 1e-9);
     assert_near(t.quality.value, 80, 1e-6);
     assert_near(t.floor, truth(&s, 1e9), 1e-4);
-    /* the mean square is what lies under the peak: sums of the law without its floor */
+    /* the mean square is the area of the peak: sums of the law without its floor */
     double sum = 0;
     for (double x = 0.5; x < 4e6; x++) {
         const double y = x / 30e3;
@@ -118,7 +119,7 @@ static void test_coverage(void **state)
         print_message("Q %g, %zu averages%s: mean square %.3f, Q %.3f, f0 %.3f, alarms %.3f\n",
                       s->q, s->averages, s->window ? ", window" : "", square / (double)DRAWS,
                       quality / (double)DRAWS, resonance / (double)DRAWS, alarms / (double)DRAWS);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_in_range(square, 0.92 * DRAWS, 0.98 * DRAWS);
         assert_in_range(quality, 0.92 * DRAWS, 0.98 * DRAWS);
@@ -127,7 +128,8 @@ static void test_coverage(void **state)
     }
 }
 
-/* The scatter tells how many were averaged, and a second peak that this is no single oscillator. */
+/* The scatter determines the number of averages, and a second peak shows that this is not a single
+ * oscillator. */
 static void test_misfit(void **state)
 {
     (void)state;
@@ -138,8 +140,8 @@ static void test_misfit(void **state)
     assert_true(drawn(&s, &seed).misfit_p < 1e-6);
 }
 
-/* Values by the power series of the Bessel functions; levers of table 1 of Sader, Chon and Mulvaney
- * 1999, the first of 0.157 N/m. */
+/* Values by the power series of the Bessel functions; cantilevers of table 1 of Sader, Chon and
+ * Mulvaney 1999, the first with 0.157 N/m. */
 static void test_sader(void **state)
 {
     (void)state;
@@ -164,7 +166,7 @@ static void test_sader(void **state)
                           f = {l[2], 0, 0, "Hz"}, q = {l[3], 0, 0, "1"};
         assert_near(wt_sader_spring_constant(length, width, f, q, air).value, l[4], 1e-10);
     }
-    /* Errors: those of length and quality as they are, of the width by what it does. */
+    /* Errors: those of length and quality directly, that of the width by its effect. */
     const wt_estimate length = {397e-6, 397e-8, 0, "m"}, width = {29e-6, 29e-8, 0, "m"},
                       wider = {29.29e-6, 0, 0, "m"}, f = {17.36e3, 0, 0, "Hz"},
                       q = {55.5, 0.555, 0, "1"};

@@ -1,8 +1,6 @@
-/* Tips as text: what is understood, what is refused and in which words, the description.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* Tips as text: accepted texts, refused texts with their messages, the description.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "core/base/quantity.h"
 #include "indentation/indent.h"
@@ -24,7 +22,7 @@ static wt_tip parsed(const char *text)
     return tip;
 }
 
-static void understood(void **state)
+static void valid_texts(void **state)
 {
     (void)state;
     wt_tip tip = parsed("pyramid:half-angle=35deg,radius=20nm");
@@ -55,7 +53,7 @@ static void understood(void **state)
     assert_int_equal(tip.sides, 3);
     assert_near(tip.transition_radius, 0.0, 0.0);
 
-    tip = parsed("berkovich:radius=150nm+-10%"); /* blunter than the tangent cap allows */
+    tip = parsed("berkovich:radius=150nm+-10%"); /* blunter than the tangent cap permits */
     assert_int_equal(tip.shape, WT_TIP_BLUNTED_PYRAMID);
     assert_int_equal(tip.sides, 3);
     assert_near(tip.half_angle, 65.27 * degree, 1e-14);
@@ -79,7 +77,7 @@ static void understood(void **state)
     assert_near(tip.transition_radius, 10e-9 * cos(20 * degree), 1e-14);
 }
 
-static void refused_in_clear_words(void **state)
+static void refused_texts(void **state)
 {
     (void)state;
     const struct {
@@ -133,7 +131,7 @@ static void refused_in_clear_words(void **state)
         assert_near(tip.radius, 1.0, 0.0); /* unchanged */
         assert_int_equal(wt_tip_parse(cases[i].text, &tip, NULL), status);
     }
-    /* A value that is too long for any number. */
+    /* A value that is too long for a number. */
     char text[400] = "sphere:radius=";
     memset(text + strlen(text), '1', 300);
     wt_tip tip;
@@ -183,7 +181,7 @@ static void described_with_all_numbers(void **state)
     }
 }
 
-/* The keys of a table hold each tip exactly; without them, or out of limits, there is none. */
+/* The keys of a table hold each tip exactly; without them, or outside the limits, there is none. */
 static void kept_in_a_table(void **state)
 {
     (void)state;
@@ -223,7 +221,7 @@ static void kept_in_a_table(void **state)
     }
 }
 
-/* What the pages say of the dimensions is what a tip is checked by. */
+/* The dimensions on the pages are those of the check of a tip. */
 static void within_declared_limits(void **state)
 {
     (void)state;
@@ -245,7 +243,7 @@ static void within_declared_limits(void **state)
             assert_int_equal(wt_tip_check(&tip, NULL), WT_E_RANGE);
             if (count)
                 *(unsigned *)member = (unsigned)(end == 0 ? least : most);
-            else if (i != TIP_TRANSITION || end == 0) /* else the cap would be concave */
+            else if (i != TIP_TRANSITION || end == 0) /* otherwise the cap would be concave */
                 *(double *)member = end == 0 ? nextafter(least, 1) : nextafter(most, 0);
             else
                 continue;
@@ -258,8 +256,8 @@ static void within_declared_limits(void **state)
     }
 }
 
-/* Flat pyramids of few sides: the default cap is as large as a convex tip allows, and this radius
- * may be stated with three digits. Others keep R cos(half-angle). */
+/* Flat pyramids with few sides: the default cap is as large as a convex tip permits, and this
+ * radius may be stated with three digits. Others keep R cos(half-angle). */
 static void test_default_transition(void **state)
 {
     (void)state;
@@ -290,9 +288,12 @@ static void test_default_transition(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_default_transition),    cmocka_unit_test(understood),
-        cmocka_unit_test(refused_in_clear_words),     cmocka_unit_test(errors_of_angle_and_radius),
-        cmocka_unit_test(described_with_all_numbers), cmocka_unit_test(kept_in_a_table),
+        cmocka_unit_test(test_default_transition),
+        cmocka_unit_test(valid_texts),
+        cmocka_unit_test(refused_texts),
+        cmocka_unit_test(errors_of_angle_and_radius),
+        cmocka_unit_test(described_with_all_numbers),
+        cmocka_unit_test(kept_in_a_table),
         cmocka_unit_test(within_declared_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

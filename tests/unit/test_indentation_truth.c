@@ -1,6 +1,6 @@
-/* The indentation job on curves of known truth: every column of its tables means what it says.
+/* The indentation job on curves with known truth: every column of its tables.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "weartrack/study.h"
 
@@ -11,7 +11,7 @@ static wt_formats *formats;
 static wt_indent_tables tables;
 static hertz truth;
 
-/* A file of two curves: one with contact, one that never touches. */
+/* A file with two curves: one with contact, one without. */
 static int indent(void **state)
 {
     (void)state;
@@ -55,7 +55,7 @@ static int clean(void **state)
     return 0;
 }
 
-/* |value - truth| within 4 of the stated errors, which are below `most`. */
+/* |value - truth| is within 4 stated errors, which are below `most`. */
 static void check(const char *column, const char *error, double expected, double most)
 {
     double value = cell(tables.indentation, 0, column), se = cell(tables.indentation, 0, error);
@@ -91,7 +91,7 @@ static void test_columns(void **state)
     assert_near(cell(t, 0, "indentation_rate"), truth.depth / load, 0.01);
     assert_near(cell(t, 0, "load_time"), load, 0.01);
     assert_near(cell(t, 0, "equivalent_frequency"), 1 / load, 0.01);
-    /* one point at a known contact would have 1 + (contact stiffness)/k; the contact is fitted */
+    /* one point with a known contact has 1 + (contact stiffness)/k; the contact is fitted */
     double stiffness = 1.5 * hertz_force(&truth, truth.depth) / truth.depth;
     assert_true(cell(t, 0, "sensitivity_gain") > 1 + stiffness / truth.spring_constant);
     assert_true(cell(t, 0, "sensitivity_gain") < 4 * (1 + stiffness / truth.spring_constant));
@@ -99,7 +99,7 @@ static void test_columns(void **state)
     assert_true(isnan(second) || second > 1);
 }
 
-/* With the contact given, a sphere's force goes with the power 1.5 of the depth. */
+/* With a stated contact the force of a sphere follows the power 1.5 of the depth. */
 static void test_known_contact(void **state)
 {
     (void)state;
@@ -138,7 +138,7 @@ static void test_rejected(void **state)
     assert_int_equal(tables.n_files, 1);
 }
 
-/* The curves for the figures: from the contact point, above the baseline. */
+/* Curves for the figures: from the contact point, above the baseline. */
 static void test_curves(void **state)
 {
     (void)state;
@@ -148,7 +148,7 @@ static void test_curves(void **state)
     for (size_t i = 0; i < HERTZ_N; i += 37) {
         double beyond = end * (double)i / (HERTZ_N - 1) - HERTZ_FREE;
         if (beyond < 0 && beyond > -20e-9)
-            continue; /* the snap-on */
+            continue; /* the snap-in */
         assert_string_equal(cell_text(fd, i, "group"), "track");
         assert_string_equal(cell_text(fd, i, "segment"), "approach");
         assert_near_abs(cell(fd, i, "displacement"), beyond, 1e-9);
@@ -172,9 +172,9 @@ static void test_curves(void **state)
     assert_true(key_estimate(fd, "contact_force_track").standard_error > 0);
 }
 
-/* Of Hertz' contact E goes with k and with 1/sqrt(R); with the sensitivity as the fit's own
- * derivative says. The errors of k (5 %) and R (10 %) alone are stated, that of the sensitivity is
- * assumed (3 %), and one spot scatters in no way that is known. */
+/* For a Hertz contact E is proportional to k and to 1/sqrt(R); the effect of the sensitivity is the
+ * fit's own derivative. Only the errors of k (5 %) and R (10 %) are stated, that of the sensitivity
+ * is assumed (3 %), and the scatter of one position is unknown. */
 static void test_budget(void **state)
 {
     (void)state;
@@ -207,15 +207,15 @@ static void test_budget(void **state)
     wt_table_free(budget);
 }
 
-/* ---- rubber with memory -----------------------------------------------------------------------
+/* ---- viscoelastic rubber ----------------------------------------------------------------------
  */
 
 enum { MEMORY_N = 800 };
 static const double soft = 2e6, fading = 3e6, fade_time = 0.05, memory_k = 2, memory_end = 800e-9,
                     memory_free = 300e-9;
 
-/* Of a series of one term: the elastic forces of a paraboloid over the modulus, step by step with
- * what fades, against a lever. depth, force: [MEMORY_N]. */
+/* For a series of one term: elastic forces of a paraboloid over the modulus, with the relaxing part
+ * in time steps, and a cantilever. depth, force: [MEMORY_N]. */
 static void remember(double factor, double *depth, double *force)
 {
     const double step = 1e-3, g = 4.0 / 3 / 0.75 * sqrt(HERTZ_RADIUS),
@@ -237,8 +237,8 @@ static void remember(double factor, double *depth, double *force)
     }
 }
 
-/* The factor on the spectrum, and the fitted force that remembers, whichever way the height goes.
- */
+/* The factor on the spectrum, and the fitted hereditary force, for either direction of the
+ * height. */
 static void test_memory(void **state)
 {
     (void)state;

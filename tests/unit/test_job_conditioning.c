@@ -1,7 +1,7 @@
 /* Conditioning: copies of files, outliers and zeros of records, plausible values, scan lines. Each
- * fault is planted into data of known truth, and the data without it are left as they are. */
+ * fault is planted into data with known truth; data without a fault do not change. */
+#include "assert_near.h"
 #include "core/table/registry.h"
-#include "near.h"
 
 #include "job/conditioning.h"
 #include "surface/numerics/surface_analysis.h"
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A number in (0, 1) that looks random: the fractional part of multiples of the golden ratio. */
+/* Pseudo-random number in (0, 1): the fractional part of multiples of the golden ratio. */
 static double scatter(size_t i)
 {
     const double x = 0.6180339887498949 * (double)(i + 1);
@@ -98,7 +98,7 @@ static void test_table_of_actions(void **state)
     assert_near(wt_table_number(table, 0, DATA_QUALITY_VALUES), 2, 0);
     assert_non_null(strstr(wt_table_text(table, 0, DATA_QUALITY_REASON), "as outliers"));
     wt_table_free(table);
-    /* a copy of a log keeps the action, its number and its count */
+    /* a copied log has the action, its number and its count */
     wt_log *copy = wt_log_new();
     wt_log_append(copy, log, "sample");
     assert_int_equal(wt_log_count(copy), 2);
@@ -109,7 +109,7 @@ static void test_table_of_actions(void **state)
     wt_log_free(log);
 }
 
-/* A longer part at another load is no fault. */
+/* A longer part at another load is not a fault. */
 static void test_other_load(void **state)
 {
     (void)state;
@@ -161,7 +161,8 @@ static void test_zero_before_loading(void **state)
 
 /* ---- copies ---------------------------------------------------------------------------------- */
 
-/* Any one bit counts, also of two samples that change alike, and so does the number of samples. */
+/* Any single bit counts, also of two samples that change alike, and so does the number of
+ * samples. */
 static void test_hash_of_samples(void **state)
 {
     (void)state;
@@ -188,8 +189,8 @@ static void test_hash_of_samples(void **state)
     }
 }
 
-/* Three files of 300 curves each: the second has 100 of those of the first, the third has all of
- * the first but uses data as they stand. */
+/* Three files of 300 curves each: the second contains 100 of the first; the third contains all of
+ * the first but is not conditioned. */
 static void test_copied_curves(void **state)
 {
     (void)state;
@@ -213,7 +214,7 @@ static void test_copied_curves(void **state)
     assert_ptr_equal(copies.original, &file[0]);
     for (uint64_t i = 1; i <= CURVES; i++)
         assert_false(flow_is_copied_curve(&file[2], 16 * i, &none));
-    assert_false(flow_is_copied_curve(&file[1], 0, &none)); /* 0: nothing is known */
+    assert_false(flow_is_copied_curve(&file[1], 0, &none)); /* 0: unknown */
     flow_log_copies(&file[0], &none, CURVES, &work);
     assert_int_equal(wt_log_count(log), 0);
     flow_log_copies(&file[1], &copies, CURVES, &work);
@@ -233,7 +234,8 @@ static void test_copied_curves(void **state)
 
 enum { POINTS = 5 };
 
-/* Adds an isotherm whose storage modulus is `modulus` at 1 rad/s and rises with the frequency. */
+/* Adds an isotherm whose storage modulus is `modulus` at 1 rad/s and increases with the
+ * frequency. */
 static void add_isotherm(wt_sweep *sweep, double temperature, double modulus, const char *sample)
 {
     wt_isotherm *const t = wt_sweep_add(sweep, POINTS, 0);
@@ -277,7 +279,7 @@ static void test_repeated_isotherms(void **state)
     }
 }
 
-/* Sound isotherms give no action, and no bit of them changes. */
+/* Sound isotherms cause no action, and none of their bits changes. */
 static void test_sound_sweep(void **state)
 {
     (void)state;
@@ -324,8 +326,8 @@ static void test_plausible_moduli(void **state)
 
 enum { SIDE = 64 };
 
-/* Waves in all directions, with less height the shorter they are. */
-static void make_surface(double z[SIDE * SIDE])
+/* Waves in all directions; shorter ones have less height. */
+static void surface_create(double z[SIDE * SIDE])
 {
     memset(z, 0, SIDE * SIDE * sizeof *z);
     for (size_t k = 0; k < 200; k++) {
@@ -342,7 +344,7 @@ static void test_scan_lines(void **state)
 {
     (void)state;
     double sound[SIDE * SIDE], z[SIDE * SIDE], squares = 0;
-    make_surface(sound);
+    surface_create(sound);
     for (size_t i = 0; i < SIDE * SIDE; i++)
         squares += sound[i] * sound[i] / (SIDE * SIDE);
     const double rms = sqrt(squares);
@@ -365,7 +367,7 @@ static void test_scan_lines(void **state)
     for (size_t i = 0; i < SIDE * SIDE; i++)
         assert_true(fabs(z[i] - sound[i]) < 2 * rms);
 
-    /* offsets are found; kept, they change nothing */
+    /* offsets are found; with "keep" they change nothing */
     double lifted[SIDE * SIDE];
     for (size_t i = 0; i < SIDE * SIDE; i++)
         lifted[i] = sound[i] + rms * (scatter(17 * (i / SIDE)) - 0.5);

@@ -1,5 +1,6 @@
-/* Energy density with depth, its source in friction, and the stiffness of a layered half-space. */
-#include "near.h"
+/* Energy density against depth, its source in friction, and the stiffness of a layered
+ * half-space. */
+#include "assert_near.h"
 
 #include "core/math/simd.h"
 #include "friction/numerics/persson_contact.h"
@@ -11,7 +12,7 @@
 /* ---- many exponentials at a time --------------------------------------------------------------
  */
 
-/* To the last digits, whatever the number of them, and 0 far below. */
+/* To the last digits for any number of terms, and 0 far below. */
 static void exponentials(void **state)
 {
     (void)state;
@@ -37,7 +38,7 @@ static void exponentials(void **state)
 
 /* ---- energy density -------------------------------------------------------------------------- */
 
-/* The tail is the integral of the density, and the gain a difference of tails. */
+/* The tail is the integral of the density, and the gain is a difference of tails. */
 static void density_tail_gain(void **state)
 {
     (void)state;
@@ -67,8 +68,8 @@ static void density_tail_gain(void **state)
     assert_near(wt_energy_density(&source, -1), 0, 0);
 }
 
-/* All that friction dissipates: int w dz = mu_hys sigma0 v, and a thickness that does not depend on
- * the tolerance beyond what is stated. */
+/* Total dissipation: int w dz = mu_hys sigma0 v. The thickness depends on the tolerance only within
+ * the stated error. */
 static void source_of_friction(void **state)
 {
     (void)state;
@@ -120,8 +121,8 @@ static void source_of_friction(void **state)
     wt_roughness_free(roughness);
 }
 
-/* Far below the surface only the longest waves are left: ln w against an integral of j(q) g by
- * short panels, where P is 1 and the material elastic but for one slow process, so that q j ~ q^4
+/* Far below the surface only the longest waves remain: ln w against an integral of j(q) g by short
+ * subintervals. P is 1 and the material is elastic except for one slow process, so that q j ~ q^4
  * C. */
 static void deep_tail(void **state)
 {
@@ -181,7 +182,7 @@ static void layered_limits(void **state)
         assert_near(layered_scale(1e200, ratios[i]), ratios[i], 0);
         assert_near(layered_scale(50, ratios[i]), ratios[i], 1e-14);
         double last = 1;
-        for (double x = 1e-9; x < 100; x *= 1.3) { /* from bulk to layer, without a turn */
+        for (double x = 1e-9; x < 100; x *= 1.3) { /* monotonic from bulk to layer */
             const double scale = layered_scale(x, ratios[i]);
             const double step = (scale - last) * (ratios[i] > 1 ? 1 : -1);
             assert_true(step >= -4 * DBL_EPSILON * scale);

@@ -1,5 +1,5 @@
-/* The modified layer beyond the balance at constant load, against numeric cases and laws. */
-#include "near.h"
+/* The modified layer beyond the steady state at constant load, against numeric cases and laws. */
+#include "assert_near.h"
 
 #include "layer/numerics/layer_kernel.h"
 #include "numeric/cases.h"
@@ -11,7 +11,7 @@ typedef struct rig {
     const numeric_case *c;
     wt_energy_source source;
     wt_layer_parameters p;
-    double digits; /* that the reference trusts, relative */
+    double digits; /* relative accuracy that the reference claims */
 } rig;
 
 static double number(const numeric_case *c, const char *key, double missing)
@@ -24,7 +24,7 @@ static double digits_of(const numeric_case *c)
     return pow(10, -number(c, "digits", 12));
 }
 
-/* The power of the case at a velocity and pressure. */
+/* Power of the case at a velocity and pressure. */
 static void set_load(rig *r, double pressure, double velocity, double mu)
 {
     const case_line *share = case_find(r->c, false, "share");
@@ -67,7 +67,7 @@ static wt_layer_steady_state balance_of(const rig *r)
     return b;
 }
 
-/* Near 0 the thickness may be below what rounding leaves. */
+/* Near 0 the thickness may be below the rounding error. */
 static void near_thickness_to(const rig *r, const char *what, double actual, double expected,
                               double digits)
 {
@@ -81,9 +81,9 @@ static void near_thickness(const rig *r, const char *what, double actual, double
     near_thickness_to(r, what, actual, expected, r->digits);
 }
 
-/* By the rate balance, for which the reference has fewer digits in two cases: where it differs
- * most, by 5e-11 at 600 s of two_waves_with_more_wear, an integral in 30 digits gives the number of
- * the program. */
+/* By the rate balance, for which the reference has fewer digits in two cases. The largest
+ * difference is 5e-11 at 600 s of two_waves_with_more_wear; an integral with 30 digits confirms the
+ * program. */
 static void near_balance(const rig *r, const char *what, double actual, double expected)
 {
     const double digits = number(r->c, "balance_digits", (double)NAN);
@@ -115,7 +115,7 @@ static bool check_time(const rig *r, const case_line *line)
 
 enum { STAGES = 4 };
 
-/* Loads that follow one another. */
+/* Sequences of loads. */
 typedef struct chain {
     size_t n;
     rig rig[STAGES];
@@ -143,8 +143,8 @@ static void chain_free(chain *h)
         wt_energy_source_clear(&h->rig[i].source);
 }
 
-/* Each load goes on from the thickness that the last one left: right by the rate balance, wrong by
- * the transport of damage. */
+/* Each load continues from the thickness of the previous one: correct by the rate balance, wrong by
+ * damage transport. */
 static double chain_thickness(const chain *h, double time, bool transport)
 {
     double thickness = 0;
@@ -279,7 +279,7 @@ static void numeric_cases(void **state)
 
 /* ---- laws ------------------------------------------------------------------------------------ */
 
-/* An error of the power is in R, critical wear rate, thickness and times. */
+/* An error of the power is part of R, critical wear rate, thickness and times. */
 static void errors_of_the_power(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
-/* Critical energy and wear rate from a thickness: inverse of the forward model, and values that
- * were worked out otherwise to eleven digits. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+/* Critical energy and wear rate from a thickness: inverse of the forward model, and independent
+ * values with eleven digits.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "weartrack/layer.h"
 
@@ -12,7 +13,7 @@ typedef struct known {
     double energy_by_thickness, wear_by_thickness; /* d ln / d ln thickness */
 } known;
 
-/* By a wear rate, by the balance of rates, by the transport of damage. */
+/* By a wear rate, by the rate balance, by damage transport. */
 enum { BY_WEAR, BY_RATES, BY_TRANSPORT, WAYS };
 typedef struct example {
     double mu, pressure, velocity, damage;
@@ -140,7 +141,7 @@ static void test_sensitivity(void **state)
         }
 }
 
-/* The layer that is found takes the time that was given. */
+/* The identified layer takes the stated time. */
 static void test_forward(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
 /* Critical energy and wear rate from data with their covariance, and a ball on a viscoelastic
- * rubber, against values that were worked out otherwise. SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+ * rubber, against independent values.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "numeric/friction_scene.h"
 #include "weartrack/record.h"
@@ -11,11 +11,11 @@
 /* "Eleven digits", thirteen of a load for a pressure. */
 #define DIGITS 1e-11
 #define DIGITS_OF_LOADS 1e-13
-/* By differences of nine points over 1e-2, which lose two digits of what they are taken of. */
+/* By differences of nine points over 1e-2, which lose two digits. */
 #define DIGITS_OF_SLOPES 1e-11
 /* "Map slope 7 digits". */
 #define DIGITS_OF_MAP 1e-7
-/* Friction of double precision, at two resolutions. */
+/* Friction in double precision, at two resolutions. */
 #define DIGITS_OF_FRICTION 1e-11
 
 static double number(const numeric_case *c, const char *key)
@@ -23,7 +23,7 @@ static double number(const numeric_case *c, const char *key)
     return case_number(c, false, key, (double)NAN);
 }
 
-/* Of numbers that may be 0. */
+/* Numbers that may be 0. */
 static void near_all(const char *what, const double *is, const double *expected, size_t n,
                      double digits)
 {
@@ -38,7 +38,7 @@ enum { THICKNESS, TIME_OR_WEAR, MU, PRESSURE, VELOCITY, INPUTS };
 typedef enum kind { BALANCE, TRANSPORT, WEAR, KINDS } kind;
 static const char *const kind_words[KINDS] = {"balance", "transport", "wear"};
 
-/* ln U_c and ln k with the inputs times exp(step). */
+/* ln U_c and ln k for the inputs times exp(step). */
 static wt_identified_constants identified(const numeric_case *c, kind by, const double step[INPUTS])
 {
     double power[8];
@@ -144,8 +144,8 @@ static void moduli_at(const rig *r, double omega, double *absolute, double *stor
     *absolute = hypot(*storage, *loss);
 }
 
-/* The contact radius whose own frequency gives the modulus that gives it: the map of ln a is
- * flatter than 1/3. */
+/* Contact radius whose frequency gives the modulus for this radius: the map of ln a has a slope
+ * below 1/3. */
 static wt_ball_contact settle(const rig *r, double load, double factor, bool by_storage)
 {
     wt_ball_contact ball = {.contact_radius = 1e-3};
@@ -179,7 +179,7 @@ static void check_ball(const rig *r, const double *v)
                          a / (4 * number(r->c, "track_radius"))};
     for (size_t i = 0; i < sizeof is / sizeof *is; i++)
         assert_near(is[i], v[3 + i], DIGITS);
-    /* a^3 goes with 1/E, and E with the frequency, which goes with 1/a */
+    /* a^3 is proportional to 1/E, and E depends on the frequency, which is proportional to 1/a */
     moduli_at(r, omega * exp(h), by_storage ? &ignored : &up, by_storage ? &up : &ignored, &loss);
     moduli_at(r, omega * exp(-h), by_storage ? &ignored : &down, by_storage ? &down : &ignored,
               &loss);
@@ -195,8 +195,8 @@ static wt_friction_point friction_at(const rig *r, double pressure)
     return p;
 }
 
-/* 3 int_0^1 mu(p_max u) u^2 du, by Gauss' rule of three points on panels that double away from 0.
- */
+/* 3 int_0^1 mu(p_max u) u^2 du, by three-point Gauss rules on subintervals that double away from
+ * 0. */
 static double weighted(const rig *r, double most)
 {
     static const double node[] = {-0.774596669241483377, 0, 0.774596669241483377},
@@ -226,7 +226,7 @@ static void check_under(const rig *r, const double *ball, const double *v)
     assert_near(friction_at(r, most).hysteresis.value, v[4], DIGITS_OF_FRICTION);
 }
 
-/* The load of a mean pressure, at which the contact has that modulus. */
+/* Load for a mean pressure at which the contact has that modulus. */
 static void check_load(rig *r, const double *v)
 {
     double storage, loss, absolute = v[4], force = 0;

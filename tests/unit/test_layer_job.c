@@ -1,4 +1,4 @@
-/* The layer as a job makes it: the energy that modifies the rubber, standard errors.
+/* The layer job: the energy that modifies the rubber, and standard errors.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer_tables.h"
 
@@ -33,7 +33,7 @@ static void energies_add_up(void **state)
     assert_near(key_number(shear, "surface_power"), key_number(shear, "shear_power"), 1e-12);
     assert_near(key_number(both, "surface_power"), hysteresis + key_number(shear, "shear_power"),
                 1e-12);
-    /* and that of the shearing is tau_f (A/A0) v */
+    /* the power of shearing is tau_f (A/A0) v */
     wt_friction_tables friction = {0};
     wt_error err = WT_ERROR_INIT;
     sliding.velocity = &velocity[VELOCITIES / 2];
@@ -48,8 +48,8 @@ static void energies_add_up(void **state)
     wt_table_free(both);
 }
 
-/* Where only the wear rate scatters, by little, an error is what a wear rate that much higher and
- * lower makes of the number; the number of threads does not matter. */
+/* If only the wear rate has a small scatter, an error is the change of the number with a
+ * correspondingly higher and lower wear rate. The number of threads does not matter. */
 static void errors_are_slopes(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The modified layer against numeric cases, and the laws that formation and wear must obey. */
-#include "near.h"
+/* The modified layer against numeric cases, and required relations of formation and wear. */
+#include "assert_near.h"
 
 #include "friction/numerics/persson_contact.h"
 #include "layer/numerics/energy_density_kernel.h"
@@ -95,7 +95,7 @@ static wt_layer_point point_at(const rig *r, double time)
 
 static void check_bound(const char *name, const char *what, wt_estimate actual, double expected)
 {
-    /* closed-form references carry 1e-15 themselves, and are 0 where the truth is below 1e-15 m */
+    /* closed-form references have an error of 1e-15, and are 0 where the truth is below 1e-15 m */
     const double slack = 1e-14 * fabs(expected) + (expected == 0 ? 1e-15 : 0);
     if (!(fabs(actual.value - expected) <= actual.numerical_error + slack))
         fail_msg("%s: %s %.17g is %.3g from %.17g, but %.3g is stated", name, what, actual.value,
@@ -160,7 +160,7 @@ static bool check_naive(const rig *r, double time, double expected)
     return true;
 }
 
-/* true if the line was one of a history. */
+/* Returns true if the line belongs to a history. */
 static bool check_history(const numeric_case *c, rig *r, const case_line *line)
 {
     const bool history = strcmp(line->key, "history") == 0;
@@ -190,7 +190,7 @@ static void check_exponential(const case_line *line)
     assert_near(delta, v[5], 1e-12);
 }
 
-/* Qf / Qf(0) of j ~ q^(1 - 2 H) between q0 and q1, the source Gauss panels in ln q. */
+/* Qf / Qf(0) of j ~ q^(1 - 2 H) between q0 and q1; the source has Gauss nodes in ln q. */
 static void check_tail_ratio(const numeric_case *c, const case_line *line)
 {
     enum { PANELS = 40, NODES = 20, TERMS = PANELS * NODES };
@@ -232,7 +232,7 @@ static void numeric_cases(void **state)
     size_t lines = 0;
     while (case_read(in, c)) {
         if (strcmp(c->name, "Q_step_in_severity") == 0)
-            continue; /* its own test */
+            continue; /* has its own test */
         const bool layer = case_find(c, false, "critical_energy") != NULL;
         const clock_t start = clock();
         rig r = layer ? rig_case(c) : rig_mild();
@@ -258,7 +258,7 @@ static void numeric_cases(void **state)
     fclose(in);
 }
 
-/* Two stages of constant load: the second starts where the first ended. */
+/* Two stages at constant load: the second starts where the first ended. */
 static void step_in_severity(void **state)
 {
     (void)state;
@@ -290,7 +290,7 @@ static void step_in_severity(void **state)
     free(c);
 }
 
-/* A profile that peaks at z = 1/q begins there: e^2 U_c Lambda / (4 q J0). */
+/* A profile with a peak at z = 1/q begins there: e^2 U_c Lambda / (4 q J0). */
 static void buried_band(void **state)
 {
     (void)state;
@@ -303,13 +303,13 @@ static void buried_band(void **state)
     assert_near(point_at(&r, onset * (1 - 1e-9)).thickness.value, 0, 0);
     const wt_estimate first = point_at(&r, onset * (1 + 1e-9)).thickness;
     assert_near(first.value, 1e-6, 1e-3);
-    r.parameters.specific_wear_rate = 1e-12; /* wear carries the band up: it starts later */
+    r.parameters.specific_wear_rate = 1e-12; /* wear carries the band upwards: it starts later */
     assert_true(balance_of(&r).incubation_time.value > onset);
     rig_free(&r);
 }
 
-/* Two waves far apart, no wear. The long one alone decides on the deep band, x = q z near 1: there
- * 2 ln x - 2 x + 2 is minus the logarithm of the time over its onset. */
+/* Two distant waves, no wear. The long one alone determines the deep band, x = q z near 1: there 2
+ * ln x - 2 x + 2 is minus the logarithm of the time over its onset. */
 static void deep_band_from_its_onset(void **state)
 {
     (void)state;
@@ -326,7 +326,7 @@ static void deep_band_from_its_onset(void **state)
             const wt_estimate deep = point_at(&r, onset * (1 + late)).thickness;
             const double x = 1e4 * deep.value;
             assert_true(x > 1 && x < 1.5);
-            /* at the onset x goes as the square root of the time */
+            /* at the onset x follows the square root of the time */
             const double slope = 2 - 2 / x;
             assert_near_abs(2 * log1p(x - 1) - 2 * (x - 1), -log1p(late),
                             1e4 * slope * deep.numerical_error + 1e-15);
@@ -335,7 +335,7 @@ static void deep_band_from_its_onset(void **state)
         }
 }
 
-/* Within rounding of the onset the band may be there or not: the error says so. */
+/* Within rounding of the onset the band may exist or not: the error states it. */
 static void error_at_the_onset(void **state)
 {
     (void)state;
@@ -390,7 +390,8 @@ static void bands_with_wear(void **state)
     rig_free(&r);
 }
 
-/* Time to a share of the balance: closed forms of one wave, and the way back by the history. */
+/* Time to a share of the steady state: closed forms for one wave, and the inverse of the
+ * history. */
 static void time_to_a_thickness(void **state)
 {
     (void)state;
@@ -417,7 +418,7 @@ static void time_to_a_thickness(void **state)
                 wt_layer_growth_time(&several.source, &several.parameters, goal, &time, NULL),
                 WT_OK);
             assert_near(point_at(&several, time.value).thickness.value, goal.value, 1e-9);
-            goal.numerical_error = 0.01 * goal.value; /* what is not known of it is carried on */
+            goal.numerical_error = 0.01 * goal.value; /* its uncertainty is propagated */
             assert_int_equal(
                 wt_layer_growth_time(&several.source, &several.parameters, goal, &time, NULL),
                 WT_OK);
@@ -434,10 +435,10 @@ static void time_to_a_thickness(void **state)
 
 /* ---- laws ------------------------------------------------------------------------------------ */
 
-static void three_ways_agree(void **state)
+static void three_methods_agree(void **state)
 {
     (void)state;
-    /* a sum of two equal exponentials is one, but it takes the general way */
+    /* a sum of two equal exponentials is one, but uses the general method */
     rig one = rig_mild();
     rig two = rig_make((double[]){1e6, 1e6 * (1 + 1e-15)}, (double[]){150, 250}, 2);
     for (double time = 1e-9; time < 1e7; time *= 7.3) {
@@ -450,7 +451,7 @@ static void three_ways_agree(void **state)
             assert_near(b.thickness.value, a.thickness.value, 1e-9);
         }
     }
-    /* the damage transport is the rate balance started at the incubation time */
+    /* damage transport is the rate balance started at the incubation time */
     one.parameters.start_thickness = 0;
     rig late = one;
     late.parameters.incubation = true;
@@ -475,7 +476,7 @@ static void restart_changes_nothing(void **state)
     rig_free(&r);
 }
 
-/* What is left of an old layer is known no better than rounding allows. */
+/* The remainder of an old layer is only known to rounding. */
 static void old_layer_has_an_error(void **state)
 {
     (void)state;
@@ -489,8 +490,8 @@ static void old_layer_has_an_error(void **state)
     rig_free(&r);
 }
 
-/* All power at one wavenumber, and wear that is just faster than the formation: no layer, but one
- * of log(1.001 / 1.0005) / kappa if the formation is higher by its error. */
+/* All power at one wavenumber, and wear slightly faster than the formation: no layer, but one of
+ * log(1.001 / 1.0005) / kappa if the formation is higher by its error. */
 static void an_error_may_be_a_layer(void **state)
 {
     (void)state;
@@ -505,8 +506,9 @@ static void an_error_may_be_a_layer(void **state)
     rig_free(&r);
 }
 
-/* Thickness never falls on the way up from 0, never rises on the way down, and both ends meet. */
-static void monotone_and_same_end(void **state)
+/* Thickness never decreases during growth from 0, never increases during shrinkage, and both limits
+ * meet. */
+static void thickness_is_monotonic(void **state)
 {
     (void)state;
     rig r = rig_several();
@@ -540,19 +542,19 @@ static void monotone_and_same_end(void **state)
     rig_free(&r);
 }
 
-static void what_moves_the_balance(void **state)
+static void inputs_of_the_steady_state(void **state)
 {
     (void)state;
     rig r = rig_several();
     const wt_layer_steady_state b = balance_of(&r);
-    /* severity at a fixed k: only the clock */
+    /* severity at a fixed k changes the clock only */
     rig severe = rig_several();
     for (size_t i = 0; i < 3; i++)
         severe.source.power[i] *= 2;
     severe.parameters.velocity *= 2;
     assert_near(balance_of(&severe).thickness.value, b.thickness.value, 1e-12);
     assert_near(point_at(&severe, 50).thickness.value, point_at(&r, 100).thickness.value, 1e-9);
-    /* duty: likewise */
+    /* duty cycle: likewise */
     rig rare = rig_several();
     rare.parameters.duty = 0.01325359400733194;
     assert_near(balance_of(&rare).thickness.value, b.thickness.value, 1e-12);
@@ -605,7 +607,7 @@ static void regimes(void **state)
     rig_free(&r);
 }
 
-/* The critical energy comes back from the balance it makes. */
+/* The critical energy is recovered from its steady state. */
 static void calibration(void **state)
 {
     (void)state;
@@ -624,8 +626,8 @@ static bool whole(double x)
     return !isnan(x);
 }
 
-/* Nothing is NaN where nothing happens. */
-static void nothing_happens(void **state)
+/* No NaN without dissipation. */
+static void no_dissipation(void **state)
 {
     (void)state;
     for (unsigned bits = 0; bits < 128; bits++) {
@@ -667,11 +669,11 @@ static void nothing_happens(void **state)
 static void same_value(wt_estimate full, wt_estimate alone)
 {
     assert_memory_equal(&full.value, &alone.value, sizeof full.value);
-    if (full.numerical_error > 0) /* else there is certainly none, which costs nothing */
+    if (full.numerical_error > 0) /* otherwise there is certainly none, which costs nothing */
         assert_true(isnan(alone.numerical_error));
 }
 
-/* A thickness in time without an error is that with one, to 1e-7. */
+/* The thickness with time without an error equals that with one, to 1e-7. */
 static void near_thickness(wt_estimate full, wt_estimate alone)
 {
     assert_true(fabs(alone.value - full.value) <= 1e-7 * full.value);
@@ -696,8 +698,8 @@ static void history_alone(rig *r, const double *time, size_t n)
     free(alone);
 }
 
-/* But for that, what is not asked for changes no bit of what is. */
-static void numbers_alone(void **state)
+/* Otherwise a result that is not requested changes no bit of the others. */
+static void results_without_errors(void **state)
 {
     (void)state;
     enum { TIMES = 40 };
@@ -776,8 +778,8 @@ static void bad_input(void **state)
     rig_free(&r);
 }
 
-/* Formation so fast that its times are no normal numbers, and so deep that it underflows, comes to
- * an end; it goes as 1/q ln t at last. */
+/* Formation so fast that its times are subnormal, and so deep that it underflows, terminates;
+ * finally it follows 1/q ln t. */
 static void fastest_formation(void **state)
 {
     (void)state;
@@ -803,7 +805,7 @@ static void fastest_formation(void **state)
     assert_int_equal(wt_layer_steady_state_compute(&source, &p, &b, NULL), WT_E_RANGE);
 }
 
-/* A band whose deepest place is known no better than its logarithms say. */
+/* A band whose deepest position is only known to the accuracy of its logarithms. */
 static void edge_within_rounding(void **state)
 {
     (void)state;
@@ -841,16 +843,16 @@ int main(void)
         cmocka_unit_test(error_at_the_onset),
         cmocka_unit_test(bands_with_wear),
         cmocka_unit_test(time_to_a_thickness),
-        cmocka_unit_test(three_ways_agree),
+        cmocka_unit_test(three_methods_agree),
         cmocka_unit_test(restart_changes_nothing),
         cmocka_unit_test(old_layer_has_an_error),
         cmocka_unit_test(an_error_may_be_a_layer),
-        cmocka_unit_test(monotone_and_same_end),
-        cmocka_unit_test(what_moves_the_balance),
+        cmocka_unit_test(thickness_is_monotonic),
+        cmocka_unit_test(inputs_of_the_steady_state),
         cmocka_unit_test(regimes),
         cmocka_unit_test(calibration),
-        cmocka_unit_test(nothing_happens),
-        cmocka_unit_test(numbers_alone),
+        cmocka_unit_test(no_dissipation),
+        cmocka_unit_test(results_without_errors),
         cmocka_unit_test(bad_input),
         cmocka_unit_test(fastest_formation),
         cmocka_unit_test(edge_within_rounding),

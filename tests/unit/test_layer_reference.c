@@ -1,7 +1,7 @@
-/* Every number that the shared reference data, where present, expect of the modified layer is one
- * that a numeric case of the same name expects, too, or stands in a short list with its reason.
+/* Every expected number of the modified layer in the shared reference data, if they exist, is
+ * expected by a numeric case of the same name, or is in a short list with its reason.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/layer.h"
 
@@ -15,10 +15,10 @@
 
 enum { WORD = 64, DEPTH = 16 };
 
-/* ---- what no numeric case expects ------------------------------------------------------------ */
+/* ---- numbers without a numeric case ---------------------------------------------------------- */
 
 typedef struct left_out {
-    const char *id, *key, *why; /* a NULL key stands for all of the case */
+    const char *id, *key, *why; /* a NULL key means the whole case */
     size_t met;
 } left_out;
 
@@ -32,7 +32,7 @@ typedef struct left_out {
 #define FEEDBACK "of a layer that changes the energy that forms it, which the program does not have"
 #define SEVERITY "of a wear rate that grows with the power, which the program does not have"
 #define RUNNING_IN "of friction in running-in, which validate predicts for a record"
-/* Damage along loads is that of bands; without wear the edge is checked by other cases. */
+/* Damage along loads is that of bands; other cases test the limit without wear. */
 #define BANDS_OF(id)                                                                               \
     {id, "edges_m", BANDS, 0}, {id, "depth_m", BANDS, 0},                                          \
     {                                                                                              \
@@ -104,7 +104,7 @@ static bool is_left_out(const char *id, const char *key)
     return false;
 }
 
-/* ---- what numeric cases expect --------------------------------------------------------------- */
+/* ---- numbers of numeric cases ---------------------------------------------------------------- */
 
 typedef struct expectation {
     char id[WORD];
@@ -136,14 +136,14 @@ static void read_expected(const char *name)
     fclose(in);
 }
 
-/* A case of the reference may be several here: NAME_0, NAME_ball. */
+/* A case of the reference may correspond to several here: NAME_0, NAME_ball. */
 static bool is_of(const char *name, const char *id)
 {
     const size_t n = strlen(id);
     return strncmp(name, id, n) == 0 && (name[n] == '\0' || name[n] == '_');
 }
 
-/* In SI units there, in those that its key tells here. */
+/* SI units there; here the units of the key. */
 static bool is_expected(const char *id, const char *key, double value)
 {
     const double unit = strstr(key, "mm3_per_Nm") != NULL ? 1e-9
@@ -159,7 +159,7 @@ static bool is_expected(const char *id, const char *key, double value)
 
 /* ---- the reference --------------------------------------------------------------------------- */
 
-/* On the way through a text of JSON, as simple as these are: no escapes. */
+/* Simple JSON parser without escapes. */
 typedef struct place {
     bool list;
     char key[WORD]; /* "": of the next word */

@@ -1,7 +1,7 @@
-/* What stands around the modified layer, against numeric cases: a
- * blunted pyramid, the frequency of a ramp, two groups, a ball on a disc. SPDX-License-Identifier:
- * GPL-3.0-or-later */
-#include "near.h"
+/* Computations around the modified layer against numeric cases: a blunted pyramid, the frequency of
+ * a ramp, two groups, a ball on a disc.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "core/math/students_t.h"
 #include "numeric/cases.h"
@@ -79,7 +79,7 @@ static wt_log_ratio mean_of(const case_line *group)
     return (wt_log_ratio){m.mean, sqrt(m.variance / m.n), m.n - 1};
 }
 
-/* The comparison of two means is the same, whatever they are of. */
+/* The comparison of two means does not depend on their quantity. */
 static void check_groups(const numeric_case *c, const case_line *line)
 {
     const wt_log_ratio bulk = mean_of(case_find(c, false, "bulk")),
@@ -94,7 +94,7 @@ static void check_groups(const numeric_case *c, const case_line *line)
 
 /* ---- a ball ---------------------------------------------------------------------------------- */
 
-/* Over the track, by Simpson's rule, which is exact of a parabola. */
+/* Over the track by Simpson's rule, which is exact for a parabola. */
 static double mean_duty(double contact_radius, double track_radius)
 {
     double duty[3];
@@ -134,8 +134,8 @@ static void check_ball(const numeric_case *c, const case_line *line, wt_ball_con
         fail_msg("%s: what is %s?", c->name, line->key);
 }
 
-/* Unknown is not 0, and beside the track there is nothing. */
-static void duty_of_nothing(void **state)
+/* Unknown is not 0, and outside the track there is no contact. */
+static void duty_without_contact(void **state)
 {
     (void)state;
     assert_true(wt_ball_duty(1e-3, 1e-2, 1.1e-3) == 0);
@@ -176,6 +176,6 @@ static void numeric_cases(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(numeric_cases),
-                                       cmocka_unit_test(duty_of_nothing)};
+                                       cmocka_unit_test(duty_without_contact)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

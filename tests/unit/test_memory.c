@@ -1,7 +1,8 @@
-/* When memory runs out: the handler is called at every small allocation that fails, and a size that
+/* Exhausted memory: the handler is called at every small allocation that fails, and a size that
  * only a file states is refused. The linker puts the functions here before those of the C library
- * (see CMakeLists.txt). SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+ * (see CMakeLists.txt).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "truth_fixture.h"
 
 #include "core/base/memory.h"
 
@@ -13,7 +14,7 @@
 
 enum { HANDLED = 90, DONE, WRONG };
 
-static size_t count, failing; /* number of the allocation that fails, from 1 on; 0 = none */
+static size_t count, failing; /* number of the failing allocation, from 1; 0 = none */
 
 void *__real_calloc(size_t n, size_t size);
 void *__real_realloc(void *old, size_t size);
@@ -35,7 +36,7 @@ static void exit_handled(size_t size)
     _exit(size > 0 ? HANDLED : WRONG);
 }
 
-/* Makes a result of one table, with a log and a provenance. */
+/* Creates a result of one table, with a log and a provenance. */
 static bool make_result(void)
 {
     char *const arguments[] = {(char *)(uintptr_t) "weartrack", (char *)(uintptr_t) "indent"};

@@ -1,10 +1,10 @@
-/* When memory runs out inside a library that this one calls: UDUNITS, libxml2, the C library. Every
- * allocation of the process is one of those below, and each fails once, in a process of its own.
- * It must be said, or the result be the same. UDUNITS and libxml2 may crash or exit, which no
- * library can prevent (the command can, see src/cmd/malloc_abort.c), but nothing may be taken for
- * something else. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
-#include "watched.h"
+/* Exhausted memory inside a library: UDUNITS, libxml2, the C library. The functions below count
+ * every allocation of the process, and each one fails once, in its own process. There must be an
+ * error, or the same result. UDUNITS and libxml2 may crash or exit, which no library can prevent
+ * (the command can, see src/cmd/malloc_abort.c), but no wrong result is permitted.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "address_sanitizer.h"
+#include "assert_near.h"
 #include "weartrack/read.h"
 
 #include <errno.h>
@@ -16,14 +16,14 @@
 
 /* ---- allocations ----------------------------------------------------------------------------- */
 
-/* The functions of the C library by their other names. */
+/* Other names of the functions in the C library. */
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t n, size_t size);
 void *__libc_realloc(void *old, size_t size);
 
 static size_t count, failing; /* 0 = none */
 
-#if !WATCHED
+#if !WITH_ADDRESS_SANITIZER
 static bool fails(void)
 {
     if (++count != failing)
@@ -50,20 +50,21 @@ void *realloc(void *old, size_t size)
 
 /* ---- a job under failing memory -------------------------------------------------------------- */
 
-/* Does it, and compares what it gives with what is right. */
+/* Runs the job and compares its output with the right one. */
 typedef wt_status job(bool *right, wt_error *err);
 
-/* Exit statuses that nobody else gives. */
+/* Unique exit statuses. */
 enum { SAME = 90, SAID, OTHER_ERROR, OTHER_RESULT };
 
-/* The library calls it where a small allocation fails. */
+/* The library calls it if a small allocation fails. */
 static void end_without_memory(size_t size)
 {
     (void)size;
     _exit(SAID);
 }
 
-/* Runs it in a process of its own; else: how it was ended. `n` gets the allocations. */
+/* Runs the job in its own process; `n` receives the number of allocations. Otherwise describes its
+ * end. */
 static int run(job *j, size_t number, size_t *n)
 {
     int channel[2], state = 0;
@@ -75,7 +76,7 @@ static int run(job *j, size_t number, size_t *n)
         for (int i = 1; i < NSIG; i++)
             (void)signal(i, SIG_DFL); /* cmocka goes on with the next test */
         alarm(10);
-        close(STDERR_FILENO); /* assertions of others */
+        close(STDERR_FILENO); /* assertions of a library */
         wt_memory_set_handler(end_without_memory);
         count = 0;
         failing = number;
@@ -120,7 +121,7 @@ static void check_job(const char *name, job *j, size_t every, int worst)
 
 static wt_formats *formats;
 
-/* The first unit of the process that is not a known one: the database is read. */
+/* The first unit of the process that is not in the table: the database is read. */
 static wt_status first_unit(bool *right, wt_error *err)
 {
     double factor = 0, offset = 0, spelt = 0;
@@ -172,15 +173,14 @@ static void test_sweep(void **state)
     (void)state;
     assert_int_equal(wt_formats_new(NULL, &formats, NULL, NULL), WT_OK);
     check_job("sweep", sweep, 1, SAID);
-    /* libxml2 may leave a value out of the schema without a word, which the document then breaks.
-     */
+    /* libxml2 may silently omit a value from the schema, which the document then violates. */
     check_job("descriptions", description, 13, OTHER_ERROR);
     wt_formats_free(formats);
 }
 
 int main(void)
 {
-    if (WATCHED) /* which has the allocations of the process */
+    if (WITH_ADDRESS_SANITIZER) /* it replaces the allocations of the process */
         return 77;
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_units), cmocka_unit_test(test_sweep)};
     return cmocka_run_group_tests_name("memory of others", tests, NULL, NULL);

@@ -1,8 +1,6 @@
-/* ZIP archives: whole, without their end, and lying about sizes and numbers.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* ZIP archives: complete, truncated, and with wrong sizes and numbers.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "read/bytes/zip.h"
 
@@ -33,8 +31,7 @@ static uint32_t crc32(const char *text, size_t n)
     return ~crc;
 }
 
-/* A stored entry; with its sizes behind the data if `late`, as the instrument's Java writes them.
- */
+/* A stored entry; with its sizes after the data if `late`, as in files of the instrument (Java). */
 static void put_entry(bytes *b, const char *name, const char *text, bool late, uint32_t size)
 {
     size_t n = strlen(text);
@@ -78,8 +75,8 @@ static void assert_entry(zip_archive *a, const char *name, const char *text)
     free(buffer.data);
 }
 
-/* Without a directory, cut at every place: entries that are complete are read, nothing else. */
-static void cut_anywhere(void **state)
+/* Without a directory, truncated at every position: complete entries are read, and nothing else. */
+static void truncated_anywhere(void **state)
 {
     (void)state;
     bytes b = {.n = 0};
@@ -152,7 +149,7 @@ static void check_sum_and_limit(void **state)
     free(buffer.data);
 }
 
-/* The record of an entry at `offset`, as put_entry(..., false, ...) wrote it. */
+/* Local header of an entry at `offset`, as written by put_entry(..., false, ...). */
 static void put_record(bytes *b, const char *name, const char *text, uint32_t offset)
 {
     const uint32_t n = (uint32_t)strlen(text);
@@ -184,7 +181,7 @@ static void put_end(bytes *b, uint32_t n, uint32_t size, uint32_t offset)
     put(b, 0, 2);
 }
 
-/* Two entries, whose directory says that there are n. */
+/* Two entries; the directory states n. */
 static void put_two(bytes *b, uint32_t n)
 {
     put_entry(b, "one", "first text", false, 10);
@@ -196,7 +193,7 @@ static void put_two(bytes *b, uint32_t n)
     put_end(b, n, (uint32_t)b->n - directory, directory);
 }
 
-/* Entries that the number in the directory leaves out are read all the same. */
+/* Entries beyond the number in the directory are read. */
 static void number_of_entries(void **state)
 {
     (void)state;
@@ -219,8 +216,8 @@ static void number_of_entries(void **state)
     }
 }
 
-/* Programs without ZIP64 count to 65535 and begin again. */
-static void more_than_the_number_holds(void **state)
+/* Programs without ZIP64 count modulo 65536. */
+static void entry_count_overflow(void **state)
 {
     enum { MORE = 65536 + 3 };
     (void)state;
@@ -254,7 +251,7 @@ static void more_than_the_number_holds(void **state)
     free(all);
 }
 
-/* An entry that is too large to be read leaves the others as they are. */
+/* An entry that is too large does not affect the others. */
 static void a_large_entry(void **state)
 {
     (void)state;
@@ -269,7 +266,7 @@ static void a_large_entry(void **state)
     put_record(&b, "one", "first text", 0);
     const size_t record = b.n;
     put_record(&b, "big", "first text", 0);
-    memset(b.data + record + 20, 0xff, 8); /* sizes stand in the extra field, of 20 bytes */
+    memset(b.data + record + 20, 0xff, 8); /* sizes are in the extra field of 20 bytes */
     b.data[record + 30] = 20;
     put(&b, 1, 2);
     put(&b, 16, 2);
@@ -289,8 +286,8 @@ static void a_large_entry(void **state)
     wt_input_close(input);
 }
 
-/* A copy by blocks fills up the last one. */
-static void bytes_behind_the_end(void **state)
+/* A copy in blocks fills the last one. */
+static void bytes_after_the_end(void **state)
 {
     (void)state;
     bytes b = {.n = 0};
@@ -309,13 +306,10 @@ static void bytes_behind_the_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cut_anywhere),
-        cmocka_unit_test(declared_sizes_are_checked),
-        cmocka_unit_test(check_sum_and_limit),
-        cmocka_unit_test(number_of_entries),
-        cmocka_unit_test(more_than_the_number_holds),
-        cmocka_unit_test(a_large_entry),
-        cmocka_unit_test(bytes_behind_the_end),
+        cmocka_unit_test(truncated_anywhere),   cmocka_unit_test(declared_sizes_are_checked),
+        cmocka_unit_test(check_sum_and_limit),  cmocka_unit_test(number_of_entries),
+        cmocka_unit_test(entry_count_overflow), cmocka_unit_test(a_large_entry),
+        cmocka_unit_test(bytes_after_the_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,7 @@
-/* Force maps of Asylum Research: written by an independent writer, stopped, of two passes, damaged.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "made_file.h"
+/* Force maps of Asylum Research by an independent writer: complete, stopped, with two passes,
+ * corrupted.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reader_fixture.h"
 #include "writers/ardf_writer.h"
 
 enum { N = 9, COLUMNS = 3, LINES = 2, CURVES = COLUMNS * LINES };
@@ -30,8 +29,8 @@ static ardf_writer_file usual(void)
                               .note = "SpringConstant: 0.5\rInvOLS: 5e-08\r"};
 }
 
-/* The curves of the first pass, whatever the direction of the scan and with another pass between
- * its lines. */
+/* Curves of the first pass, for any direction of the scan and with another pass between its
+ * lines. */
 static void all_curves(void **state)
 {
     (void)state;
@@ -45,7 +44,7 @@ static void all_curves(void **state)
         assert_int_equal(ardf_write(&f), 0);
         assert_int_equal(open_force(&r, path, NULL), WT_OK);
         assert_int_equal(wt_force_count(r.source), CURVES);
-        assert_true(logged(&r, "the first of 2 volumes") == f.both);
+        assert_true(has_logged(&r, "the first of 2 volumes") == f.both);
         for (size_t k = 0; k < CURVES; k++) {
             next_curve(&r);
             const size_t row = k / COLUMNS;
@@ -82,33 +81,33 @@ static void stopped(void **state)
         f.written = written;
         assert_int_equal(ardf_write(&f), 0);
         if (written == 0) {
-            refused(WT_E_EMPTY, "stopped before its first curve");
+            assert_refused(WT_E_EMPTY, "stopped before its first curve");
             continue;
         }
         assert_int_equal(open_force(&r, path, NULL), WT_OK);
         for (unsigned k = 0; k < written; k++)
             next_curve(&r);
         assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_END);
-        assert_true(logged(&r, "the map was stopped"));
+        assert_true(has_logged(&r, "the map was stopped"));
         close_all(&r);
     }
 }
 
-static void misunderstood(void **state)
+static void inconsistent_files(void **state)
 {
     (void)state;
     ardf_writer_file f = usual();
     f.segments = "Ext;Ret;";
     assert_int_equal(ardf_write(&f), 0);
-    refused(WT_E_CORRUPT, "a first sample for each segment");
+    assert_refused(WT_E_CORRUPT, "a first sample for each segment");
     f = usual();
     f.begins[0] = 1;
     assert_int_equal(ardf_write(&f), 0);
-    refused(WT_E_CORRUPT, "a first sample for each segment");
+    assert_refused(WT_E_CORRUPT, "a first sample for each segment");
 }
 
-/* A changed byte that is used is found by its check sum; with the sums mended no length or position
- * leads out of the file. */
+/* Checksums detect a changed byte that is used. With corrected checksums no length or position
+ * leads outside the file. */
 static void damaged(void **state)
 {
     (void)state;
@@ -133,7 +132,7 @@ static void damaged(void **state)
         for (int value = 0; value < 256; value += 255) {
             memcpy(copy, bytes, n);
             copy[at] = (unsigned char)value;
-            ardf_writer_mend(copy, n);
+            ardf_writer_fix_checksums(copy, n);
             (void)open_bytes(copy, n);
         }
 }
@@ -141,6 +140,7 @@ static void damaged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(all_curves), cmocka_unit_test(stopped),
-                                       cmocka_unit_test(misunderstood), cmocka_unit_test(damaged)};
+                                       cmocka_unit_test(inconsistent_files),
+                                       cmocka_unit_test(damaged)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -1,9 +1,7 @@
-/* ZIP archives of files of force curves: their order, what is no curve among them, what is damaged,
- * and archives that hold none.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "made_file.h"
+/* ZIP archives of force curve files: their order, other files among them, corrupted files, and
+ * archives without curves.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reader_fixture.h"
 
 #include <zip.h>
 
@@ -24,7 +22,7 @@ static void write_archive(const packed_file *files, size_t n)
     assert_int_equal(zip_close(zip), 0);
 }
 
-/* Approach and retract of a curve whose largest force is `force` nN. */
+/* Approach and retraction of a curve with a largest force of `force` nN. */
 #define CURVE(force) "height [nm]\tforce [nN]\n100\t0\n90\t0\n80\t" force "\n90\t0\n100\t0\n"
 #define BROKEN "height [nm]\tforce [nN]\n100\t0\n90\tx\n80\t1\n"
 
@@ -50,7 +48,7 @@ static void curves(void **state)
     open_input(&r, path);
     assert_int_equal(wt_format_detect(formats, r.input, NULL, 0, &info, &r.err), WT_OK);
     assert_string_equal(info->id, "archive");
-    /* With the answer of detection, that of text, and none. */
+    /* With the result of detection, with text, and without. */
     static const char *const given[] = {"archive", "table-force", NULL};
     for (size_t i = 0; i < 3; i++) {
         wt_read_options o = wt_read_defaults();
@@ -79,7 +77,7 @@ static void curves(void **state)
     close_all(&r);
 }
 
-/* One file that cannot be read is one curve that failed; the others follow. */
+/* A file that cannot be read is one failed curve; the others follow. */
 static void failures(void **state)
 {
     (void)state;
@@ -111,8 +109,8 @@ static void none(void **state)
     const packed_file words[] = {{"a.txt", "words\n", 0}, {"b.txt", "more words\n", 0}};
     const packed_file one[] = {{"a.txt", CURVE("1"), 0}};
     write_archive(words, 2);
-    refused(WT_E_UNSUPPORTED, "a ZIP archive without force curves");
-    /* An archive within an archive is not opened, whatever it holds. */
+    assert_refused(WT_E_UNSUPPORTED, "a ZIP archive without force curves");
+    /* An archive within an archive is not opened. */
     write_archive(one, 1);
     const size_t n = read_bytes(inner, sizeof inner);
     const packed_file both[] = {{"a.txt", CURVE("1"), 0}, {"b.zip", (const char *)inner, n}};
@@ -121,11 +119,11 @@ static void none(void **state)
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
     is_curve(&r, 0, 1e-9);
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_END);
-    assert_true(logged(&r, "an archive within an archive"));
+    assert_true(has_logged(&r, "an archive within an archive"));
     close_all(&r);
     write_archive(both + 1, 1);
-    refused(WT_E_UNSUPPORTED, "a ZIP archive without force curves");
-    /* It holds no sweep. */
+    assert_refused(WT_E_UNSUPPORTED, "a ZIP archive without force curves");
+    /* It contains no sweep. */
     wt_sweep sweep = {.n_isotherms = 0};
     write_archive(one, 1);
     open_input(&r, path);

@@ -1,9 +1,7 @@
-/* HDF5 files of other programs from the independent writer: afmformats, Nanosurf Studio of both
- * versions.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "made_file.h"
+/* HDF5 files in the layouts of other programs by the independent writer: afmformats, Nanosurf
+ * Studio in both versions.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reader_fixture.h"
 #include "writers/curve_hdf5_writer.h"
 
 enum { CURVES = 2, ROWS = 6 };
@@ -65,7 +63,7 @@ static void afmformats(void **state)
     }
 }
 
-static void odd_afmformats(void **state)
+static void unexpected_afmformats(void **state)
 {
     (void)state;
     static const unsigned char back[ROWS] = {0, 0, 1, 1, 0, 0}, one[ROWS] = {1, 1, 1, 1, 1, 1},
@@ -74,26 +72,26 @@ static void odd_afmformats(void **state)
     for (size_t i = 0; i < 2; i++) {
         const afmformats_writer_file f = usual(bad[i]);
         assert_int_equal(afmformats_write(&f), 0);
-        refused(WT_E_CORRUPT, "the numbers of the segments are not understood");
+        assert_refused(WT_E_CORRUPT, "the numbers of the segments are not understood");
     }
     afmformats_writer_file f = usual(good);
     f.force_unit = "nN";
     assert_int_equal(afmformats_write(&f), 0);
-    refused(WT_E_CORRUPT, "another length or unit");
+    assert_refused(WT_E_CORRUPT, "another length or unit");
     f = usual(good);
-    f.number_step = 20000; /* the second is not lost without a word */
+    f.number_step = 20000; /* the second one is reported */
     assert_int_equal(afmformats_write(&f), 0);
-    refused(WT_E_UNSUPPORTED, "too many curves are missing before curve 20000");
+    assert_refused(WT_E_UNSUPPORTED, "too many curves are missing before curve 20000");
     f = usual(good);
     f.n_curves = 0;
     assert_int_equal(afmformats_write(&f), 0);
-    refused(WT_E_EMPTY, "no force curve");
+    assert_refused(WT_E_EMPTY, "no force curve");
 }
 
 /* ---- Nanosurf ---------------------------------------------------------------------------------
  */
 
-/* Three samples of the first curve and two of the second, and in the way out one and three. */
+/* Three samples of the first curve and two of the second; in the retraction one and three. */
 static const int sizes_in[] = {3, 2}, sizes_out[] = {1, 3}, cut_sizes[] = {3, 3};
 static const double v_in[] = {-1, 0, 0.5, (double)NAN, 2}, v_out[] = {0.25, 1, 0, -2},
                     z_in[] = {3e-6, 2e-6, 1e-6, 5e-6, 4e-6}, z_out[] = {1e-6, 4e-6, 5e-6, 6e-6},
@@ -142,7 +140,7 @@ static void check_curves(const char *file, double sign)
     if (open_force(&r, file, NULL) != WT_OK)
         fail_msg("%s; %s", r.err.message, r.err.found);
     assert_int_equal(wt_force_count(r.source), CURVES);
-    assert_true(logged(&r, "not verified on a genuine file"));
+    assert_true(has_logged(&r, "not verified on a genuine file"));
     for (size_t curve = 0; curve < CURVES; curve++) {
         next_curve(&r);
         assert_near_abs(r.curve.x, places_x[curve], 1e-14);
@@ -163,12 +161,12 @@ static void nanosurf_curves(void **state)
     for (int version = 1; version <= 2; version++) {
         nhf_writer_file f = nanosurf(version);
         double up[5], out[4];
-        if (version == 1) /* has no number for what is missing */
+        if (version == 1) /* has no value for missing samples */
             channels[0][0].values = v_whole;
         assert_int_equal(nhf_write(&f), 0);
         if (version == 2)
             check_curves(path, 1);
-        /* A height that counts towards the sample is turned. */
+        /* A height that increases towards the sample is reversed. */
         f = nanosurf(2);
         for (size_t i = 0; i < 5; i++)
             up[i] = -z_in[i];
@@ -178,11 +176,11 @@ static void nanosurf_curves(void **state)
         channels[1][1].values = out;
         assert_int_equal(nhf_write(&f), 0);
         check_curves(path, 1);
-        /* Where the curves are may be counts too. */
+        /* Positions of curves may be stored as counts, too. */
         f.places_range = 4e-6;
         assert_int_equal(nhf_write(&f), 0);
         check_curves(path, 1);
-        /* A height that is missing does not hide which way they count. */
+        /* Missing heights do not affect the detection of the direction. */
         up[0] = (double)NAN;
         assert_int_equal(nhf_write(&f), 0);
         reading r;
@@ -201,7 +199,7 @@ static void nanosurf_curves(void **state)
     close_all(&r);
 }
 
-/* The deflection was recorded as counts; two nodes lead from there to the force. */
+/* The deflection is stored as counts; two nodes convert them to the force. */
 static void calibration_graph(void **state)
 {
     (void)state;
@@ -218,27 +216,27 @@ static void calibration_graph(void **state)
     close_all(&r);
 }
 
-static void odd_nanosurf(void **state)
+static void unexpected_nanosurf(void **state)
 {
     (void)state;
     nhf_writer_file f = nanosurf(2);
     f.type = "image_line_based";
     assert_int_equal(nhf_write(&f), 0);
-    refused(WT_E_EMPTY, "no force curve");
+    assert_refused(WT_E_EMPTY, "no force curve");
     f = nanosurf(3);
     assert_int_equal(nhf_write(&f), 0);
-    refused(WT_E_UNSUPPORTED, "this version");
+    assert_refused(WT_E_UNSUPPORTED, "this version");
     f = nanosurf(2);
     channels[1][0].unit = "Hertz (Hz)";
     assert_int_equal(nhf_write(&f), 0);
-    refused(WT_E_CORRUPT, "the unit of a channel is not understood");
+    assert_refused(WT_E_CORRUPT, "the unit of a channel is not understood");
     f = nanosurf(2);
     channels[0][0].maximum = channels[0][0].minimum;
     channels[0][0].values =
         (const double[5]){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN};
     assert_int_equal(nhf_write(&f), 0);
-    refused(WT_E_CORRUPT, "the calibration of a channel is not understood");
-    /* More segments than there is room for are not left out in silence. */
+    assert_refused(WT_E_CORRUPT, "the calibration of a channel is not understood");
+    /* Segments beyond the limit are reported. */
     f = nanosurf(2);
     static nhf_writer_segment many[17];
     for (size_t s = 0; s < 17; s++)
@@ -246,7 +244,7 @@ static void odd_nanosurf(void **state)
     f.n_segments = 17;
     f.segments = many;
     assert_int_equal(nhf_write(&f), 0);
-    refused(WT_E_CORRUPT, "more segments than any");
+    assert_refused(WT_E_CORRUPT, "more segments than any");
     /* A channel of six samples for curves of five. */
     f = nanosurf(2);
     segments[0].sizes = cut_sizes;
@@ -259,7 +257,7 @@ static void odd_nanosurf(void **state)
     close_all(&r);
 }
 
-/* Changed bytes of both: read or refused, never more. Each goes through the door. */
+/* Changed bytes in both layouts: read or refused, never more. Each file is read in the sandbox. */
 static void damaged(void **state)
 {
     (void)state;
@@ -282,8 +280,8 @@ static void damaged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(afmformats),      cmocka_unit_test(odd_afmformats),
-        cmocka_unit_test(nanosurf_curves), cmocka_unit_test(calibration_graph),
-        cmocka_unit_test(odd_nanosurf),    cmocka_unit_test(damaged)};
+        cmocka_unit_test(afmformats),          cmocka_unit_test(unexpected_afmformats),
+        cmocka_unit_test(nanosurf_curves),     cmocka_unit_test(calibration_graph),
+        cmocka_unit_test(unexpected_nanosurf), cmocka_unit_test(damaged)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -1,8 +1,6 @@
-/* Format descriptions: what is accepted, and that each mistake is named with its line.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* Format descriptions: valid ones, and each error is named with its line.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "read/formats.h"
 #include "read/text/text.h"
@@ -13,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Each line can be replaced by one with a mistake. */
+/* A test may replace each line with a faulty one. */
 static const char *const good[] = {
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>",
     "<format id=\"mine\" version=\"2\" kinds=\"sweep\" verified=\"false\">",
@@ -50,7 +48,7 @@ static void accepted(void **state)
     wt_error err = WT_ERROR_INIT;
     (void)state;
     assert_int_equal(parse_with(0, NULL, &err), WT_OK);
-    /* as many repeats as are allowed */
+    /* the largest permitted number of repeats */
     static const char detect[] =
         "<detect><require regex=\"a+b+c+d+e+f+g+h+i+j+k+l+m+n+o+p+q\" score=\"5\"/></detect>";
     assert_int_equal(parse_with(4, detect, &err), WT_OK);
@@ -61,7 +59,7 @@ static void mistakes(void **state)
     static const struct {
         size_t line;
         const char *text;
-        const char *place, *said; /* in the place; in message, expected or found */
+        const char *place, *said; /* texts in the location; in message, expectation or value */
     } cases[] = {
         {8, "<column quantity=\"frequencies\"><name>f</name></column>", "line 8", "frequencies"},
         {8, "<column><name>f</name></column>", "line 8", "quantity"},
@@ -136,7 +134,7 @@ static void entities_are_refused(void **state)
     assert_non_null(strstr(err.message, "entities"));
 }
 
-/* The schema lists every quantity of the library but "none", and no other. */
+/* The schema lists every quantity of the library except "none", and no other. */
 static void quantities_of_the_schema(void **state)
 {
     const char *text = wt_formats_schema();
@@ -260,7 +258,7 @@ static void replaced_by_a_folder(void **state)
     assert_int_equal(wt_log_count(log), 1);
     assert_non_null(strstr(wt_log_get(log, 0).text, "tidy"));
     wt_formats_free(formats);
-    /* The id of a binary reader cannot be taken. */
+    /* The id of a binary reader is reserved. */
     formats = NULL;
     char *id = strstr(changed, "id=\"tidy\"");
     memcpy(id, "id=\"jpk\" ", 9);
@@ -274,8 +272,8 @@ static void replaced_by_a_folder(void **state)
     wt_formats_free(plain);
 }
 
-/* Those in the library follow the schema, and what is known of them before they are read is what
- * stands in them. */
+/* The descriptions of the library follow the schema, and their stated properties are those in the
+ * files. */
 static void known_before_they_are_read(void **state)
 {
     wt_formats *formats = NULL;
@@ -315,7 +313,7 @@ static void known_before_they_are_read(void **state)
     wt_formats_free(formats);
 }
 
-/* A damaged description of the library is named, in the part that detects and in the rest. */
+/* An invalid description of the library is named, for the detection part and for the rest. */
 static void damaged_in_the_library(void **state)
 {
     static const struct {
@@ -382,7 +380,7 @@ static void checked_with_a_sample(void **state)
     assert_int_equal(wt_format_description_check(path, NULL, NULL, log, &report, &err), WT_OK);
     assert_int_equal(wt_table_n_rows(report), 0);
     wt_table_free(report);
-    /* A sample that it does not fit. */
+    /* A sample that does not match. */
     report = NULL;
     assert_int_equal(wt_input_open_memory("a\tb\n1\t2\n", 8, "other", &input, &err), WT_OK);
     assert_int_equal(wt_format_description_check(path, input, NULL, log, &report, &err),
@@ -393,7 +391,7 @@ static void checked_with_a_sample(void **state)
     wt_log_free(log);
 }
 
-/* The example of weartrack-format(5): its first block is the sample, those with tags are the
+/* The example in weartrack-format(5): its first block is the sample, those with tags are the
  * description. */
 static void example_of_the_manual(void **state)
 {

@@ -1,9 +1,7 @@
-/* Input and detection: files, pipes and memory give the same bytes; the four answers of a detector;
- * ties; words for what is not known.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* Input and detection: files, pipes and memory give the same bytes; the four results of a detector;
+ * ties; messages for unknown files.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "read/formats.h"
 
@@ -19,7 +17,7 @@
 
 /* ---- input -------------------------------------------------------------------------------- */
 
-/* Standard input replaced by a pipe that holds `text`. */
+/* Replaces standard input with a pipe that contains `text`. */
 static int replace_stdin(const char *text, size_t n)
 {
     int ends[2], saved = dup(STDIN_FILENO);
@@ -37,9 +35,9 @@ static void restore_stdin(int saved)
     close(saved);
 }
 
-/* Of a large file a second input gives the same parts, also when its name has another one by then
- * and the first is closed; of a small one there is none. */
-static void file_beside(void **state)
+/* A second input of a large file gives the same parts, also after the file was renamed and the
+ * first input closed; a small file has no second input. */
+static void second_input_of_a_file(void **state)
 {
     (void)state;
     enum { LARGE = 5 << 20 };
@@ -99,7 +97,7 @@ static void pipe_file_and_memory(void **state)
     unlink(path);
 }
 
-/* Writes so many bytes into standard input from a process of its own. */
+/* Another process writes the bytes into standard input. */
 static pid_t feed_stdin(size_t n, int *saved)
 {
     int ends[2];
@@ -122,8 +120,8 @@ static pid_t feed_stdin(size_t n, int *saved)
     return child;
 }
 
-/* What could not be kept of a pipe is not taken for what comes behind it. */
-static void a_pipe_that_cannot_be_kept(void **state)
+/* Discarded bytes of a pipe are not replaced with later ones. */
+static void pipe_above_the_buffer_limit(void **state)
 {
     (void)state;
     const size_t size = (size_t)12 << 20;
@@ -183,7 +181,7 @@ static wt_status detect_text(const char *text, size_t n, unsigned kinds, const c
     return status;
 }
 
-/* What readers.def demands of each: complete, and not claiming what is nobody's. */
+/* Requirements of readers.def: each reader is complete and does not claim foreign bytes. */
 static void binary_readers_are_complete(void **state)
 {
     static const file_reader *const readers[] = {
@@ -223,7 +221,7 @@ static void unknown_files_are_described(void **state)
         const char *bytes;
         size_t n;
         const char *words, *advice;
-        wt_status status; /* unsupported: what may have been measured */
+        wt_status status; /* unsupported: possible measurements */
     } cases[] = {
         {"", 0, "an empty file", "export it again", WT_E_UNSUPPORTED},
         {"\211HDF\r\n\032\n\0", 9, "HDF5", "export it as text", WT_E_UNSUPPORTED},
@@ -247,7 +245,7 @@ static void unknown_files_are_described(void **state)
     }
 }
 
-static void nanosurf_answers(void **state)
+static void nanosurf_detection(void **state)
 {
     (void)state;
     wt_error err = WT_ERROR_INIT;
@@ -255,17 +253,17 @@ static void nanosurf_answers(void **state)
     static const char good[] = "[DataSet]\r\nVersion=2\r\nGroupCount=1\r\n\r\n#!";
     assert_int_equal(detect_text(good, sizeof good - 1, 0, &id, &err), WT_OK);
     assert_string_equal(id, "nid");
-    /* The header alone: recognised, but not to be read. */
+    /* Only the header: detected, but not readable. */
     assert_int_equal(detect_text(good, sizeof good - 3, 0, &id, &err), WT_E_UNSUPPORTED);
     assert_non_null(strstr(err.message, "without its data"));
-    /* Recognised, but of another kind. */
+    /* Detected, but another kind of data. */
     assert_int_equal(detect_text(good, sizeof good - 1, WT_KIND_SWEEP, &id, &err), WT_E_EMPTY);
     assert_non_null(strstr(err.message, "DMA sweeps"));
     assert_non_null(strstr(err.found, "nid"));
 }
 
-/* A long header on a pipe: the detector asks for more until it has seen enough. */
-static void more_is_shown(void **state)
+/* A long header on a pipe: the detector requests more until it suffices. */
+static void detector_requests_more(void **state)
 {
     (void)state;
     size_t n = 40000;
@@ -288,8 +286,8 @@ static void more_is_shown(void **state)
     free(text);
 }
 
-/* A description and its copy under another name know the same files equally well. */
-static void ties_name_both(void **state)
+/* A description and its copy with another name match equally well. */
+static void tie_names_both_formats(void **state)
 {
     (void)state;
     static const char sample[] = "Force-Distance Curve\nFile Format:\t3\n\n"
@@ -325,7 +323,7 @@ static void ties_name_both(void **state)
     rmdir(folder);
 }
 
-/* A description that claims more of a file than its binary reader does is not even asked. */
+/* A description that claims more files than its binary reader is not used. */
 static void a_signature_comes_first(void **state)
 {
     (void)state;
@@ -379,7 +377,7 @@ static void chosen_format(void **state)
     assert_int_equal(wt_input_open_memory("text", 4, "test", &input, NULL), WT_OK);
     o.format = "no-such-format";
     assert_int_equal(wt_force_open(formats, input, &o, NULL, &source, &err), WT_E_NOT_FOUND);
-    o.format = "nid"; /* overrules detection; the reader then says what is wrong */
+    o.format = "nid"; /* overrides detection; the reader then reports the error */
     assert_int_equal(wt_force_open(formats, input, &o, NULL, &source, &err), WT_E_CORRUPT);
     o = wt_read_defaults();
     o.spring_constant = -1;
@@ -392,14 +390,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pipe_file_and_memory),
-        cmocka_unit_test(file_beside),
-        cmocka_unit_test(a_pipe_that_cannot_be_kept),
+        cmocka_unit_test(second_input_of_a_file),
+        cmocka_unit_test(pipe_above_the_buffer_limit),
         cmocka_unit_test(files_that_cannot_be_read),
         cmocka_unit_test(binary_readers_are_complete),
         cmocka_unit_test(unknown_files_are_described),
-        cmocka_unit_test(nanosurf_answers),
-        cmocka_unit_test(more_is_shown),
-        cmocka_unit_test(ties_name_both),
+        cmocka_unit_test(nanosurf_detection),
+        cmocka_unit_test(detector_requests_more),
+        cmocka_unit_test(tie_names_both_formats),
         cmocka_unit_test(a_signature_comes_first),
         cmocka_unit_test(chosen_format),
     };

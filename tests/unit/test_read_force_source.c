@@ -1,9 +1,7 @@
-/* Force curves from the facts of a reader: a reader made up here, whose channels hold 1, 2, 3, ...
- * so that each column shows its scaling.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* Force curves from the metadata of a reader. The reader is defined here; its channels contain 1,
+ * 2, 3, ... so that each column shows its scaling.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "core/table/registry.h"
 #include "read/force_assembler.h"
@@ -18,7 +16,7 @@ typedef struct made_up {
     wt_force_source base;
     force_metadata facts;
     size_t n_curves;
-    wt_status status; /* of `next` after the segment was added */
+    wt_status status; /* result of `next` after the segment was added */
 } made_up;
 
 static wt_status next(wt_force_source *base, wt_force_curve *curve, wt_error *err)
@@ -67,7 +65,7 @@ static made_up make(wt_cantilever cantilever)
                      .n_curves = 1};
 }
 
-/* The numbers of a channel are `number` times as large in the unit of the quantity. */
+/* Values of a channel are `number` times the unit of the quantity. */
 static void add(made_up *m, wt_quantity quantity, double number, double offset, const char *channel)
 {
     force_add_signal(&m->facts, (force_signal){.quantity = quantity,
@@ -77,8 +75,8 @@ static void add(made_up *m, wt_quantity quantity, double number, double offset, 
                                                .channel = channel});
 }
 
-/* One channel of 0.1 V, which the file's calibration makes a deflection and a force; with offsets
- * that a calibration by values does not have. */
+/* One channel of 0.1 V, which the calibration of the file converts to deflection and force; it has
+ * offsets, unlike a stated calibration. */
 static void add_chain(made_up *m)
 {
     add(m, WT_Q_DEFLECTION_VOLTAGE, 0.1, 0.01, one);
@@ -115,9 +113,9 @@ static void done(made_up *m, wt_force_curve *curve)
     wt_log_free(m->base.log);
 }
 
-/* ---- what the file says ------------------------------------------------------------------- */
+/* ---- values of the file ------------------------------------------------------------------- */
 
-static void as_the_file_says(void **state)
+static void calibration_of_the_file(void **state)
 {
     made_up m = make(known);
     wt_force_curve curve = {0};
@@ -133,7 +131,7 @@ static void as_the_file_says(void **state)
     assert_near(s->duration, 2, 0);
     assert_near(s->velocity, 1e-6, 0);
     assert_near(s->setpoint, 0.5 * 50e-9 * 0.3, 1e-14);
-    /* In one order, which is not that of the offers. */
+    /* In a fixed order, not that of the reader. */
     static const wt_quantity order[] = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_FORCE, WT_Q_DEFLECTION,
                                         WT_Q_DEFLECTION_VOLTAGE};
     assert_int_equal(m.facts.offers[0], WT_Q_FORCE);
@@ -150,20 +148,20 @@ static void as_the_file_says(void **state)
     assert_column(&curve, WT_Q_DEFLECTION, 5e-9, 1e-9);
     assert_column(&curve, WT_Q_DEFLECTION_VOLTAGE, 0.1, 0.01);
     assert_int_equal(wt_log_count(m.base.log), 0);
-    /* What comes first counts. */
+    /* The first one counts. */
     add(&m, WT_Q_HEIGHT, 2, 0, three);
     force_add_offer(&m.facts, WT_Q_HEIGHT);
     assert_int_equal(m.facts.n_offers, 5);
     assert_string_equal(force_find_signal(&m.facts, WT_Q_HEIGHT)->name, "two");
     assert_int_equal(m.facts.n_signals, 4);
-    /* A time of the file goes before one from the duration. */
+    /* A time channel precedes a time from the duration. */
     add(&m, WT_Q_TIME, 3, 0, two);
     assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
     assert_column(&curve, WT_Q_TIME, 3, 0);
     done(&m, &curve);
 }
 
-/* A factor beyond all sense: what it makes infinite is missing, and said once for all curves. */
+/* An extreme factor: infinite values are missing, with one warning for all curves. */
 static void infinite_samples(void **state)
 {
     made_up m = make(known);
@@ -189,8 +187,8 @@ static void infinite_samples(void **state)
     done(&m, &curve);
 }
 
-/* Only what is asked for and offered. */
-static void as_asked_for(void **state)
+/* Only requested and available quantities. */
+static void requested_quantities(void **state)
 {
     made_up m = make(known);
     wt_force_curve curve = {0};
@@ -205,7 +203,7 @@ static void as_asked_for(void **state)
     assert_column(&curve, WT_Q_FORCE, 1.5e-9, 2e-9);
     assert_true(force_is_segment_requested(&m.base, WT_SEGMENT_RETRACT));
     assert_false(force_is_segment_requested(&m.base, WT_SEGMENT_APPROACH));
-    /* Nothing to read is no segment, but its calibration counts. */
+    /* Nothing to read means no segment, but its calibration counts. */
     m.facts.n_points = 0;
     assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
     assert_int_equal(curve.n_segments, 0);
@@ -213,10 +211,10 @@ static void as_asked_for(void **state)
     done(&m, &curve);
 }
 
-/* ---- what the user says ------------------------------------------------------------------- */
+/* ---- stated values ------------------------------------------------------------------------ */
 
-/* What is given replaces a link of the chain: what comes behind it is made of what comes before. */
-static void given_to_a_chain(void **state)
+/* A stated value replaces a step of the conversion; later quantities follow from earlier ones. */
+static void stated_calibration(void **state)
 {
     (void)state;
     for (int given = 1; given < 4; given++) {
@@ -245,8 +243,8 @@ static void given_to_a_chain(void **state)
     }
 }
 
-/* Columns that were exported apart are each made anew by what was given over what was. */
-static void given_to_columns(void **state)
+/* Separately exported columns are each converted by stated over original calibration. */
+static void stated_calibration_of_columns(void **state)
 {
     made_up m = make(known);
     wt_force_curve curve = {0};
@@ -263,7 +261,7 @@ static void given_to_columns(void **state)
     assert_true(logged(&m, "the spring constant given, 0.6 N/m, takes the place of that of the "
                            "file, 0.3 N/m"));
     assert_true(logged(&m, "the deflection sensitivity given, 75 nm/V, takes the place of that"));
-    /* Where the file does not tell its own, it stays and that is said. */
+    /* If the file does not state its own calibration, the column stays, with a warning. */
     m.facts.cantilever = unknown;
     assert_int_equal(read_curve(&m, &curve, NULL), WT_OK);
     assert_column(&curve, WT_Q_FORCE, 0.3e-9, 0);
@@ -279,11 +277,11 @@ static void given_to_columns(void **state)
     done(&m, &curve);
 }
 
-/* ---- contradictions ----------------------------------------------------------------------- */
+/* ---- inconsistencies ---------------------------------------------------------------------- */
 
-/* Force and deflection that were stored apart mean a spring constant; heights go as far as one
- * another. Each is said once. */
-static void contradictions(void **state)
+/* Separately stored force and deflection imply a spring constant; heights are as long as each
+ * other. Each has one warning. */
+static void inconsistencies(void **state)
 {
     static const struct {
         double force; /* N for each metre of deflection */
@@ -330,9 +328,9 @@ static void contradictions(void **state)
     }
 }
 
-/* ---- what is missing ---------------------------------------------------------------------- */
+/* ---- missing values ----------------------------------------------------------------------- */
 
-/* Of any one signal, what the calibration allows. */
+/* For a single signal, the quantities that the calibration permits. */
 static void from_one_signal(void **state)
 {
     static const wt_quantity chain[] = {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, WT_Q_FORCE};
@@ -383,7 +381,7 @@ static void missing_calibration(void **state)
         assert_string_equal(err.file, "made-up");
         assert_string_equal(err.place, "there");
         assert_int_equal(curve.n_segments, 0);
-        /* With everything it is left out with a warning of the same words. */
+        /* If everything is requested, it is omitted with a warning of the same text. */
         m.base.options.want = WT_Q_ALL;
         assert_int_equal(read_curve(&m, &curve, &err), WT_OK);
         assert_null(wt_segment_channel(&curve.segments[0], cases[i].wanted));
@@ -418,7 +416,7 @@ static void missing_channels(void **state)
     done(&m, &curve);
 }
 
-/* A segment that says nothing of its calibration does not take away that of those before it. */
+/* A segment without a calibration does not remove that of earlier segments. */
 static void calibration_of_the_curve(void **state)
 {
     made_up m = make(known);
@@ -433,7 +431,7 @@ static void calibration_of_the_curve(void **state)
     done(&m, &curve);
 }
 
-/* ---- places and facts --------------------------------------------------------------------- */
+/* ---- positions and metadata --------------------------------------------------------------- */
 
 static void places(void **state)
 {
@@ -452,7 +450,7 @@ static void places(void **state)
     assert_int_equal(curve.grid_x, -1);
 }
 
-static void described(void **state)
+static void reader_metadata(void **state)
 {
     made_up m = make(unknown);
     wt_read_options *o = &m.base.options;
@@ -489,12 +487,18 @@ static void described(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_the_file_says), cmocka_unit_test(infinite_samples),
-        cmocka_unit_test(as_asked_for),     cmocka_unit_test(given_to_a_chain),
-        cmocka_unit_test(given_to_columns), cmocka_unit_test(contradictions),
-        cmocka_unit_test(from_one_signal),  cmocka_unit_test(missing_calibration),
-        cmocka_unit_test(missing_channels), cmocka_unit_test(calibration_of_the_curve),
-        cmocka_unit_test(places),           cmocka_unit_test(described),
+        cmocka_unit_test(calibration_of_the_file),
+        cmocka_unit_test(infinite_samples),
+        cmocka_unit_test(requested_quantities),
+        cmocka_unit_test(stated_calibration),
+        cmocka_unit_test(stated_calibration_of_columns),
+        cmocka_unit_test(inconsistencies),
+        cmocka_unit_test(from_one_signal),
+        cmocka_unit_test(missing_calibration),
+        cmocka_unit_test(missing_channels),
+        cmocka_unit_test(calibration_of_the_curve),
+        cmocka_unit_test(places),
+        cmocka_unit_test(reader_metadata),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,9 @@
-/* Height maps by the program Gwyddion: one of ours stands for it that hangs, crashes, floods, or
- * writes nothing, rubbish or what is asked. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report_place.h"
+/* Height maps by the program Gwyddion. A replacement program hangs, crashes, writes too much,
+ * nothing, invalid data or the expected file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report_folder.h"
 
-#include "made_file.h"
+#include "reader_fixture.h"
 
 #include "read/bytes/input.h"
 #include "read/gwyddion/gwyddion.h"
@@ -11,9 +12,9 @@
 #include <math.h>
 #include <time.h>
 
-/* ---- what stands for the program ------------------------------------------------------------- */
+/* ---- replacement of the program -------------------------------------------------------------- */
 
-/* What the program finds beside its folder. */
+/* Files that the program finds in its folder. */
 #define OWN_DATA "share/gwyddion"
 
 static char *path_before;
@@ -21,7 +22,7 @@ static char *path_before;
 static int make_place(void **state)
 {
     char all[4096];
-    if (make_workplace(state) != 0 || mkdir("bin", 0777) != 0 || mkdir("none", 0777) != 0 ||
+    if (create_work_folder(state) != 0 || mkdir("bin", 0777) != 0 || mkdir("none", 0777) != 0 ||
         mkdir("tmp", 0777) != 0 || mkdir("share", 0777) != 0 || mkdir(OWN_DATA, 0777) != 0)
         return -1;
     path_before = strdup(getenv("PATH"));
@@ -36,10 +37,10 @@ static int remove_place(void **state)
     assert_int_equal(setenv("PATH", path_before, 1), 0);
     assert_int_equal(unsetenv("TMPDIR"), 0);
     free(path_before);
-    return remove_workplace(state);
+    return remove_work_folder(state);
 }
 
-/* The version is asked for by itself. */
+/* Only the version is requested. */
 static void stand_in(const char *script)
 {
     FILE *out = fopen("bin/gwyddion", "w");
@@ -55,11 +56,11 @@ static void stand_in(const char *script)
 
 static const char surf[512] = "DIGITAL SURF";
 
-/* ---- what goes wrong ------------------------------------------------------------------------- */
+/* ---- failures -------------------------------------------------------------------------------- */
 
 static void fails_with(const char *script, wt_status expected, const char *words)
 {
-    /* Small, so that the test is short; the program that hangs would do so for ever. */
+    /* Short, so that the test is short; the program that hangs would not end. */
     const gwyddion_limits limits = {
         .time = 2, .cpu_time = 2, .file_size = (size_t)1 << 20, .memory = (size_t)1 << 30};
     enum { FAR_BELOW_FOR_EVER = 60 };
@@ -79,16 +80,16 @@ static void fails_with(const char *script, wt_status expected, const char *words
     wt_input_close(input);
 }
 
-/* What it started ends with it. */
+/* Its child processes end with it. */
 static void test_left_behind(void **state)
 {
     (void)state;
     mark_programs();
     fails_with("sleep 1000 & [ -d /proc/$! ] && exit 6", WT_E_TOOL, "exit status 6");
-    assert_true(programs_end());
+    assert_true(all_programs_end());
 }
 
-/* One that says no more is waited for without work. */
+/* The test waits for a silent program without load. */
 static void test_closed_output(void **state)
 {
     (void)state;
@@ -116,7 +117,7 @@ static void test_failures(void **state)
     assert_int_equal(count_files("/proc/self/fd"), open_before);
 }
 
-/* What has reached the limit was cut there, whatever the program says of itself. */
+/* A file at the size limit is truncated, whatever the exit status. */
 static void test_flood_that_goes_on(void **state)
 {
     (void)state;
@@ -124,7 +125,7 @@ static void test_flood_that_goes_on(void **state)
                "more of the file than is read");
 }
 
-/* The name of the copy follows the first bytes, not the name of the file. */
+/* The suffix of the copy follows from the first bytes, not from the file name. */
 static void test_ending_of_the_copy(void **state)
 {
     (void)state;
@@ -180,15 +181,15 @@ static void test_not_installed(void **state)
     assert_int_equal(count_files("tmp"), 0);
 }
 
-/* ---- what goes well -------------------------------------------------------------------------- */
+/* ---- success --------------------------------------------------------------------------------- */
 
 enum { COLUMNS = 3, ROWS = 2, POINTS = COLUMNS * ROWS };
 static const double heights[POINTS] = {3e-9, 1e-9, 4e-9, 1e-9, 5e-9, 9e-9}; /* uppermost first */
 
-/* "GwyDataField" of such values, as bytes in the order of this machine, which is the file's. */
+/* "GwyDataField" with these values, as bytes in native order, which is that of the file. */
 static size_t field_of(char *to, const double *values)
 {
-    char *p = to + 17; /* behind the name and the size */
+    char *p = to + 17; /* after the name and the size */
     const uint32_t columns = COLUMNS, rows = ROWS, n = POINTS;
     const double x = 3e-6, y = 2e-6;
 #define PUT(bytes, n) p = (char *)memcpy(p, bytes, n) + (n)
@@ -235,7 +236,7 @@ static void write_good(const double *mask)
     assert_int_equal(fclose(out), 0);
 }
 
-/* Reads and compares; `missing` are the points that must be, one bit each. */
+/* Reads and compares; `missing` has a bit for each point that must be missing. */
 static void check_read(const char *bytes, unsigned missing, const char *words)
 {
     wt_image *images = NULL;
@@ -281,9 +282,9 @@ static void test_heights(void **state)
     flagged[86] = 1;
     write_good(NULL);
     check_read(surf, 0, "");
-    /* Digital Surf: the file says that points are missing, and they are the lowest. */
+    /* Digital Surf: the file states missing points, which are the lowest ones. */
     check_read(flagged, 1u << 1 | 1u << 3, "the 2 of 6 at the lowest height");
-    /* What Gwyddion masks is missing, and then nothing else is. */
+    /* Points masked by Gwyddion are missing, and no others. */
     write_good(mask);
     check_read(surf, 1u << 2 | 1u << 5, "2 of 6 pixels");
     check_read(flagged, 1u << 2 | 1u << 5, "2 of 6 pixels");
@@ -295,8 +296,7 @@ static void test_heights(void **state)
 enum { SURF_HEIGHTS = 10, SURF_PIECES = 3, SURF_ROOM = 1024, SURF_HEAD = 512 + 5 };
 static const int surf_heights[SURF_HEIGHTS] = {-3, 7, 1, 0, 100000, -1, 5, 5, 5, 5};
 
-/* What is unpacked is the file as it would be without compression, and that is what the program is
- * given. */
+/* The unpacked file equals the uncompressed one, and the program receives it. */
 static void test_unpacked(void **state)
 {
     (void)state;
@@ -304,7 +304,7 @@ static void test_unpacked(void **state)
     const size_t n_plain = surf_write_plain(plain, surf_heights, SURF_HEIGHTS);
     for (size_t pieces = 1; pieces <= SURF_PIECES; pieces++) {
         const size_t n = surf_write(packed, surf_heights, SURF_HEIGHTS, pieces);
-        for (size_t more = 0; more < 2; more++) { /* bytes behind it, which are said */
+        for (size_t more = 0; more < 2; more++) { /* additional bytes, which are reported */
             wt_input *input = NULL, *unpacked = NULL;
             const unsigned char *bytes = NULL;
             size_t length = 0;
@@ -342,7 +342,8 @@ static void test_damaged(void **state)
     (void)state;
     enum { COUNTED = SURF_HEAD, FIRST = SURF_HEAD + 4, STREAM = FIRST + 8 * SURF_PIECES };
     static const struct {
-        size_t at, length; /* of a byte, SURF_ROOM: none; to which the file is cut, 0: it is not */
+        /* position of a byte, SURF_ROOM: none; size after truncation, 0: whole */
+        size_t at, length;
         unsigned char byte;
         const char *words;
     } cases[] = {{SURF_ROOM, 100, 0, "its head is cut"},

@@ -1,8 +1,6 @@
-/* Igor binary waves of Asylum Research: written by an independent writer, and damaged.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "made_file.h"
+/* Igor binary waves of Asylum Research by an independent writer, and corrupted ones.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reader_fixture.h"
 #include "writers/ibw_writer.h"
 
 #define N 7
@@ -67,8 +65,8 @@ static void test_curve(void **state)
     }
 }
 
-/* A curve without Indexes, as extracted from a map, is split where the piezo turns:
- * the sample of the turn ends the approach. */
+/* A curve without Indexes, as extracted from a map, is split where the piezo turns; the approach
+ * includes the turning sample. */
 static void test_turning_point(void **state)
 {
     (void)state;
@@ -98,7 +96,7 @@ static void test_turning_point(void **state)
     }
 }
 
-/* The value at which the approach ends, in newtons, metres or volts. */
+/* Value at the end of the approach, in newtons, metres or volts. */
 static void test_trigger(void **state)
 {
     (void)state;
@@ -124,7 +122,7 @@ static void test_trigger(void **state)
 static void is_refused(const ibw_writer_file *f, wt_status expected, const char *words)
 {
     assert_int_equal(ibw_write(f), 0);
-    refused(expected, words);
+    assert_refused(expected, words);
 }
 
 static void test_refused(void **state)
@@ -132,7 +130,7 @@ static void test_refused(void **state)
     (void)state;
     static const char *const parts[] = {
         "Indexes: 0,4,6\r",                      /* no Direction */
-        "Indexes: 0,4,7\rDirection: NaN,1,-1\r", /* behind the last sample */
+        "Indexes: 0,4,7\rDirection: NaN,1,-1\r", /* after the last sample */
         "Indexes: 0,4,4\rDirection: NaN,1,-1\r",
         "Indexes: 0,4,2\rDirection: NaN,1,-1\r",
         "Indexes: 0,4,6\rDirection: NaN,1\r",
@@ -161,7 +159,7 @@ static void test_refused(void **state)
     close_all(&r);
 }
 
-/* Sizes that lie, and a file that is cut. */
+/* Wrong sizes, and a truncated file. */
 static void test_damaged(void **state)
 {
     (void)state;
@@ -174,7 +172,7 @@ static void test_damaged(void **state)
         unsigned char copy[sizeof bytes];
         memcpy(copy, bytes, n);
         memset(copy + sizes[i], 0xff, 4);
-        ibw_writer_mend(copy, n);
+        ibw_writer_fix_checksums(copy, n);
         assert_int_not_equal(open_bytes(copy, n), WT_OK);
         copy[3] ^= 1; /* the check sum */
         assert_int_not_equal(open_bytes(copy, n), WT_OK);
@@ -183,7 +181,8 @@ static void test_damaged(void **state)
         assert_int_not_equal(open_bytes(bytes, length), WT_OK);
 }
 
-/* Bytes are lost in the samples or the note, and as many follow the labels: these are no names. */
+/* Bytes of the samples or the note are missing, and others follow the labels: these are not
+ * names. */
 static void test_shifted(void **state)
 {
     (void)state;
@@ -199,7 +198,7 @@ static void test_shifted(void **state)
     }
 }
 
-/* A wave of version 2 is named, one whose sizes do not add up is unknown. */
+/* A wave of version 2 is named; one with inconsistent sizes is unknown. */
 static void test_old(void **state)
 {
     (void)state;
@@ -211,13 +210,13 @@ static void test_old(void **state)
         assert_non_null(out);
         assert_int_equal(fwrite(bytes, 1, sizeof bytes, out), sizeof bytes);
         assert_int_equal(fclose(out), 0);
-        refused(WT_E_UNSUPPORTED, "export the curve as text");
+        assert_refused(WT_E_UNSUPPORTED, "export the curve as text");
         assert_int_equal(open_bytes(bytes, sizeof bytes - 1), WT_E_FORMAT);
     }
 }
 
-/* A number of the note goes through the reader of header numbers. */
-static void test_contradictions(void **state)
+/* The common parser of header numbers reads a number of the note. */
+static void test_inconsistencies(void **state)
 {
     (void)state;
     static const struct {
@@ -251,7 +250,7 @@ static void test_contradictions(void **state)
         assert_int_equal(wt_log_count(r.log), notes[i].words != NULL);
         if (notes[i].words != NULL) {
             const wt_log_entry entry = wt_log_get(r.log, 0);
-            assert_true(logged(&r, notes[i].words));
+            assert_true(has_logged(&r, notes[i].words));
             assert_non_null(strstr(entry.place, "of the note"));
             assert_int_equal(entry.action, WT_CONTRADICTED);
         }
@@ -262,9 +261,9 @@ static void test_contradictions(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_contradictions), cmocka_unit_test(test_curve),
-        cmocka_unit_test(test_turning_point),  cmocka_unit_test(test_trigger),
-        cmocka_unit_test(test_refused),        cmocka_unit_test(test_shifted),
-        cmocka_unit_test(test_damaged),        cmocka_unit_test(test_old)};
+        cmocka_unit_test(test_inconsistencies), cmocka_unit_test(test_curve),
+        cmocka_unit_test(test_turning_point),   cmocka_unit_test(test_trigger),
+        cmocka_unit_test(test_refused),         cmocka_unit_test(test_shifted),
+        cmocka_unit_test(test_damaged),         cmocka_unit_test(test_old)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

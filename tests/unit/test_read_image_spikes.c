@@ -1,6 +1,6 @@
-/* Heights that stand out alone are warned of, edges, noise and missing points are not.
+/* Isolated heights cause a warning; edges, noise and missing points do not.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "made_file.h"
+#include "reader_fixture.h"
 
 #include "read/images.h"
 
@@ -20,7 +20,7 @@ static void fill(double *values)
     }
 }
 
-/* The warning of the image, "" if there is none. */
+/* Warning of the image, or "". */
 static const char *warning_of(double *values, size_t columns, size_t rows, const char *unit)
 {
     static char said[512];
@@ -45,7 +45,7 @@ static const char *warning_of(double *values, size_t columns, size_t rows, const
     return said;
 }
 
-static void alone(void **state)
+static void isolated_heights(void **state)
 {
     (void)state;
     double values[N];
@@ -61,18 +61,18 @@ static void alone(void **state)
         strstr(warning_of(values, COLUMNS, ROWS, "m"),
                "2 of 1200 heights stand out alone, the farthest, in column 39 and row 29"));
     fill(values);
-    values[0] = 1e300; /* whose square is no number */
+    values[0] = 1e300; /* whose square overflows */
     values[500] = -1e300;
     assert_non_null(strstr(warning_of(values, COLUMNS, ROWS, "m"), "2 of 1200"));
 }
 
-/* A height within the roughness, and one that makes less than half of the slopes. */
-static void not_far(void **state)
+/* A height within the roughness, and one that causes less than half of the slopes. */
+static void heights_within_roughness(void **state)
 {
     (void)state;
     double values[N];
     fill(values);
-    values[7 * COLUMNS + 5] = 1 + 5.5e-9; /* 20 % of the squares of all steps */
+    values[7 * COLUMNS + 5] = 1 + 5.5e-9; /* 20 % of the squared steps */
     assert_string_equal(warning_of(values, COLUMNS, ROWS, "m"), "");
     values[7 * COLUMNS + 5] = 1 + 9.0e-9;
     assert_string_equal(warning_of(values, COLUMNS, ROWS, "m"), "");
@@ -114,7 +114,7 @@ static void missing(void **state)
     assert_string_equal(warning_of(values, COLUMNS, ROWS, "m"), "");
 }
 
-/* Of a profile, and of too few points to know a usual step. */
+/* A profile, and too few points for a typical step. */
 static void profile(void **state)
 {
     (void)state;
@@ -129,8 +129,8 @@ static void profile(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(alone), cmocka_unit_test(not_far),
-                                       cmocka_unit_test(edges), cmocka_unit_test(missing),
-                                       cmocka_unit_test(profile)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(isolated_heights), cmocka_unit_test(heights_within_roughness),
+        cmocka_unit_test(edges), cmocka_unit_test(missing), cmocka_unit_test(profile)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,6 @@
-/* Images of heights from every format that has them: files written byte by byte here, and the
- * measured ones.
+/* Height images of every format: files written byte by byte here, and measured ones.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "made_file.h"
+#include "reader_fixture.h"
 
 #include "read/images.h"
 
@@ -11,7 +10,7 @@
 
 enum { COLUMNS = 5, ROWS = 3, ROOM = 8192 };
 
-/* Bytes of a file that grows. */
+/* Bytes of a growing file. */
 typedef struct made {
     unsigned char bytes[ROOM];
     size_t n;
@@ -60,7 +59,7 @@ static int height(size_t column, size_t row)
     return (int)(10 * row + column) - 12;
 }
 
-/* Image `which` of the file has the heights; those of a part of it are refused. */
+/* Image `which` of the file has the heights; a part of the file is refused. */
 static void check(const made *m, size_t n, size_t which, const char *name, double pitch)
 {
     wt_image *images = NULL;
@@ -100,14 +99,14 @@ static void simple_field(void **state)
     do
         put(&m, 0, 1, false);
     while (m.n % 4 != 0);
-    for (size_t row = ROWS; row-- > 0;) /* the uppermost first */
+    for (size_t row = ROWS; row-- > 0;) /* the uppermost line first */
         for (size_t column = 0; column < COLUMNS; column++)
             put_float(&m, (float)height(column, row), false);
     check(&m, 1, 0, "Height of a spot", 1e-6);
 }
 
-/* Samples of each type, which the header scales. The units of the area and of the heights differ,
- * and are in Latin-1. */
+/* Samples of each type, scaled by the header. The units of the area and of the heights differ, and
+ * are in Latin-1. */
 static void wsxm_image(void **state)
 {
     static const struct {
@@ -152,7 +151,7 @@ static void nanoscope_image(void **state)
     enum { DATA = 4096, SIZE = COLUMNS * ROWS };
     for (size_t width = 2; width <= 4; width += 2) {
         made m = {.n = 0};
-        const bool phase = width == 4; /* and another first line, and a micro sign of Latin-1 */
+        const bool phase = width == 4; /* another first line, and a micro sign in Latin-1 */
         put_text(&m,
                  "\\*%sFile list\r\n\\Version: 0x08150300\r\n\\*Scanner list\r\n"
                  "\\@Sens. Zsens: V 10.00000 nm/V\r\n\\*Ciao scan list\r\n\\Scan Size: 9 nm\r\n"
@@ -197,7 +196,7 @@ static void nanoscope_image(void **state)
     }
 }
 
-/* Both orders of bytes; the second of two channels. */
+/* Both byte orders; the second of two channels. */
 static void igor_image(void **state)
 {
     (void)state;
@@ -295,7 +294,7 @@ static void park_image(void **state)
     }
 }
 
-/* A row of a measured field as another program has it (topography-rows.csv, row 50). */
+/* A row of a measured field by another program (topography-rows.csv, row 50). */
 static void measured(void **state)
 {
     (void)state;
@@ -388,7 +387,7 @@ static void test_size(void **state)
     assert_near(head.height, 6e-6, 1e-12);
 }
 
-/* What the file does not say is given, what it says otherwise is warned of. */
+/* Stated options replace missing values of the file; differing values cause a warning. */
 static void test_given(void **state)
 {
     (void)state;
@@ -427,14 +426,14 @@ static void test_given(void **state)
     wt_log_free(log);
 }
 
-/* What is missing is said: pixels with their number, a size that is none. */
+/* Missing data are reported: the number of pixels, and an invalid size. */
 static void test_missing(void **state)
 {
     (void)state;
     static const struct {
         size_t columns, rows, missing;
         double width, height;
-        const char *words; /* the last of the log; NULL: nothing */
+        const char *words; /* text of the last log entry; NULL: none */
     } cases[] = {
         {4, 3, 0, 1, 1, NULL},
         {4, 3, 1, 1, 1, "1 of 12 pixels are not finite numbers and left out"},

@@ -1,11 +1,9 @@
-/* JPK files of known content, written by the independent writer: what is read back is what was
- * written, to the step of the stored numbers.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "made_file.h"
+/* JPK files with known content by the independent writer: the reader returns the written values, to
+ * the step of the stored numbers.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/force_assembler.h"
 #include "read/jpk/jpk.h"
+#include "reader_fixture.h"
 
 #include "writers/jpk_writer.h"
 
@@ -13,7 +11,7 @@
 
 #define MAX_POINTS 64
 
-/* Curves with awkward numbers: approach, pause, modulation, retract, each of its own length. */
+/* Curves with various numbers: approach, pause, modulation, retract, with different lengths. */
 typedef struct sample {
     double height[4][MAX_POINTS], force[4][MAX_POINTS], sensor[4][MAX_POINTS];
     jpk_writer_segment segments[4];
@@ -49,7 +47,7 @@ static void make_sample(sample *s, size_t index)
 static sample samples[3];
 static jpk_writer_curve curves[3];
 
-/* A map of 3 x 2 places of which 0, 4 and 5 were measured. */
+/* A map of 3 x 2 positions, of which 0, 4 and 5 were measured. */
 static jpk_writer_file make_file(void)
 {
     static const size_t index[] = {0, 4, 5};
@@ -163,7 +161,7 @@ static void single_curve(void **state)
 static void missing_indices(void **state)
 {
     (void)state;
-    /* Places 0 1 2 | 5 4 3: the second row runs back. */
+    /* Positions 0 1 2 | 5 4 3: the second row is in reverse. */
     static const long grid[][2] = {{0, 0}, {1, 1}, {0, 1}};
     jpk_writer_file f = make_file();
     reading r;
@@ -174,11 +172,11 @@ static void missing_indices(void **state)
         assert_int_equal(r.curve.grid_x, grid[i][0]);
         assert_int_equal(r.curve.grid_y, grid[i][1]);
     }
-    assert_true(logged(&r, "3 of the 6 curves"));
+    assert_true(has_logged(&r, "3 of the 6 curves"));
     close_all(&r);
 }
 
-static void only_what_is_wanted(void **state)
+static void only_requested_channels(void **state)
 {
     (void)state;
     jpk_writer_file f = make_file();
@@ -194,12 +192,12 @@ static void only_what_is_wanted(void **state)
     assert_int_equal(s->kind, WT_SEGMENT_RETRACT);
     assert_int_equal(s->index, 3);
     assert_int_equal(s->n_channels, 2);
-    /* The segments that are not read have taken their time all the same. */
+    /* Segments that are not read still have a duration. */
     assert_near(wt_segment_channel(s, WT_Q_TIME)->values[0], 0.25 + 0.75 + 1.25, 1e-15);
     close_all(&r);
 }
 
-/* Where the force does not follow from the distance, two slots tell the spring constant. */
+/* If the force does not follow from the distance, two slots imply the spring constant. */
 static void indirect_spring_constant(void **state)
 {
     (void)state;
@@ -268,7 +266,7 @@ static void missing_calibration(void **state)
         f.spring_constant = cases[i].spring_constant;
         f.sensitivity = cases[i].sensitivity;
         assert_int_equal(jpk_write(&f), 0);
-        /* Asked for by name: an error for each curve. */
+        /* Requested by name: an error for each curve. */
         o.want = WT_Q_BIT(WT_Q_FORCE);
         assert_int_equal(open_force(&r, path, &o), WT_OK);
         for (size_t j = 0; j < 3; j++) {
@@ -280,7 +278,7 @@ static void missing_calibration(void **state)
         }
         assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_END);
         close_all(&r);
-        /* With everything: a warning, and the volts. */
+        /* If all are requested: a warning, and the volts. */
         assert_int_equal(open_force(&r, path, NULL), WT_OK);
         assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
         assert_null(wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE));
@@ -288,9 +286,9 @@ static void missing_calibration(void **state)
         char words[160];
         snprintf(words, sizeof words, "no force: the file does not say the spring constant%s; %s",
                  i == 0 ? " and deflection sensitivity" : "", cases[i].advice);
-        assert_true(logged(&r, words));
+        assert_true(has_logged(&r, words));
         close_all(&r);
-        /* Given by the user. */
+        /* Stated by the user. */
         o.spring_constant = 0.2;
         o.sensitivity = 50e-9;
         assert_int_equal(open_force(&r, path, &o), WT_OK);
@@ -300,7 +298,7 @@ static void missing_calibration(void **state)
     }
 }
 
-/* Volts are no height; the rest of the curve is there. */
+/* Volts are not a height; the rest of the curve is read. */
 static void height_without_conversion(void **state)
 {
     (void)state;
@@ -312,11 +310,11 @@ static void height_without_conversion(void **state)
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
     assert_null(wt_segment_channel(&r.curve.segments[0], WT_Q_HEIGHT));
     assert_non_null(wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE));
-    assert_true(logged(&r, "left out: it has no calibration"));
+    assert_true(has_logged(&r, "left out: it has no calibration"));
     close_all(&r);
 }
 
-/* A height that cannot be decoded is told of, with what the file says of it. */
+/* A height that cannot be decoded is reported with its text in the file. */
 static void height_of_unknown_type(void **state)
 {
     (void)state;
@@ -328,12 +326,12 @@ static void height_of_unknown_type(void **state)
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
     assert_null(wt_segment_channel(&r.curve.segments[0], WT_Q_HEIGHT));
     assert_non_null(wt_segment_channel(&r.curve.segments[0], WT_Q_FORCE));
-    assert_true(logged(&r, "channel height left out"));
-    assert_true(logged(&r, "oddinteger"));
+    assert_true(has_logged(&r, "channel height left out"));
+    assert_true(has_logged(&r, "oddinteger"));
     close_all(&r);
 }
 
-/* As many channels as there is room for; one more is refused in words. */
+/* The largest permitted number of channels; one more is refused with a message. */
 static void many_channels(void **state)
 {
     (void)state;
@@ -350,8 +348,8 @@ static void many_channels(void **state)
     }
 }
 
-/* Cut at many places: what is complete is read and equals what was written. */
-static void cut_off(void **state)
+/* Truncated at many positions: complete data are read and equal the written ones. */
+static void truncated_file(void **state)
 {
     (void)state;
     static unsigned char bytes[65536];
@@ -369,7 +367,7 @@ static void cut_off(void **state)
             status = wt_force_next(r.source, &r.curve, &r.err);
             if (status != WT_OK)
                 break;
-            assert_true(logged(&r, "end of the archive is missing"));
+            assert_true(has_logged(&r, "end of the archive is missing"));
             assert_values(&r.curve.segments[0], WT_Q_FORCE, samples[read].force[0],
                           jpk_writer_force_step(&f));
             read++;
@@ -380,7 +378,7 @@ static void cut_off(void **state)
     assert_int_equal(most, 3);
 }
 
-static void described(void **state)
+static void metadata(void **state)
 {
     (void)state;
     static const char *const expected[][2] = {{"format", "jpk"},
@@ -409,7 +407,7 @@ static void described(void **state)
     close_all(&r);
 }
 
-/* Of a curve of a map, and of the only one of a file. */
+/* Header of a curve in a map, and of the only one in a file. */
 static void lost_segments(void **state)
 {
     (void)state;
@@ -440,7 +438,7 @@ static void lost_segments(void **state)
     }
 }
 
-/* Where the header of a curve was cut, say. */
+/* Position where the header of a curve is truncated. */
 static void lost_position(void **state)
 {
     (void)state;
@@ -460,7 +458,7 @@ static void lost_position(void **state)
     }
 }
 
-static void cut_header(void **state)
+static void truncated_header(void **state)
 {
     (void)state;
     jpk_writer_file f = make_file();
@@ -482,9 +480,9 @@ static void cut_header(void **state)
     close_all(&r);
 }
 
-/* An entry that unpacks to many times what its points take is refused before it is unpacked: it
+/* An entry that unpacks to far more than its points need is refused before unpacking, because it
  * would fill the memory. */
-static void swollen_entry(void **state)
+static void oversized_entry(void **state)
 {
     (void)state;
     enum { SWOLLEN = 8 << 20 };
@@ -516,19 +514,19 @@ int main(void)
         cmocka_unit_test(every_encoding_and_layout),
         cmocka_unit_test(single_curve),
         cmocka_unit_test(missing_indices),
-        cmocka_unit_test(only_what_is_wanted),
+        cmocka_unit_test(only_requested_channels),
         cmocka_unit_test(indirect_spring_constant),
         cmocka_unit_test(user_calibration),
         cmocka_unit_test(missing_calibration),
         cmocka_unit_test(height_without_conversion),
         cmocka_unit_test(height_of_unknown_type),
         cmocka_unit_test(many_channels),
-        cmocka_unit_test(cut_off),
-        cmocka_unit_test(described),
+        cmocka_unit_test(truncated_file),
+        cmocka_unit_test(metadata),
         cmocka_unit_test(lost_segments),
         cmocka_unit_test(lost_position),
-        cmocka_unit_test(cut_header),
-        cmocka_unit_test(swollen_entry),
+        cmocka_unit_test(truncated_header),
+        cmocka_unit_test(oversized_entry),
     };
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -1,12 +1,9 @@
-/* Every file of force curves of the shared reference data, where present: read as which format, or
- * refused with which words; and against the channels that another program decoded: n, min, max,
- * mean, first, last of force, heights and time, with positions, calibration, set-point and
- * velocity.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Every force curve file of the shared reference data, if they exist: detected format, or refusal
+ * with its message. Channels are compared with those of another program: n, min, max, mean, first,
+ * last of force, heights and time, with positions, calibration, set-point and velocity.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/read.h"
 
@@ -46,14 +43,14 @@ enum field {
     N_FIELDS
 };
 
-/* What is known of each file; one that is not here fails. */
+/* Properties of each file; a file that is not listed fails. */
 typedef struct known_file {
     const char *folder, *name;
-    const char *format;  /* that it is recognised as, NULL: it is not */
-    const char *refused; /* words of the message where no curve comes of it */
+    const char *format;  /* detected format; NULL: none */
+    const char *refused; /* words of the message if there is no curve */
     size_t curves;
-    double spring_constant, sensitivity; /* to be given, 0: none */
-    size_t rows;                         /* of the reference */
+    double spring_constant, sensitivity; /* stated value, 0: none */
+    size_t rows;                         /* rows of the reference */
 } known_file;
 
 static const known_file known_files[] = {
@@ -101,7 +98,7 @@ static const known_file known_files[] = {
 };
 enum { N_KNOWN = sizeof known_files / sizeof *known_files };
 
-/* The file and the curve that are open; the rows of the reference come in their order. */
+/* The open file and curve; the rows of the reference are in their order. */
 typedef struct open_file {
     const known_file *known;
     wt_input *input;
@@ -137,8 +134,8 @@ static wt_input *open_input(const known_file *k)
     return input;
 }
 
-/* This file is not calibrated: the force is missing and the error says what to give. The reference
- * was made with these two values given by the user. */
+/* This file is not calibrated: the force is missing, and the error states the required options. The
+ * reference was made with these two values. */
 static void is_uncalibrated(open_file *f, wt_read_options o)
 {
     wt_error err = WT_ERROR_INIT;
@@ -175,7 +172,7 @@ static void next_curve(open_file *f)
 static void close_file(open_file *f)
 {
     if (f->known != NULL) {
-        /* The reference has all curves that the file has. */
+        /* The reference contains all curves of the file. */
         assert_int_equal(wt_force_next(f->source, &f->curve, NULL), WT_END);
         assert_int_equal(wt_force_count(f->source), f->n);
         assert_int_equal(f->rows, f->known->rows);
@@ -187,7 +184,7 @@ static void close_file(open_file *f)
     *f = (open_file){.n = 0};
 }
 
-/* ---- what each file is ------------------------------------------------------------------------
+/* ---- properties of each file ------------------------------------------------------------------
  */
 
 static void check_file(const known_file *k)
@@ -254,7 +251,7 @@ static void every_file(void **state)
 /* ---- against the reference --------------------------------------------------------------------
  */
 
-/* Empty fields are what the reference does not know. The reference has 12 digits. */
+/* Empty fields are unknown in the reference, which has 12 digits. */
 static void check(const char *what, double actual, const char *text, double scale, const char *row)
 {
     if (*text == '\0')
@@ -285,7 +282,7 @@ static void add(summary *s, const double *values, size_t n)
     s->n += n;
 }
 
-/* min, max, mean, first, last; a mean near zero is no more exact than its terms. */
+/* min, max, mean, first, last; a mean near zero is only as accurate as its terms. */
 static void check_summary(const summary *s, char *const *field, double floor, const char *row)
 {
     const double scale = fmax(fmax(fabs(s->low), fabs(s->high)), floor);
@@ -312,8 +309,8 @@ static wt_quantity quantity_of(const char *column)
     return WT_Q_NONE;
 }
 
-/* The reference of the Igor wave has way in and way out as one segment; that of the Chiaro counts
- * the sample where the piezo turns to the way out. */
+/* The reference of the Igor wave has approach and retraction as one segment; that of the Chiaro
+ * counts the turning sample as retraction. */
 static summary summarise(const wt_force_curve *curve, size_t number, wt_quantity q, const char *row)
 {
     const bool whole = strncmp(row, "asylum/", 7) == 0;
@@ -334,7 +331,7 @@ static summary summarise(const wt_force_curve *curve, size_t number, wt_quantity
                 1);
         add(&s, channel->values, segment->n_points - (turns && i == 0));
     }
-    /* The other program takes the unnamed numbers of NT-MDT for nanovolts. */
+    /* The other program reads the numbers of NT-MDT without a unit as nanovolts. */
     const double unit = strstr(row, "ntmdt") != NULL && q == WT_Q_FORCE ? 1e-9 : 1;
     return (summary){s.n,          s.missing,      unit * s.low, unit * s.high,
                      unit * s.sum, unit * s.first, unit * s.last};
@@ -346,17 +343,17 @@ static void check_values(const wt_force_curve *curve, size_t number, char *const
     const wt_quantity q = quantity_of(field[COLUMN]);
     const summary s = summarise(curve, number, q, row);
     assert_int_equal(s.n, strtoul(field[N], NULL, 10));
-    /* A height is the difference of ramps of 0.1 mm, each rounded to 1e-20 m, in whatever order a
-     * program adds them; one file has a height of 6 pm. */
+    /* A height is the difference of ramps of 0.1 mm, each rounded to 1e-20 m, in the summation
+     * order of the program; one file has a height of 6 pm. */
     const bool height = q == WT_Q_HEIGHT || q == WT_Q_MEASURED_HEIGHT;
     check_summary(&s, field + MIN, height ? 1e-11 : 0, row);
 }
 
-/* What this program takes otherwise from the file, or not at all. */
+/* Values that this program reads differently, or not at all. */
 static bool is_other(const known_file *k, const char *column)
 {
     const bool chiaro = strcmp(k->format, "chiaro") == 0;
-    /* Indentation and tip are computed by the instrument from what it stores beside them. */
+    /* The instrument computes indentation and tip position from the stored values. */
     return chiaro &&
            (strcmp(column, "height (measured)") == 0 || strcmp(column, "tip position") == 0);
 }
@@ -455,7 +452,7 @@ static const double *values_of(const wt_segment *segment, wt_quantity q)
     return c->values;
 }
 
-/* As the file stores it: the way in from the contact outwards. */
+/* As stored: the approach from the contact outwards. */
 static void add_stored(summary *s, const wt_segment *segment, wt_quantity q)
 {
     static double turned[4096];

@@ -1,9 +1,7 @@
-/* NanoScope force files from the independent writer, numbers chosen so that they read back exactly.
- * The measured files are compared in test_read_measured.c.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "made_file.h"
+/* NanoScope force files by the independent writer, with numbers that are read back exactly.
+ * test_read_measured.c compares the measured files.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reader_fixture.h"
 #include "writers/nanoscope_writer.h"
 
 enum {
@@ -17,7 +15,7 @@ enum {
 static const double step = 0.000375, sensor_step = 0.0001;
 static double volts[MOST], sensor[MOST];
 
-/* Curve by curve, in the order of time: the end of the way in is 0.75 V above its beginning. */
+/* Curves in time order: the end of the approach is 0.75 V above its start. */
 static nanoscope_writer_file usual(size_t n_hold, bool volume)
 {
     static nanoscope_writer_channel channels[2];
@@ -97,8 +95,8 @@ static void reads_back(const nanoscope_writer_file *f, size_t n_curves)
         assert_near(r.curve.segments[0].velocity, 1e-6, 1e-12);
     }
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_END);
-    assert_false(logged(&r, "doubtful"));
-    assert_true(logged(&r, "256 times") == f->scaled);
+    assert_false(has_logged(&r, "doubtful"));
+    assert_true(has_logged(&r, "256 times") == f->scaled);
     close_all(&r);
 }
 
@@ -116,7 +114,7 @@ static void curves(void **state)
             }
 }
 
-/* Sizes of a block are as large as a map needs. */
+/* Blocks as large as a map needs. */
 static void large(void **state)
 {
     (void)state;
@@ -135,8 +133,8 @@ static void large(void **state)
     close_all(&r);
 }
 
-/* The file is cut off: the curves before it are there. */
-static void cut(void **state)
+/* Truncated: the curves before the end are read. */
+static void truncated(void **state)
 {
     (void)state;
     nanoscope_writer_file f = usual(0, true);
@@ -145,18 +143,19 @@ static void cut(void **state)
     assert_int_equal(nanoscope_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
     assert_int_equal(wt_force_count(r.source), CURVES - 2);
-    assert_true(logged(&r, "7 of 9 curves"));
+    assert_true(has_logged(&r, "7 of 9 curves"));
     close_all(&r);
     f.missing_bytes = 2 * (IN + OUT) * CURVES;
     assert_int_equal(nanoscope_write(&f), 0);
-    refused(WT_E_CORRUPT, "the file is cut off");
+    assert_refused(WT_E_CORRUPT, "the file is cut off");
     assert_int_equal(open_force(&r, path, NULL), WT_E_CORRUPT);
-    assert_string_equal(r.err.place, "\\*Ciao force image list"); /* where it says how many */
+    /* its statement of the number of curves */
+    assert_string_equal(r.err.place, "\\*Ciao force image list");
     close_all(&r);
 }
 
-/* The mark of the format and nothing behind it: known for what it is, and damaged. */
-static void mark_alone(void **state)
+/* Only the mark of the format: detected, and corrupted. */
+static void header_only(void **state)
 {
     (void)state;
     static const char *const marks[] = {"\\*Force file list", "\\*File list"};
@@ -165,11 +164,11 @@ static void mark_alone(void **state)
         assert_non_null(out);
         assert_true(fputs(marks[i], out) >= 0);
         assert_int_equal(fclose(out), 0);
-        refused(WT_E_CORRUPT, "");
+        assert_refused(WT_E_CORRUPT, "");
     }
 }
 
-/* A ramp that was stopped leaves room behind the samples of each way. */
+/* A stopped ramp leaves padding after the samples of each direction. */
 static void stopped_ramp(void **state)
 {
     (void)state;
@@ -184,7 +183,7 @@ static void stopped_ramp(void **state)
         f.trigger = 0;
         assert_int_equal(nanoscope_write(&f), 0);
         assert_int_equal(open_force(&r, path, NULL), WT_OK);
-        assert_true(logged(&r, "7 and 6 of 8 samples"));
+        assert_true(has_logged(&r, "7 and 6 of 8 samples"));
         next_curve(&r);
         for (size_t s = 0, at = 0; s < 2; s++) {
             const wt_segment *segment = &r.curve.segments[s];
@@ -199,7 +198,7 @@ static void stopped_ramp(void **state)
         close_all(&r);
         static unsigned char bytes[16384];
         const size_t n = read_bytes(bytes, sizeof bytes);
-        bytes[n - 4] ^= 1; /* the padding of the last way */
+        bytes[n - 4] ^= 1; /* padding of the last direction */
         assert_int_equal(open_bytes(bytes, n), WT_E_CORRUPT);
     }
 }
@@ -215,9 +214,9 @@ static void oddities(void **state)
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
     next_curve(&r);
     assert_true(isnan(channel(&r.curve.segments[0], WT_Q_FORCE)[2]));
-    assert_true(logged(&r, "are missing: not measured"));
+    assert_true(has_logged(&r, "are missing: not measured"));
     close_all(&r);
-    /* Nor does it hide which way the sensor counts, nor what the deflection rises by. */
+    /* It does not affect the detected direction of the sensor or of the deflection. */
     f = usual(0, false);
     volts[IN - 1] = sensor[0] = (double)NAN;
     assert_int_equal(nanoscope_write(&f), 0);
@@ -225,9 +224,9 @@ static void oddities(void **state)
     next_curve(&r);
     assert_near_abs(channel(&r.curve.segments[0], WT_Q_MEASURED_HEIGHT)[1], -900e-9 * sensor[1],
                     1e-20);
-    assert_false(logged(&r, "the scale of the file is doubtful"));
+    assert_false(has_logged(&r, "the scale of the file is doubtful"));
     close_all(&r);
-    /* The mark of 16 bits is a number like any other in 32. */
+    /* The mark of 16 bits is an ordinary number in 32 bits. */
     f = usual(0, false);
     f.width = 4;
     volts[2] = -32768 * step;
@@ -236,14 +235,14 @@ static void oddities(void **state)
     next_curve(&r);
     assert_near(channel(&r.curve.segments[0], WT_Q_DEFLECTION_VOLTAGE)[2], volts[2], 1e-12);
     close_all(&r);
-    /* A trigger that the deflections contradict. */
+    /* A trigger that contradicts the deflections. */
     f = usual(0, false);
     f.trigger = 0.1;
     assert_int_equal(nanoscope_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
-    assert_true(logged(&r, "the trigger was 0.1 V: the scale of the file is doubtful"));
+    assert_true(has_logged(&r, "the trigger was 0.1 V: the scale of the file is doubtful"));
     close_all(&r);
-    /* Not calibrated: what to give is said. */
+    /* Not calibrated: the message states the required options. */
     f = usual(0, false);
     f.spring_constant = f.deflection_sensitivity = 0;
     wt_read_options o = wt_read_defaults();
@@ -255,7 +254,7 @@ static void oddities(void **state)
     close_all(&r);
 }
 
-/* A period that is stored from anywhere is turned so that its farthest point lies in the middle. */
+/* A period with any stored start is rotated so that its farthest point is in the middle. */
 static void peakforce(void **state)
 {
     (void)state;
@@ -269,7 +268,7 @@ static void peakforce(void **state)
     reading r;
     assert_int_equal(nanoscope_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
-    assert_true(logged(&r, "not verified on a genuine file"));
+    assert_true(has_logged(&r, "not verified on a genuine file"));
     next_curve(&r);
     for (size_t i = 0; i < N; i++) {
         const wt_segment *segment = &r.curve.segments[i / IN];
@@ -282,7 +281,7 @@ static void peakforce(void **state)
     close_all(&r);
 }
 
-/* Wherever a byte is changed or the file is cut, it is read or refused. */
+/* After a change of any byte or a truncation the file is read or refused. */
 static void damaged(void **state)
 {
     (void)state;
@@ -307,7 +306,8 @@ static void damaged(void **state)
     }
     for (size_t length = 0; length < n; length += 29)
         (void)open_bytes(bytes, length);
-    /* One channel of one curve beside one of nine: it would read on in the block of the other. */
+    /* One channel with one curve and another with nine: the first must not read into the block of
+     * the other. */
     f = usual(0, true);
     assert_int_equal(nanoscope_write(&f), 0);
     const size_t n_volume = read_bytes(bytes, sizeof bytes);
@@ -317,8 +317,8 @@ static void damaged(void **state)
     assert_int_equal(open_bytes(bytes, n_volume), WT_E_CORRUPT);
 }
 
-/* A number of the header is whole, or is named with its line. */
-static void contradictions(void **state)
+/* A header number is complete, or named with its line. */
+static void inconsistencies(void **state)
 {
     (void)state;
     static unsigned char bytes[65536];
@@ -353,19 +353,21 @@ static void contradictions(void **state)
             assert_true(isnan(r.curve.cantilever.spring_constant));
         else
             assert_near(r.curve.cantilever.spring_constant, cases[i].spring_constant, 0);
-        assert_int_equal(logged(&r, "it is not used: correct the line"), cases[i].words != NULL);
+        assert_int_equal(has_logged(&r, "it is not used: correct the line"),
+                         cases[i].words != NULL);
         if (cases[i].words != NULL)
-            assert_true(logged(&r, cases[i].words));
+            assert_true(has_logged(&r, cases[i].words));
         close_all(&r);
     }
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(contradictions), cmocka_unit_test(curves),
-                                       cmocka_unit_test(large),          cmocka_unit_test(cut),
-                                       cmocka_unit_test(mark_alone),     cmocka_unit_test(oddities),
-                                       cmocka_unit_test(peakforce),      cmocka_unit_test(damaged),
-                                       cmocka_unit_test(stopped_ramp)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(inconsistencies), cmocka_unit_test(curves),
+        cmocka_unit_test(large),           cmocka_unit_test(truncated),
+        cmocka_unit_test(header_only),     cmocka_unit_test(oddities),
+        cmocka_unit_test(peakforce),       cmocka_unit_test(damaged),
+        cmocka_unit_test(stopped_ramp)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

@@ -1,10 +1,8 @@
-/* Nanosurf .nid: files of known content from the independent writer, numbers chosen so that they
- * read back exactly; and, where present, the measured images and the thermal spectrum.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "made_file.h"
+/* Nanosurf .nid files with known content by the independent writer, with numbers that are read back
+ * exactly. The measured images and the thermal spectrum are read if they exist.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/force_assembler.h"
+#include "reader_fixture.h"
 #include "writers/nid_writer.h"
 
 #define LINES 6
@@ -117,13 +115,13 @@ static void units_versions_encodings(void **state)
         reading r;
         assert_int_equal(nid_write(&f), 0);
         assert_int_equal(open_force(&r, path, NULL), WT_OK);
-        assert_true(logged(&r, "not verified on a genuine file"));
+        assert_true(has_logged(&r, "not verified on a genuine file"));
         assert_curves(&r, lengths_differ, factors[i % 3]);
         close_all(&r);
     }
 }
 
-/* A phase that is not in the file takes no time, even if the header does not tell how much. */
+/* A phase that is not in the file has no duration, even if the header does not state it. */
 static void without_pause(void **state)
 {
     (void)state;
@@ -144,7 +142,7 @@ static void without_pause(void **state)
     close_all(&r);
 }
 
-/* What the user gives replaces what the instrument has applied, whatever the exported unit. */
+/* Stated values replace those of the instrument, for any exported unit. */
 static void user_calibration(void **state)
 {
     (void)state;
@@ -200,8 +198,8 @@ static void missing_calibration(void **state)
     close_all(&r);
 }
 
-/* A force in newton whose spring constant the file does not tell: the force stands, the deflection
- * needs the user. */
+/* A force in newtons without a spring constant in the file: the force is read, the deflection needs
+ * the option. */
 static void force_without_spring_constant(void **state)
 {
     (void)state;
@@ -253,7 +251,7 @@ static void serpentine_map(void **state)
     assert_int_equal(nid_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
-    assert_true(isnan(r.curve.x) && logged(&r, "rotated"));
+    assert_true(isnan(r.curve.x) && has_logged(&r, "rotated"));
     close_all(&r);
 }
 
@@ -278,7 +276,7 @@ static void listed_positions(void **state)
     close_all(&r);
 }
 
-static void described(void **state)
+static void metadata(void **state)
 {
     (void)state;
     static const char *const expected[][4] = {
@@ -318,7 +316,7 @@ static void described(void **state)
 
 /* ---- images ------------------------------------------------------------------------------- */
 
-/* Of 4 lines with 8 points, 8 um wide and 4 um high. */
+/* 4 lines with 8 points, 8 um wide and 4 um high. */
 static void write_scan(const nid_writer_channel *of_scan, size_t n, size_t missed)
 {
     const nid_writer_group scan = {.name = "Scan forward",
@@ -370,7 +368,7 @@ static void image_with_known_rows(void **state)
         assert_near(images[0].values[i], heights[i], 0);
         assert_near_abs(images[1].values[i], phase[i] * acos(-1) / 180, 1e-8);
     }
-    /* The same file has no force curves and says so. */
+    /* The same file has no force curves and reports it. */
     assert_int_equal(wt_force_open(formats, r.input, NULL, r.log, &r.source, &r.err), WT_E_EMPTY);
     for (size_t i = 0; i < n; i++)
         wt_image_clear(&images[i]);
@@ -378,7 +376,7 @@ static void image_with_known_rows(void **state)
     close_all(&r);
 }
 
-/* Every change of the file's length, and of what the header says of it, is found. */
+/* Every change of the file length, or of its statement in the header, is detected. */
 static void sizes_must_add_up(void **state)
 {
     (void)state;
@@ -387,7 +385,7 @@ static void sizes_must_add_up(void **state)
     assert_int_equal(nid_write(&f), 0);
     const size_t whole = read_bytes(bytes, sizeof bytes);
     wt_read_options o = wt_read_defaults();
-    o.format = "nid"; /* the question is what the reader says */
+    o.format = "nid"; /* the message of the reader is tested */
     for (size_t n = whole - 1500; n < whole + 3; n++) {
         reading r = {.log = NULL};
         assert_int_equal(wt_input_open_memory(bytes, n, "cut", &r.input, NULL), WT_OK);
@@ -397,7 +395,7 @@ static void sizes_must_add_up(void **state)
     }
 }
 
-/* A number of samples or lines that cannot be. */
+/* An impossible number of samples or lines. */
 static void no_samples(void **state)
 {
     (void)state;
@@ -422,7 +420,7 @@ static void no_samples(void **state)
     }
 }
 
-/* A complete scan that went down ends at line 0; one that was stopped has lines of one value. */
+/* A complete downward scan ends at line 0; a stopped one has lines of a constant value. */
 static void stopped_scans(void **state)
 {
     (void)state;
@@ -474,7 +472,7 @@ static wt_image *read_shared(const char *name, size_t *n)
     return images;
 }
 
-/* The header of this file calls the peak 772 fm/sqrt(Hz) at 179.8 kHz, in bins of 38.147 Hz. */
+/* The header of this file states the peak as 772 fm/sqrt(Hz) at 179.8 kHz, in bins of 38.147 Hz. */
 static void measured_thermal_spectrum(void **state)
 {
     (void)state;
@@ -493,7 +491,7 @@ static void measured_thermal_spectrum(void **state)
     assert_int_equal(s->n_columns, 8369);
     double bin = s->width / (double)(s->n_columns - 1);
     assert_near(bin, 38.147, 1e-5);
-    /* The fit range of the instrument keeps clear of the noise at low frequency. */
+    /* The fit range of the instrument excludes the noise at low frequency. */
     for (size_t i = (size_t)(114e3 / bin); i < (size_t)(266e3 / bin); i++)
         peak = s->values[i] > s->values[peak] || peak == 0 ? i : peak;
     assert_near_abs(s->values[peak], 777e-15, 0.5e-15);
@@ -543,7 +541,7 @@ static void measured_images(void **state)
             assert_near(images[j].width, files[i].width, 1e-12);
             assert_near(images[j].height, files[i].width, 1e-12);
         }
-        /* Forward and backward see the same surface, the same way round. */
+        /* Forward and backward scans show the same surface in the same orientation. */
         assert_string_equal(images[0].unit, "m");
         assert_true(correlation(&images[0], &images[n / 2], false) > 0.7);
         assert_true(correlation(&images[0], &images[n / 2], true) < 0.2);
@@ -561,7 +559,7 @@ int main(void)
         cmocka_unit_test(force_without_spring_constant),
         cmocka_unit_test(serpentine_map),
         cmocka_unit_test(listed_positions),
-        cmocka_unit_test(described),
+        cmocka_unit_test(metadata),
         cmocka_unit_test(image_with_known_rows),
         cmocka_unit_test(stopped_scans),
         cmocka_unit_test(sizes_must_add_up),

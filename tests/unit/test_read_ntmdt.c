@@ -1,14 +1,11 @@
-/* Text exports of NT-MDT: rows by hand. The measured file is compared in test_read_measured.c.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "made_file.h"
+/* Text exports of NT-MDT with rows written here. test_read_measured.c compares the measured file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reader_fixture.h"
 
 enum { ROWS = 12, IDLE = 3 };
 
-/* From the end of the ramp in the sample outwards; the first rows repeat the first that was
- * reached.
- */
+/* From the end of the ramp in the sample outwards; the first rows repeat the first reached
+ * position. */
 static void write_rows(size_t n, const char *end)
 {
     FILE *out = fopen(path, "wb");
@@ -28,8 +25,8 @@ static void curve(void **state)
     reading r;
     write_rows(ROWS, "");
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
-    assert_true(logged(&r, "does not say the unit of the deflection signal"));
-    assert_true(logged(&r, "3 rows that repeat the first sample"));
+    assert_true(has_logged(&r, "does not say the unit of the deflection signal"));
+    assert_true(has_logged(&r, "3 rows that repeat the first sample"));
     next_curve(&r);
     assert_int_equal(r.curve.n_segments, 2);
     for (size_t s = 0; s < 2; s++) {
@@ -50,20 +47,20 @@ static void curve(void **state)
     close_all(&r);
 }
 
-/* Any other numbers are not taken for it. */
+/* Other numbers are not detected as this format. */
 static void others(void **state)
 {
     (void)state;
     write_rows(ROWS, "1,5\t1,0\t1,0\r\n"); /* above 0 */
-    refused(WT_E_FORMAT, "not recognised");
+    assert_refused(WT_E_FORMAT, "not recognised");
     write_rows(ROWS, "-0,1\t1\t1,0\r\n"); /* a number without a comma */
-    refused(WT_E_FORMAT, "not recognised");
+    assert_refused(WT_E_FORMAT, "not recognised");
     write_rows(ROWS, "-0,1\t1,0\r\n"); /* two columns */
-    refused(WT_E_FORMAT, "not recognised");
+    assert_refused(WT_E_FORMAT, "not recognised");
     write_rows(5, "");
-    refused(WT_E_FORMAT, "not recognised");
-    write_rows(2000, "-0,1\t1,0\r\n"); /* behind what detection saw */
-    refused(WT_E_CORRUPT, "no row of three numbers");
+    assert_refused(WT_E_FORMAT, "not recognised");
+    write_rows(2000, "-0,1\t1,0\r\n"); /* after the part that the detection reads */
+    assert_refused(WT_E_CORRUPT, "no row of three numbers");
 }
 
 int main(void)

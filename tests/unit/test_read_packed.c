@@ -1,8 +1,6 @@
-/* What stands in packed files: gzip archives and spreadsheets, sound, damaged and made to harm.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "made_file.h"
+/* Contents of packed files: gzip archives and spreadsheets, sound, corrupted and malicious.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reader_fixture.h"
 #include "writers/book_writer.h"
 
 #include <zip.h>
@@ -12,7 +10,7 @@
 #define SWEEP TABLE "0.1\t20\t10\t1\n1\t20\t11\t1.25\n10\t20\t12.1\t1.5\n"
 #define WARM TABLE "0.1\t60\t8\t0.5\n1\t60\t8.5\t0.625\n10\t60\t9\t0.75\n"
 
-/* Reads the file; the error is that of a failure. */
+/* Reads the file; sets the error on failure. */
 static wt_status read_sweep(const char *sheet, wt_sweep *sweep, wt_log *log, wt_error *err)
 {
     wt_input *input = NULL;
@@ -58,7 +56,7 @@ static void cannot_read(const char *sheet, wt_status expected, const char *words
         fail_msg("%d, \"%s\" instead of %d, \"%s\"", (int)status, all, (int)expected, words);
 }
 
-/* The check of a description reads a packed sample as reading does. */
+/* The check of a description reads a packed sample as a reader does. */
 static void checks(const char *sheet, double storage)
 {
     char xml[] = "/tmp/weartrack-packed-XXXXXX.xml";
@@ -118,13 +116,13 @@ static void test_gzip(void **state)
     write_bytes(bytes, n);
     reads(NULL, 1, 10e6);
     checks(NULL, 10e6);
-    /* A lone half of it, and one whose check sum differs. */
+    /* A member that is only half complete, and one with a wrong checksum. */
     write_bytes(bytes, n / 2);
     cannot_read(NULL, WT_E_CORRUPT, "the end of the archive is missing");
     bytes[n - 6] ^= 1;
     write_bytes(bytes, n);
     cannot_read(NULL, WT_E_CORRUPT, "damaged");
-    /* Members follow one another; zeros at the end are no member. */
+    /* Members follow one another; zeros at the end are not a member. */
     n = pack(TABLE, strlen(TABLE), bytes, sizeof bytes);
     n += pack(&SWEEP[strlen(TABLE)], strlen(SWEEP) - strlen(TABLE), bytes + n, sizeof bytes - n);
     memset(bytes + n, 0, 100);
@@ -133,7 +131,7 @@ static void test_gzip(void **state)
     memset(bytes + n, 'x', 100);
     write_bytes(bytes, n + 100);
     cannot_read(NULL, WT_E_CORRUPT, "something else stands behind");
-    /* What is in it is said, not that it is packed. */
+    /* The message describes the content, not the packing. */
     n = pack("nothing known", 13, bytes, sizeof bytes);
     write_bytes(bytes, n);
     cannot_read(NULL, WT_E_FORMAT, "text of no known layout");
@@ -200,7 +198,7 @@ static void test_sheets(void **state)
         reads(NULL, 1, 10e6);
         reads("Warm", 1, 8e6);
     }
-    /* More sheets than anybody has. */
+    /* More sheets than any file has. */
     static book_writer_sheet many[1025];
     for (size_t i = 0; i < sizeof many / sizeof *many; i++)
         many[i] = sheets[0];
@@ -208,8 +206,8 @@ static void test_sheets(void **state)
     cannot_read(NULL, WT_E_UNSUPPORTED, "more than 1024 sheets");
 }
 
-/* The number of a row is its number in the sheet. */
-static void test_place(void **state)
+/* The row number is that in the sheet. */
+static void test_row_and_sheet_numbers(void **state)
 {
     (void)state;
     const book_writer_sheet sheet = {"One", "\n\n" TABLE "0.1\t20\t10\t1\n1\t20\tten\t1\n", false};
@@ -232,12 +230,12 @@ static void test_place(void **state)
     }
 }
 
-/* ---- made to harm ---------------------------------------------------------------------------- */
+/* ---- malicious files ------------------------------------------------------------------------- */
 
 #define SHEET(cells) "<worksheet><sheetData>" cells "</sheetData></worksheet>"
 #define ROW(n, cells) "<row r=\"" n "\">" cells "</row>"
 
-/* A book with one sheet of this XML, and these strings. */
+/* A book with one sheet of this XML and these strings. */
 static void write_parts(const char *sheet, const char *strings)
 {
     static const char book[] = "<workbook><sheets><sheet name=\"A\" sheetId=\"1\" "
@@ -258,7 +256,7 @@ static void write_parts(const char *sheet, const char *strings)
     assert_int_equal(zip_close(zip), 0);
 }
 
-static void test_hostile(void **state)
+static void test_malicious(void **state)
 {
     (void)state;
     static const struct {
@@ -292,7 +290,7 @@ static void test_hostile(void **state)
             strstr(err.message, cases[i].words) == NULL)
             fail_msg("case %zu: %d, %s", i, (int)status, err.message);
     }
-    /* One long text in many cells: more text than any sound file gives. */
+    /* One long text in many cells: more text than in any sound file. */
     static char sheet[400000], strings[300000];
     size_t used = (size_t)snprintf(sheet, sizeof sheet, "<worksheet><sheetData>");
     for (unsigned i = 1; i < 4000; i++)
@@ -315,7 +313,7 @@ static size_t file_bytes(unsigned char *bytes, size_t size)
     return n;
 }
 
-/* A book cut off, and an archive that is none. */
+/* A truncated book, and an invalid archive. */
 static void test_damaged(void **state)
 {
     (void)state;
@@ -339,7 +337,7 @@ static void test_damaged(void **state)
 
 /* ---- old Excel files ------------------------------------------------------------------------- */
 
-/* A stream of 4096 bytes and more stands in sectors of its own; below that in small ones. */
+/* A stream of 4096 bytes or more has its own sectors; a shorter one uses small sectors. */
 static void test_long_and_short(void **state)
 {
     (void)state;
@@ -364,7 +362,7 @@ static void test_long_and_short(void **state)
     }
 }
 
-/* A degree sign is one byte in the code page of BIFF5, and in a text of BIFF8 that is narrow. */
+/* A degree sign is one byte in the code page of BIFF5, and in a narrow text of BIFF8. */
 static void test_code_page(void **state)
 {
     (void)state;
@@ -382,7 +380,7 @@ static void test_code_page(void **state)
     }
 }
 
-/* Where such a record stands, behind the place. */
+/* Position of such a record after `position`. */
 static size_t find_record(const unsigned char *bytes, size_t n, size_t from, unsigned id)
 {
     for (size_t at = from; at + 1 < n; at++)
@@ -392,23 +390,25 @@ static size_t find_record(const unsigned char *bytes, size_t n, size_t from, uns
     return 0;
 }
 
-/* Places of a file that is sound, changed one by one. */
-static void test_hostile_xls(void **state)
+/* Positions of a sound file that are changed one by one. */
+static void test_malicious_xls(void **state)
 {
     (void)state;
     enum { STREAM = 5 * 512, OF_HEADER = 0, OF_RECORD = 1 };
     static const struct {
         xls_way way;
         int of;
-        size_t at; /* in the file, or behind the beginning of the record */
+        size_t at; /* offset in the file, or from the start of the record */
         unsigned id, value;
         const char *words;
     } cases[] = {
-        {XLS_PLAIN, OF_HEADER, 30, 0, 10, "damaged or its end"},     /* size of a sector */
-        {XLS_PLAIN, OF_HEADER, 49, 0, 1, "damaged or its end"},      /* folder outside */
-        {XLS_PLAIN, OF_HEADER, 76, 0, 99, "damaged or its end"},     /* table outside */
-        {XLS_PLAIN, OF_HEADER, 512 + 4, 0, 1, "damaged or its end"}, /* folder follows itself */
-        {XLS_PLAIN, OF_HEADER, 1024 + 76, 0, 9, "without a spreadsheet"}, /* root without child */
+        {XLS_PLAIN, OF_HEADER, 30, 0, 10, "damaged or its end"}, /* size of a sector */
+        /* directory outside the file */
+        {XLS_PLAIN, OF_HEADER, 49, 0, 1, "damaged or its end"},
+        {XLS_PLAIN, OF_HEADER, 76, 0, 99, "damaged or its end"}, /* table outside the file */
+        /* directory is its own successor */
+        {XLS_PLAIN, OF_HEADER, 512 + 4, 0, 1, "damaged or its end"},
+        {XLS_PLAIN, OF_HEADER, 1024 + 76, 0, 9, "without a spreadsheet"}, /* root without a child */
         {XLS_PLAIN, OF_HEADER, 1024 + 128, 0, 'V', "without a spreadsheet"},
         {XLS_PLAIN, OF_HEADER, 1024 + 128 + 121, 0, 200, "damaged or its end"}, /* length */
         {XLS_PLAIN, OF_HEADER, 2048 - 512 + 4, 0, 200, "damaged or its end"},   /* small sectors */
@@ -441,7 +441,7 @@ static void test_hostile_xls(void **state)
             fail_msg("case %zu: %d, %s", i, (int)status, all);
         wt_sweep_clear(&sweep);
     }
-    /* Many sheets in one place. */
+    /* Many sheets at one position. */
     book_writer_sheet many[8];
     for (size_t i = 0; i < 8; i++)
         many[i] = (book_writer_sheet){"One", i == 0 ? SWEEP : "", false};
@@ -456,8 +456,8 @@ static void test_hostile_xls(void **state)
     cannot_read(NULL, WT_E_CORRUPT, "overlap");
 }
 
-/* The instrument's own file, and its values as Excel saved another export: skipped where they are
- * absent. */
+/* The file of the instrument, and its values as saved by Excel in another export: skipped if they
+ * do not exist. */
 static void test_measured(void **state)
 {
     (void)state;
@@ -485,11 +485,14 @@ static void test_measured(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_gzip),      cmocka_unit_test(test_sheets),
-        cmocka_unit_test(test_place),     cmocka_unit_test(test_hostile),
-        cmocka_unit_test(test_damaged),   cmocka_unit_test(test_long_and_short),
-        cmocka_unit_test(test_code_page), cmocka_unit_test(test_hostile_xls),
-        cmocka_unit_test(test_measured)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gzip),
+                                       cmocka_unit_test(test_sheets),
+                                       cmocka_unit_test(test_row_and_sheet_numbers),
+                                       cmocka_unit_test(test_malicious),
+                                       cmocka_unit_test(test_damaged),
+                                       cmocka_unit_test(test_long_and_short),
+                                       cmocka_unit_test(test_code_page),
+                                       cmocka_unit_test(test_malicious_xls),
+                                       cmocka_unit_test(test_measured)};
     return cmocka_run_group_tests(tests, set_up, clean);
 }

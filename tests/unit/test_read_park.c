@@ -1,9 +1,7 @@
-/* TIFF files of Park Systems from the independent writer. The measured file is compared in
- * test_read_measured.c.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "made_file.h"
+/* TIFF files of Park Systems by the independent writer. test_read_measured.c compares the measured
+ * file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reader_fixture.h"
 #include "writers/park_writer.h"
 
 enum { CURVES = 2, HALF = 8, SAMPLES = 2 * HALF, VALID_IN = 5, VALID_OUT = 6 };
@@ -15,7 +13,7 @@ static bool valid(size_t i)
     return i < HALF ? i < VALID_IN : i - HALF < VALID_OUT;
 }
 
-/* Numbers that floats hold exactly; behind the last one of each half it is repeated. */
+/* Numbers that floats represent exactly; the last one of each half is repeated. */
 static park_writer_file usual(void)
 {
     static const park_writer_channel channels[] = {{"Force", "nN", 2, force},
@@ -67,7 +65,7 @@ static void curves(void **state)
     }
 }
 
-/* Without a time nothing tells what was measured, and that is said. */
+/* Without a time the measured part is unknown, which is reported. */
 static void untimed(void **state)
 {
     (void)state;
@@ -76,7 +74,7 @@ static void untimed(void **state)
     f.n_channels = 3;
     assert_int_equal(park_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
-    assert_true(logged(&r, "no channel Time Stamp"));
+    assert_true(has_logged(&r, "no channel Time Stamp"));
     next_curve(&r);
     assert_int_equal(r.curve.segments[0].n_points, HALF);
     close_all(&r);
@@ -88,7 +86,7 @@ static void pictures(void **state)
     park_writer_file f = usual();
     f.picture = true;
     assert_int_equal(park_write(&f), 0);
-    refused(WT_E_EMPTY, "the picture holds no force curve");
+    assert_refused(WT_E_EMPTY, "the picture holds no force curve");
 }
 
 static void damaged(void **state)
@@ -110,7 +108,7 @@ static void damaged(void **state)
         assert_int_not_equal(open_bytes(bytes, length), WT_OK);
 }
 
-/* Bytes that are missing inside shift all behind them: the small picture at the end shows it. */
+/* Missing bytes move all later ones, which the small image at the end shows. */
 static void missing_inside(void **state)
 {
     (void)state;

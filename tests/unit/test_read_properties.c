@@ -1,9 +1,7 @@
-/* Java .properties: escapes, continued lines, comments, damage. Cases follow the description of
+/* Java .properties: escapes, continued lines, comments, errors. The cases follow the description of
  * java.util.Properties.load.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "read/jpk/jpk.h"
 
@@ -99,7 +97,7 @@ static void damage(void **state)
     properties_clear(&p);
 }
 
-/* The worst growth of text: Latin-1 bytes and empty keys, in memory of exactly the input's size. */
+/* Largest growth of text: Latin-1 bytes and empty keys, in a buffer of the exact input size. */
 static void growth(void **state)
 {
     (void)state;

@@ -1,9 +1,7 @@
-/* The engine that runs format descriptions: encodings, line ends, decimal marks, damaged rows, and
- * what parts a sweep into isotherms. Every text is written here, so that its truth is known.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* The engine of format descriptions: encodings, line ends, decimal marks, corrupted rows, and the
+ * split of a sweep into isotherms. The texts are written here, so that the truth is known.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "read/text/text.h"
 
@@ -15,7 +13,7 @@
 static description_xsd *schema;
 static wt_formats *formats;
 
-/* A description of a sweep from the attributes of its parts. */
+/* Description of a sweep from the attributes of its parts. */
 static text_description *describe_as(const char *text, const char *header, const char *table,
                                      const char *inside, const char *after)
 {
@@ -175,7 +173,7 @@ static void separators_and_decimal_marks(void **state)
 
 static void declared_by_the_file(void **state)
 {
-    /* Whole numbers with commas look like decimals; the file says what they are. */
+    /* Integers with commas look like decimals; the file states which they are. */
     static const char text[] = "#DECIMAL:COMMA\n#SEPARATOR:SEMICOLON\n"
                                "f;E';E'';T\nHz;MPa;MPa;degC\n2,0;3;4;20\n20;5;6;20\n";
     text_description *d =
@@ -232,7 +230,7 @@ static void damaged_rows(void **state)
     assert_string_equal(err.file, "made-up.txt");
     assert_string_equal(err.place, "line 4, column 2 (E')");
     assert_non_null(strstr(err.found, "2x"));
-    /* After a blank line too: the rest of the table must not get lost. */
+    /* Also after a blank line the rest of the table is read. */
     assert_int_equal(
         read_rows(d, "1\t2\t3\t20\n\n10\t2\t3x\t20\n20\t2\t3\t20\n", &sweep, NULL, &err),
         WT_E_CORRUPT);
@@ -243,7 +241,7 @@ static void damaged_rows(void **state)
     description_free(d);
 }
 
-/* The line tells the isotherms of a file apart, so a long name gives way. */
+/* The line number distinguishes isotherms of a file, so that a long name is shortened. */
 static void source_of_a_long_name(void **state)
 {
     static const char text[] = "f\tE'\tE''\tT\nHz\tMPa\tMPa\tdegC\n1\t2\t3\t20\n10\t2\t3\t20\n";
@@ -315,7 +313,7 @@ static void missing_values(void **state)
     description_free(d);
 }
 
-static void odd_moduli_are_handed_on(void **state)
+static void unusual_moduli_are_returned(void **state)
 {
     text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
     wt_sweep sweep = {.n_isotherms = 0};
@@ -350,20 +348,20 @@ static void check_split(text_description *d, const char *rows, size_t expected, 
     wt_log_free(log);
 }
 
-static void splits(void **state)
+static void split_into_isotherms(void **state)
 {
     text_description *plain = describe_as("separator=\"tab\"", "", "", "", "");
     text_description *jump =
         describe_as("separator=\"tab\"", "", "", "", "<isotherms temperature-jump=\"3 K\"/>");
     text_description *block = describe_as("separator=\"tab\"", "", "blank=\"block\"", "", "");
     (void)state;
-    /* rising saw-tooth, falling saw-tooth, there and back */
+    /* increasing saw-tooth, decreasing saw-tooth, both directions */
     check_split(plain, "1\t2\t3\t20\n10\t2\t3\t20\n1\t2\t3\t25\n10\t2\t3\t25\n", 2, NULL);
     check_split(plain, "10\t2\t3\t20\n1\t2\t3\t20\n10\t2\t3\t20\n1\t2\t3\t20\n", 2, NULL);
     check_split(plain, "1\t2\t3\t20\n10\t2\t3\t20\n5\t2\t3\t20\n1\t2\t3\t20\n", 2, NULL);
     /* the set frequency jitters, the temperature drifts */
     check_split(jump, "1\t2\t3\t20\n1.002\t2\t3\t21\n1.001\t2\t3\t22\n10\t2\t3\t23\n", 1, NULL);
-    /* frequencies go on over two temperatures */
+    /* frequencies continue over two temperatures */
     check_split(jump, "1\t2\t3\t20\n2\t2\t3\t20\n5\t2\t3\t30\n10\t2\t3\t30\n", 2, NULL);
     check_split(plain, "1\t2\t3\t20\n2\t2\t3\t20\n\n5\t2\t3\t30\n10\t2\t3\t30\n", 1, NULL);
     check_split(block, "1\t2\t3\t20\n2\t2\t3\t20\n\n5\t2\t3\t30\n10\t2\t3\t30\n", 2, NULL);
@@ -472,7 +470,8 @@ static void given_units(void **state)
     options.n_units = 3;
     assert_int_equal(text_read_sweep(&reader, input, &options, log, &sweep, &err), WT_OK);
     assert_near(sweep.isotherms[0].storage_modulus[0], 2e3, 1e-15);
-    assert_near(sweep.isotherms[0].loss_modulus[0], 3e6, 1e-15); /* what the file says stands */
+    /* the value of the file has precedence */
+    assert_near(sweep.isotherms[0].loss_modulus[0], 3e6, 1e-15);
     assert_true(
         logged(log, "is in \"MPa\", as the file or its format says; the unit given, \"GPa\""));
     assert_true(logged(log, "\"D'\", but there is no such column"));
@@ -532,12 +531,12 @@ static void detection(void **state)
     assert_int_equal(detect_text("", 0, 0, &id, &err), WT_E_UNSUPPORTED);
     assert_int_equal(detect_text(head, sizeof head - 1, 0, &id, &err), WT_OK);
     assert_string_equal(id, "table-units");
-    /* the last line counts without its end */
+    /* the last line counts without a line end */
     static const char last[] = "proceduresegments\tFrequency sweep\n[step]";
     assert_int_equal(detect_text(last, sizeof last - 1, 0, &id, &err), WT_OK);
     assert_string_equal(id, "trios-text");
     assert_int_equal(detect_text(head, sizeof head - 1, WT_KIND_FORCE, &id, &err), WT_E_EMPTY);
-    /* A marker far down: the detector asks for more of the file. */
+    /* A marker far down: the detector requests more of the file. */
     const size_t n = 40000;
     char *deep = calloc(n + 200, 1);
     assert_non_null(deep);
@@ -550,7 +549,8 @@ static void detection(void **state)
     free(deep);
 }
 
-/* SQLite, which parses the JSON, was not used in this process: it can still be configured. */
+/* SQLite, which parses the JSON, was not used before in this process and can still be
+ * configured. */
 static void json_in_the_sandbox(void **state)
 {
     wt_input *input = NULL;
@@ -569,7 +569,7 @@ static void json_in_the_sandbox(void **state)
     wt_input_close(input);
 }
 
-/* What the program writes it reads again: the same bits. */
+/* The program reads its own output: the same bits. */
 static void own_stream(void **state)
 {
     static const double kelvin[] = {253.15, 293.15}, omega[] = {0.1, 1. / 3, 2e7};
@@ -614,7 +614,7 @@ static void own_stream(void **state)
     wt_table_free(t);
 }
 
-/* Twice the file takes about twice the time, not four times; the bound only catches the latter. */
+/* Twice the file takes about twice the time, not four times; the bound only detects the latter. */
 static void long_files(void **state)
 {
     text_description *d = describe_as("", "", "", "<step regex=\"^Step (.*)$\"/>", "");
@@ -665,8 +665,8 @@ int main(void)
         cmocka_unit_test(damaged_rows),
         cmocka_unit_test(text_after_the_table),
         cmocka_unit_test(missing_values),
-        cmocka_unit_test(odd_moduli_are_handed_on),
-        cmocka_unit_test(splits),
+        cmocka_unit_test(unusual_moduli_are_returned),
+        cmocka_unit_test(split_into_isotherms),
         cmocka_unit_test(temperature_of_points),
         cmocka_unit_test(tension_and_shear),
         cmocka_unit_test(nothing_is_guessed),

@@ -1,5 +1,6 @@
-/* Places that are equal steps, as exports round them. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+/* Positions at equal steps, rounded by exports.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "core/base/array.h"
 #include "read/text/text.h"
@@ -23,7 +24,8 @@ static void test_equal(void **state)
     assert_int_equal(axis_index(&axis, places[17]), 17);
 }
 
-/* Rounded to a tenth of a micrometre, two thirds of a step: the steps are those of the ends. */
+/* Rounded to a tenth of a micrometre, two thirds of a step: the steps are those of the end
+ * points. */
 static void test_rounded(void **state)
 {
     (void)state;
@@ -49,13 +51,13 @@ static void test_unequal(void **state)
     assert_false(axis_find(places, POINTS, 1e-6, false, &axis, &worst));
     assert_int_equal(worst, 200);
     assert_false(axis_find(places, 1, 1e-6, false, &axis, &worst));
-    /* a drift of the drive is no rounding */
+    /* a drift of the drive is not rounding */
     for (size_t i = 0; i < POINTS; i++)
         places[i] = 1e-6 * (0.1 * (double)i + 1e-4 * (double)(i * i));
     assert_false(axis_find(places, POINTS, 1e-6, true, &axis, &worst));
 }
 
-/* Of a map lines may be left out; a line of which most is missing is none. */
+/* A map may lack lines; an almost empty line is excluded. */
 static void test_holes(void **state)
 {
     (void)state;

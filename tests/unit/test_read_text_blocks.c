@@ -1,10 +1,10 @@
-/* Where a table of a text export parts into curves and isotherms, and how long a segment took.
+/* Split of a text export into curves and isotherms, and the duration of a segment.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "made_file.h"
+#include "reader_fixture.h"
 
 #include "read/text/text.h"
 
-/* Isotherms that two columns part: the group, and the curve of a force table. */
+/* Isotherms separated by two columns: the group, and the curve of a force table. */
 static text_description *describe(description_xsd **schema)
 {
     static const char xml[] =
@@ -27,7 +27,7 @@ static text_description *describe(description_xsd **schema)
     return d;
 }
 
-/* How many isotherms two rows of a text make that differ in these cells only. */
+/* Number of isotherms from two rows of a text that only differ in these cells. */
 static size_t isotherms_of(text_description *d, const char *first, const char *second)
 {
     const wt_read_options options = wt_read_defaults();
@@ -95,7 +95,7 @@ static void duration(void **state)
         assert_near(read_segment(&r, cases[i].text)->duration, cases[i].expected, 1e-9);
         close_all(&r);
     }
-    /* What the header says goes before the column. */
+    /* The header has precedence over the column. */
     reading r = {.log = wt_log_new()};
     const wt_segment *const s = read_segment(
         &r, "## table: force_curve/0\n## title: t\n## column: height\n"

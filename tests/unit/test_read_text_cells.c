@@ -1,8 +1,8 @@
-/* Lines of a text export to cells: each separator, quotes, lines of more cells than memory was
- * taken for at first; files and results of as many columns.
+/* Cells of text lines: each separator, quotes, lines with more cells than first allocated; files
+ * and results with as many columns.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "made_file.h"
+#include "reader_fixture.h"
+#include "table_cells.h"
 
 #include "read/header_number.h"
 #include "read/text/text.h"
@@ -11,7 +11,7 @@
 
 static const text_description plain = {.n_widths = 0};
 
-/* The line is of its own length, so that a sanitizer sees a read beyond it. */
+/* The line has its exact length, so that a sanitizer detects a read beyond it. */
 static text_span make_line(size_t n, char mark)
 {
     char *text = malloc(8 * n);
@@ -151,7 +151,7 @@ static void test_marks(void **state)
     assert_true(cells_are_blank(&cells));
     char copy[8];
     text_copy(copy, sizeof copy, (text_span){"abcdef\xc2\xb0g", 9});
-    assert_string_equal(copy, "abcdef"); /* half of a character is none */
+    assert_string_equal(copy, "abcdef"); /* half of a character is not a character */
     text_copy(copy, sizeof copy, (text_span){"ab", 2});
     assert_string_equal(copy, "ab");
     cells_free(&cells);
@@ -159,7 +159,7 @@ static void test_marks(void **state)
 
 /* ---- files and results ----------------------------------------------------------------------- */
 
-/* The columns that are known stand behind n - 4 that are not. */
+/* The known columns follow n - 4 unknown ones. */
 static void test_wide_files(void **state)
 {
     (void)state;
@@ -201,7 +201,7 @@ static double wide_value(size_t row, size_t column)
     return (double)(1000 * row + column) / 7;
 }
 
-/* Every third column is of text. */
+/* Every third column is text. */
 static wt_table *wide_table(size_t n)
 {
     wt_table *t = wt_table_new("wide", "many columns");
@@ -272,7 +272,7 @@ static void test_wide_results(void **state)
     }
 }
 
-/* Numbers of headers and their errors, before and behind the unit. */
+/* Numbers of headers and their errors, before and after the unit. */
 static void test_header_errors(void **state)
 {
     static const struct {

@@ -1,9 +1,7 @@
-/* Temperatures and frequencies that stand outside of columns, rows in any order, and moduli that
- * follow from others. Every text is written here from one law, so that its truth is known.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* Temperatures and frequencies outside columns, rows in any order, and moduli that follow from
+ * other quantities. The texts are written here from one law, so that the truth is known.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "all_formats.h"
 
@@ -17,7 +15,7 @@
 enum { N_T = 3, N_F = 4 };
 static const double degrees[N_T] = {-10, 0, 20}, hertz[N_F] = {0.5, 2, 8, 32};
 
-/* A law without symmetry: exchanged rows or columns give other numbers. [MPa] */
+/* An asymmetric law [MPa]: exchanged rows or columns give other numbers. */
 static double storage(double celsius, double f)
 {
     return 30 - celsius + 3 * sqrt(f);
@@ -28,7 +26,7 @@ static double loss(double celsius, double f)
     return 4 + 0.1 * celsius + 0.2 * sqrt(f);
 }
 
-/* A text that grows. */
+/* A growing text. */
 typedef struct made_text {
     char text[8192];
     size_t n;
@@ -63,7 +61,7 @@ static wt_status read_sweep(const char *text, const wt_read_options *options, wt
     return status;
 }
 
-/* Checks that the isotherms of a text are those of the law, and that nothing is warned of. */
+/* Tests that the isotherms of a text are those of the law, without a warning. */
 static void reads_isotherms(const char *text)
 {
     const wt_read_options options = wt_read_defaults();
@@ -99,7 +97,7 @@ static void add_rows(made_text *t, double celsius)
 
 /* ---- lines above tables ---------------------------------------------------------------------- */
 
-/* A line above each table, with names above all rows (`names` NULL: only above the first). */
+/* A line above each table; column names above all tables (`names` NULL: only above the first). */
 static void reads_lines(const char *line, const char *gap, bool names_once)
 {
     made_text t = {.n = 0};
@@ -137,7 +135,7 @@ static void lines_above(void **state)
     reads_lines("rubber, # \u00b0C", "", false);
 }
 
-/* Reads a text that fails or warns; the words stand in the message. */
+/* Reads a text that fails or warns; the message contains the words. */
 static void says(const char *text, const wt_read_options *options, wt_status expected,
                  const char *words)
 {
@@ -166,7 +164,7 @@ static void other_temperatures(void **state)
     wt_read_options options = wt_read_defaults();
     static const char table[] = "f (Hz),E' (MPa),E'' (MPa)\n1,3.5,0.5\n10,4.5,0.5\n";
     char text[512];
-    /* a temperature that is not that of the data */
+    /* a temperature other than that of the data */
     static const char *const others[] = {"Reference temperature: 20 degC", "Tg = -50 degC",
                                          "cooled at 10 K/min", "range 10-20 degC",
                                          "0 degC to 20 degC"};
@@ -174,7 +172,7 @@ static void other_temperatures(void **state)
         snprintf(text, sizeof text, "%s\n%s", others[i], table);
         says(text, &options, WT_E_MISSING, "no temperature");
     }
-    /* one temperature of the user for tables that state theirs */
+    /* one stated temperature for tables that state theirs */
     options.temperature = WT_ZERO_CELSIUS + 16;
     snprintf(text, sizeof text, "T = 0 degC\n%s\nT = 20 degC\n%s", table, table);
     says(text, &options, WT_E_ARG, "2 tables that state their own");
@@ -190,7 +188,7 @@ static void other_temperatures(void **state)
 
 /* ---- columns for each condition -------------------------------------------------------------- */
 
-/* A table with a pair of columns for each temperature. '#' in a name is the temperature. */
+/* A table with two columns for each temperature. '#' in a name is the temperature. */
 static void reads_wide_as(const char *above, const char *first, const char *storage_name,
                           const char *loss_name, const char *below)
 {
@@ -241,8 +239,8 @@ static void wide_by_rows(void **state)
                   "Hz,MPa,MPa,MPa,MPa,MPa,MPa\n");
 }
 
-/* A row of temperatures below the names states no units, not even for a column that has none. Above
- * and below, the first temperature may stand over the frequencies, too. */
+/* A row of temperatures below the names states no units, not even for a column without one. In both
+ * places the first temperature may be above the frequencies, too. */
 static void temperatures_below_names(void **state)
 {
     (void)state;
@@ -303,7 +301,7 @@ static void frequencies_in_names(void **state)
 static void any_order(void **state)
 {
     (void)state;
-    /* steps through all rows without a common factor with their number */
+    /* visits all rows with a step that has no common factor with their number */
     static const size_t steps[] = {5, 7};
     enum { N = N_T * N_F };
     for (size_t k = 0; k < sizeof steps / sizeof *steps; k++) {
@@ -327,7 +325,8 @@ static void any_order(void **state)
     reads_isotherms(t.text);
 }
 
-/* All temperatures of a frequency after another. Few frequencies are temperature sweeps. */
+/* All temperatures of one frequency after another. With few frequencies these are temperature
+ * sweeps. */
 static void by_frequency(void **state)
 {
     (void)state;
@@ -350,7 +349,7 @@ static void by_frequency(void **state)
 
 /* ---- moduli ---------------------------------------------------------------------------------- */
 
-/* A table of two quantities that give the moduli. */
+/* A table of two quantities that determine the moduli. */
 static void reads_pair(const char *first, const char *second, bool is_magnitude, int kind)
 {
     made_text t = {.n = 0};
@@ -376,7 +375,7 @@ static void moduli_that_follow(void **state)
     reads_pair("|E*| (MPa)", "tan delta", true, 2);
     reads_pair("|E*| (MPa)", "E' (MPa)", true, 3);
     reads_pair("|E*| (MPa)", "E'' (MPa)", true, 4);
-    /* a phase angle without a unit is not left out */
+    /* a phase angle without a unit is used */
     const wt_read_options options = wt_read_defaults();
     says("f (Hz),E' (MPa),delta,T (degC)\n1,3.5,4,20\n10,4.5,4,20\n", &options, WT_E_UNIT,
          "\"delta\"");
@@ -465,12 +464,12 @@ static void names_with_conditions(void **state)
 /* ---- columns that state one quantity -----------------------------------------------------------
  */
 
-/* Columns that contradict one another are named with the factor; those that agree are not. */
+/* Inconsistent columns are named with the factor; consistent ones are not. */
 static void columns_that_contradict_are_named(void **state)
 {
     (void)state;
     static const struct {
-        double of_omega, of_factor; /* times the true value */
+        double of_omega, of_factor; /* factor of the true value */
         const char *warning;        /* NULL: none */
     } cases[] = {{1, 1, NULL},
                  {1, 1.05, NULL}, /* rounded to one digit */

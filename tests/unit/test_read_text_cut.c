@@ -1,8 +1,6 @@
-/* Text files that end where they should not: what is left out, what is kept, what is said.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* Truncated text files: excluded data, kept data, and messages.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "weartrack/read.h"
 
@@ -12,8 +10,8 @@ static wt_formats *formats;
 
 typedef struct cut_case {
     const char *text;
-    size_t points;     /* that are read */
-    const char *words; /* of a warning; NULL: none */
+    size_t points;     /* number of rows that are read */
+    const char *words; /* text of a warning; NULL: none */
 } cut_case;
 
 #define HEAD "f [Hz],T [degC],E' [MPa],E'' [MPa]\n"
@@ -38,7 +36,7 @@ typedef struct cut_case {
 static const cut_case cases[] = {
     {FIXED "3,20,7.000,1.750\n", 3, NULL},
     {FIXED "3,20,7.000,1.750\n\x1a", 3, NULL},
-    /* The end of the last number is there as far as its neighbours tell. */
+    /* The end of the last number is complete as far as its neighbours show. */
     {FIXED "3,20,7.000,1.750", 3, KEPT},
     {FIXED "3,20,7.000,1.75", 2, LEFT_OUT},
     {FIXED "3,20,7.000,1.", 2, LEFT_OUT},
@@ -56,7 +54,7 @@ static const cut_case cases[] = {
     {POWERS "3,20,7,1.75e+0", 2, LEFT_OUT},
     {POWERS "3,20,7,1.75e", 2, LEFT_OUT},
     {POWERS "3,20,7,1.750000", 2, LEFT_OUT},
-    /* A line end that somebody put behind what was left. */
+    /* A line end that was added after the truncation. */
     {FIXED "3,20\n", 2, FEWER},
     {FIXED "3,20\n\n", 2, FEWER},
     {HEAD "1,20,5\n2,20,6,1\n3,20,7,2\n4,20,8\n", 2, NULL},
@@ -64,7 +62,7 @@ static const cut_case cases[] = {
     {"f [Hz],T [degC],E' [MPa],E'' [MPa]\r\n1,20,5.0,1.2\r\n2,20,6.0,1.5\r", 2, HALF},
     {"f [Hz],T [degC],E' [MPa],E'' [MPa]\r1,20,5.0,1.2\r2,20,6.0,1.5\r", 2, NULL},
     {FIXED "3,20,7.000,1.750\n2,20,6.000,1.500\n3,20,7.000,1.750\n", 5, TWICE},
-    /* A modulus that was 8; a factor of two digits; factors of another kind altogether. */
+    /* A modulus that was 8; a factor with two digits; factors of another kind. */
     {FACTORS "4,20,9,2,0.25\n", 4, NOT_THE_RATIO},
     {FACTORS "4,20,8,2.19,0.27\n", 4, NULL},
     {FACTORS "4,20,8,2,\n", 4, NULL},
@@ -95,7 +93,7 @@ static bool warned(const wt_log *log, const char *words)
     return found;
 }
 
-static void each_case(void **state)
+static void truncated_texts(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -136,6 +134,6 @@ static int teardown(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(each_case)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(truncated_texts)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -1,9 +1,7 @@
-/* Text exports of real instruments, compared value by value with tables that other programs made of
- * them. Shared reference data, where present.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* Text exports of real instruments, compared value by value with tables of other programs. Shared
+ * reference data, if they exist.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "weartrack/read.h"
 
@@ -22,7 +20,7 @@ static void show(const wt_error *err)
     print_message("%s\n", text);
 }
 
-/* Skips where the file is absent. */
+/* Skips the test if the file does not exist. */
 static wt_input *open_measured(const char *path)
 {
     wt_input *input = NULL;
@@ -87,8 +85,8 @@ static size_t read_tidy(const char *path, point *points, size_t most)
 #define POINTS_MAX 4000
 static point points[POINTS_MAX];
 
-/* Every point of the table is in the sweep once: same frequency and modulus within the digits that
- * the table has, at a temperature within `kelvin`. Returns the points of the sweep. */
+/* Every point of the table is once in the sweep: the same frequency and modulus within the digits
+ * of the table, at a temperature within `kelvin`. Returns the number of points of the sweep. */
 static size_t compare(const wt_sweep *sweep, const char *tidy, double kelvin)
 {
     size_t n = read_tidy(tidy, points, POINTS_MAX), total = 0;
@@ -121,7 +119,7 @@ static void trios_lims(void **state)
     add_sweep(DMA "trios/frequency_sweep_tts.txt", "trios-lims", &sweep);
     assert_int_equal(sweep.deformation, WT_SHEAR);
     assert_int_equal(sweep.n_isotherms, 20);
-    /* The table leaves out one point whose loss modulus is negative; a reader hands it on. */
+    /* The table excludes one point with a negative loss modulus; a reader returns it. */
     size_t n = compare(&sweep, DMA "tidy/hermes_ares.csv", 0.02);
     assert_int_equal(n, 340);
     assert_int_equal(sweep.isotherms[0].n, 17);

@@ -1,8 +1,8 @@
-/* Strain sweeps in a table: where one begins and ends, and what is none.
+/* Strain sweeps in a table: their start and end, and rows that are not a sweep.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "made_file.h"
+#include "reader_fixture.h"
 
-/* Rows of frequency [Hz], temperature [degC], strain [%]; the moduli tell the row. */
+/* Rows of frequency [Hz], temperature [degC], strain [%]; the moduli identify the row. */
 typedef struct row {
     double frequency, temperature, strain;
 } row;
@@ -27,7 +27,7 @@ static void read_rows(const row *rows, size_t n)
     wt_input_close(input);
 }
 
-/* The strain sweep holds these rows, in the order of rising strain. */
+/* The strain sweep has these rows, by increasing strain. */
 static void check(size_t which, const row *rows, size_t first, size_t n, bool falling,
                   const char *way)
 {
@@ -51,7 +51,7 @@ static void check(size_t which, const row *rows, size_t first, size_t n, bool fa
         assert_null(strstr(s->source, "strain)"));
 }
 
-/* Up, down and up again, which turns at the largest and the smallest. */
+/* Up, down and up again, with turns at the largest and the smallest strain. */
 static void test_turns(void **state)
 {
     (void)state;
@@ -62,12 +62,12 @@ static void test_turns(void **state)
     read_rows(rows, sizeof rows / sizeof *rows);
     assert_int_equal(sweep.n_strain_sweeps, 3);
     assert_int_equal(sweep.n_isotherms, 0);
-    check(0, rows, 6, 5, true, "(falling strain)"); /* by their names, then as they come */
+    check(0, rows, 6, 5, true, "(falling strain)"); /* by name, then in file order */
     check(1, rows, 0, 6, false, "(rising strain)");
     check(2, rows, 11, 5, false, "(rising strain)");
 }
 
-/* Frequencies one after the other: a sweep for each, and no way is told. */
+/* Frequencies one after the other: a sweep for each, without a direction. */
 static void test_frequencies(void **state)
 {
     (void)state;
@@ -82,8 +82,8 @@ static void test_frequencies(void **state)
     check(2, rows, 10, 5, false, NULL);
 }
 
-/* Four rows are too few, and amplitudes of less than three times the smallest no sweep; what is
- * left are isotherms. */
+/* Four rows are too few, and amplitudes below three times the smallest are not a sweep; the others
+ * are isotherms. */
 static void test_none(void **state)
 {
     (void)state;
@@ -99,8 +99,8 @@ static void test_none(void **state)
     assert_true(sweep.n_isotherms > 0);
 }
 
-/* It ends where the temperature has drifted by more than 4 K, and points of the same amplitude, or
- * a little scatter of it, turn nothing. */
+/* It ends where the temperature has drifted by more than 4 K. Points of the same amplitude, or with
+ * a small scatter, are not a turn. */
 static void test_drift(void **state)
 {
     (void)state;

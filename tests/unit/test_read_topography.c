@@ -1,6 +1,7 @@
-/* Height maps of Gwyddion and X3P, written byte by byte here, and measured ones against the numbers
- * of other programs. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "made_file.h"
+/* Height maps of Gwyddion and X3P written byte by byte here, and measured ones against numbers of
+ * other programs.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reader_fixture.h"
 
 #include "core/base/array.h"
 #include "core/system/temporary.h"
@@ -10,7 +11,7 @@
 #include <ctype.h>
 #include <math.h>
 
-/* ---- what is made ---------------------------------------------------------------------------- */
+/* ---- files written here ---------------------------------------------------------------------- */
 
 enum { ROOM = 8192, COLUMNS = 5, ROWS = 3 };
 
@@ -76,7 +77,7 @@ static void refused_as(const made *m, wt_status expected, const char *words)
 
 /* ---- Gwyddion -------------------------------------------------------------------------------- */
 
-/* An object with the components that are in `inside`. */
+/* An object with the components in `inside`. */
 static void add_object(made *m, const char *name, const made *inside)
 {
     add(m, name, strlen(name) + 1);
@@ -155,7 +156,7 @@ static void test_gwyddion(void **state)
     }
 }
 
-static void test_gwyddion_lies(void **state)
+static void test_gwyddion_wrong_sizes(void **state)
 {
     (void)state;
     const made wide = gwy_of(COLUMNS + 1, ROWS, COLUMNS * ROWS),
@@ -210,7 +211,7 @@ static made x3p_of(const made_x3p *x)
                  ? x->record3
                  : "<DataLink><PointDataLink>bindata/data.bin</PointDataLink>"
                    "<ValidPointsLink>bindata/valid.bin</ValidPointsLink></DataLink>");
-    if (x->md5 != NULL) { /* in the place of the links */
+    if (x->md5 != NULL) { /* in place of the links */
         char *const links = strstr(xml, "<ValidPointsLink>");
         assert_non_null(links);
         snprintf(links, sizeof xml - (size_t)(links - xml),
@@ -238,8 +239,8 @@ static made doubles_of_heights(void)
     return m;
 }
 
-/* Whole numbers have an increment and an offset; those of floating-point numbers are not applied,
- * and those of the axes in the plane say nothing of the data. */
+/* Integers have an increment and an offset. Those of floating-point numbers are not applied, and
+ * those of the x and y axes have no effect on the data. */
 static void test_x3p_types(void **state)
 {
     (void)state;
@@ -268,7 +269,8 @@ static void test_x3p_types(void **state)
     }
 }
 
-/* A bit for each height, the lowest first; what is not finite is missing, too; an empty datum. */
+/* A bit for each height, the lowest first; a non-finite height is missing, too; an empty
+ * element. */
 static void test_x3p_missing(void **state)
 {
     (void)state;
@@ -297,7 +299,7 @@ static void test_x3p_missing(void **state)
     clear_images(images, n);
 }
 
-/* The checksum of the heights, in capitals or not. */
+/* Checksum of the heights, in upper or lower case. */
 static void test_x3p_checksum(void **state)
 {
     (void)state;
@@ -391,17 +393,17 @@ static size_t split(char *line, char *cells[FIELDS])
     return n;
 }
 
-/* Measured files: how they are read, and which of the numbers of other code they are compared with.
- */
+/* Measured files: how they are read, and the numbers of other programs for comparison. */
 typedef struct measured_file {
     const char *name, *path;
     bool flipped;   /* line 0 of the file is the uppermost */
-    bool steps;     /* its size is known */
-    bool converted; /* by the program Gwyddion, where it is */
-    bool mirrored;  /* each line begins with its last point */
-    bool ends;      /* points lie from end to end of the range, which others divide by them */
+    bool steps;     /* the size is known */
+    bool converted; /* by the program Gwyddion, if it is installed */
+    bool mirrored;  /* lines are stored in reverse */
+    /* the points include both ends of the range, which other programs divide by their number */
+    bool ends;
     const char *units[2];
-    double dx, dy; /* for the spectrum where the file has no size; 0 */
+    double dx, dy; /* for the spectrum if the file has no size; 0 */
 } measured_file;
 
 static const measured_file measured_files[] = {
@@ -428,14 +430,14 @@ static const measured_file measured_files[] = {
     {"wear-track-C1.csv", "/data/topography/wear-track-C1.csv", false, true,
      .units = {"Distance=mm", "Profile=um"}},
 };
-enum { WINDOW = 512 }; /* points of a profile that the numbers are of */
+enum { WINDOW = 512 }; /* points of the profile of the numbers */
 
 static bool has_gwyddion(void)
 {
     return system("gwyddion --version >/dev/null 2>&1") == 0;
 }
 
-/* The file of that name; NULL: none, or the program that reads it is not there. */
+/* Returns the file of that name, or NULL without the file or the program that reads it. */
 static const measured_file *file_of(const char *name)
 {
     static int program = -1;
@@ -547,7 +549,7 @@ static void test_measured(void **state)
     assert_int_equal(n_compared, n_expected);
 }
 
-/* One whole line of each, to the digits that are printed. */
+/* One whole line of each, to the printed digits. */
 static void test_measured_rows(void **state)
 {
     (void)state;
@@ -583,8 +585,8 @@ static void test_measured_rows(void **state)
     assert_int_equal(n_files, n_expected);
 }
 
-/* The spectrum of a file by the steps of another program: a plane taken off, 0 where heights are
- * missing, bins from 10^(k/10) on. */
+/* Spectrum of a file by the steps of another program: subtraction of a plane, 0 for missing
+ * heights, bins from 10^(k/10). */
 static void transform_measured(const measured_file *file, wt_surface_spectrum *to)
 {
     wt_image image;
@@ -628,8 +630,8 @@ static void test_measured_spectra(void **state)
             transform_measured(file, &spectrum);
             opened = file;
         }
-        /* The reference counts modes of a profile of one sign; and, unlike ours, that of two points
-         * once beside the others. */
+        /* The reference counts modes of a profile with one sign; unlike the library, it counts that
+         * of two points once. */
         const bool profile = strcmp(cells[1], "1") == 0;
         n_expected++;
         for (size_t k = 0; k < spectrum.n; k++) {
@@ -652,7 +654,7 @@ static void test_measured_spectra(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_gwyddion),      cmocka_unit_test(test_gwyddion_lies),
+        cmocka_unit_test(test_gwyddion),      cmocka_unit_test(test_gwyddion_wrong_sizes),
         cmocka_unit_test(test_x3p_types),     cmocka_unit_test(test_x3p_missing),
         cmocka_unit_test(test_x3p_profile),   cmocka_unit_test(test_x3p_checksum),
         cmocka_unit_test(test_x3p_refused),   cmocka_unit_test(test_measured),

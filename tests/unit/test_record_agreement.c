@@ -1,6 +1,7 @@
-/* Measured against predicted: the curve, its errors, the scatter, the verdict and the likelihood,
- * against values that are worked out otherwise here. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+/* Measured against predicted friction: the curve, its errors, the scatter, the verdict and the
+ * likelihood, against independent values.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "record/numerics/agreement.h"
 
@@ -35,7 +36,7 @@ static agreement fitted(size_t n, size_t most_terms)
     return a;
 }
 
-/* A line is found as it is, and an error that all steps share is not divided by their number. */
+/* A line is found exactly, and an error that all steps share is not divided by their number. */
 static void test_line(void **state)
 {
     (void)state;
@@ -48,7 +49,7 @@ static void test_line(void **state)
     }
     assert_true(a.scatter < 1e-18);
     agreement_clear(&a);
-    a = fitted(N, 1); /* plain mean of equal errors, but for the line that is then scatter */
+    a = fitted(N, 1); /* plain mean with equal errors, except for the line, which then is scatter */
     double mean = 0;
     for (size_t i = 0; i < N; i++)
         mean += value[i] / N;
@@ -58,8 +59,8 @@ static void test_line(void **state)
     agreement_clear(&a);
 }
 
-/* Mandel and Paule for equal errors: the scatter is the variance about the mean less that stated.
- */
+/* Mandel-Paule for equal errors: the scatter is the variance about the mean minus the stated
+ * one. */
 static void test_scatter(void **state)
 {
     (void)state;
@@ -75,7 +76,7 @@ static void test_scatter(void **state)
     const double variance = 0.04 + squares / (N - 1) / N;
     assert_true(fabs(a.error[0] / sqrt(variance) - 1) < 1e-9);
     agreement_clear(&a);
-    /* scatter that the prediction explains is none */
+    /* scatter that the prediction explains does not count */
     for (size_t i = 0; i < N; i++)
         prediction_covariance[i * N + i] += 0.01;
     a = fitted(N, 1);
@@ -83,7 +84,7 @@ static void test_scatter(void **state)
     agreement_clear(&a);
 }
 
-static agreement_verdict judged(double level, double slope, double error)
+static agreement_verdict verdict_for(double level, double slope, double error)
 {
     set_up(level, slope, error, 0);
     agreement a = fitted(N, 0);
@@ -98,15 +99,15 @@ static agreement_verdict judged(double level, double slope, double error)
 static void test_verdicts(void **state)
 {
     (void)state;
-    assert_int_equal(judged(0, 0, 0.01), AGREEMENT_YES);
-    assert_int_equal(judged(0.19, 0, 0.01), AGREEMENT_INCONCLUSIVE);
-    assert_int_equal(judged(0.21, 0, 0.01), AGREEMENT_INCONCLUSIVE);
-    assert_int_equal(judged(-0.3, 0, 0.01), AGREEMENT_NO);
-    assert_int_equal(judged(0, 0, 0.5), AGREEMENT_INCONCLUSIVE);
-    assert_int_equal(judged(0, -0.2, 0.001), AGREEMENT_NO); /* 0.6 at the slowest */
+    assert_int_equal(verdict_for(0, 0, 0.01), AGREEMENT_YES);
+    assert_int_equal(verdict_for(0.19, 0, 0.01), AGREEMENT_INCONCLUSIVE);
+    assert_int_equal(verdict_for(0.21, 0, 0.01), AGREEMENT_INCONCLUSIVE);
+    assert_int_equal(verdict_for(-0.3, 0, 0.01), AGREEMENT_NO);
+    assert_int_equal(verdict_for(0, 0, 0.5), AGREEMENT_INCONCLUSIVE);
+    assert_int_equal(verdict_for(0, -0.2, 0.001), AGREEMENT_NO); /* 0.6 at the slowest velocity */
 }
 
-/* One velocity: a level, whatever is measured; the interval for all steps is that of one. */
+/* One velocity: a level, for any measured value; the interval of all steps is that of one. */
 static void test_one_velocity(void **state)
 {
     (void)state;
@@ -124,7 +125,7 @@ static void test_one_velocity(void **state)
     agreement_clear(&a);
 }
 
-/* Of two steps the normal likelihood is written out. */
+/* The normal likelihood of two steps, written out. */
 static void test_likelihood(void **state)
 {
     (void)state;

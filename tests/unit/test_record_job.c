@@ -1,9 +1,9 @@
-/* The job of friction records on files with a known truth, and what is said of files that lack
- * something. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The job of friction records on files with known truth, and messages for files with missing data.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
-#include "cells.h"
-#include "near.h"
-#include "truth.h"
+#include "assert_near.h"
+#include "table_cells.h"
+#include "truth_fixture.h"
 
 #include "weartrack/record.h"
 
@@ -45,7 +45,7 @@ static wt_record_job disc_job(void)
     return job;
 }
 
-/* 4 N under 5 N behind a running-in of 20 laps. */
+/* 4 N at a load of 5 N after a running-in of 20 laps. */
 static void test_disc(void **state)
 {
     (void)state;
@@ -53,7 +53,7 @@ static void test_disc(void **state)
     wt_record_tables t = made(&job, RECORDS "disc.csv", NULL);
     assert_null(t.wear);
     assert_int_equal(wt_table_n_rows(t.record), 1);
-    assert_int_equal(wt_table_n_rows(t.record_cycles), 79); /* the last one is not whole */
+    assert_int_equal(wt_table_n_rows(t.record_cycles), 79); /* the last one is incomplete */
     assert_string_equal(text_cell(t.record, 0, "averaged_over"), "lap");
     assert_true(number_cell(t.record, 0, "friction_coefficient_low") < 0.8);
     assert_true(number_cell(t.record, 0, "friction_coefficient_high") > 0.8);
@@ -74,7 +74,7 @@ static void test_disc(void **state)
     wt_tables_clear(&t, sizeof t);
 }
 
-/* Each velocity has a row, and together there is no one coefficient. */
+/* Each velocity has a row, and there is no common coefficient. */
 static void test_steps(void **state)
 {
     (void)state;
@@ -95,7 +95,7 @@ static void test_steps(void **state)
     wt_tables_clear(&t, sizeof t);
 }
 
-/* The signs of two directions do not cancel; forces are of grams. */
+/* The signs of two directions do not cancel; forces are in grams. */
 static void test_two_directions(void **state)
 {
     (void)state;
@@ -110,8 +110,8 @@ static void test_two_directions(void **state)
     wt_tables_clear(&t, sizeof t);
 }
 
-/* Mass and area of one run are one measurement of its wear: two runs that are alike do not scatter,
- * though each is known no better than its mass and its area agree. */
+/* Mass and area of one run are one measurement of its wear: two equal runs do not scatter, though
+ * each is only as accurate as the agreement of its mass and area. */
 static void test_wear_of_runs(void **state)
 {
     (void)state;
@@ -121,7 +121,7 @@ static void test_wear_of_runs(void **state)
     assert_true(in != NULL && out != NULL);
     const size_t n = fread(bytes, 1, sizeof bytes, in);
     assert_true(n > 2 && n < sizeof bytes && bytes[n - 2] == '6');
-    bytes[n - 2] = '7'; /* the last digit: the same samples would count once */
+    bytes[n - 2] = '7'; /* the last digit; otherwise the same samples would count once */
     assert_true(fwrite(bytes, 1, n, out) == n);
     assert_int_equal(fclose(in), 0);
     assert_int_equal(fclose(out), 0);
@@ -147,7 +147,7 @@ static void test_wear_of_runs(void **state)
     unlink(again);
 }
 
-/* k = V / (F s) by all ways, and the ball. */
+/* k = V / (F s) by all methods, and the ball. */
 static void test_wear(void **state)
 {
     (void)state;
@@ -177,7 +177,7 @@ static void test_wear(void **state)
     assert_near(number_cell(t.wear, 0, "pressure"), ball.pressure, 1e-12);
     assert_near(number_cell(t.wear, 0, "duty"), 3 * ball.contact_radius / (8 * 12e-3), 1e-12);
     wt_tables_clear(&t, sizeof t);
-    /* what was given without an error has none */
+    /* a value stated without an error has none */
     job = disc_job();
     job.load.standard_error = 0;
     job.track_area = (wt_estimate){3e-11, 0, 0, "m^2"};
@@ -189,7 +189,7 @@ static void test_wear(void **state)
     wt_tables_clear(&t, sizeof t);
 }
 
-/* A parabolic groove, 10 um deep and 0.2 mm wide: 2/3 of depth and width, times `size`. */
+/* A parabolic groove of 10 um depth and 0.2 mm width: 2/3 of depth times width, times `size`. */
 static void write_groove(const char *folder, const char *name, double size)
 {
     char path[64];
@@ -204,7 +204,7 @@ static void write_groove(const char *folder, const char *name, double size)
     assert_int_equal(fclose(out), 0);
 }
 
-/* What the track lost, by profiles across it. */
+/* Wear volume of the track from profiles across it. */
 static void test_profiles(void **state)
 {
     (void)state;
@@ -262,8 +262,8 @@ static void test_length_by_laps(void **state)
     assert_int_equal(remove(path), 0);
 }
 
-/* Without a radius no velocity is known, but other rotations are other conditions; at rest nothing
- * slides. */
+/* Without a radius the velocity is unknown, but different rotations are different conditions; at
+ * rest there is no sliding. */
 static void test_rotation_alone(void **state)
 {
     (void)state;
@@ -293,8 +293,8 @@ static void test_rotation_alone(void **state)
     assert_int_equal(remove(path), 0);
 }
 
-/* A disc stands for 60 s after 150 of 400 s; the first 200 s are a running-in. By the velocity and
- * by the laps: neither the time of the running-in nor the distance of the wear holds the pause. */
+/* A disc rests for 60 s after 150 of 400 s; the first 200 s are a running-in. By velocity and by
+ * laps: neither the running-in time nor the sliding distance includes the pause. */
 static void test_pause(void **state)
 {
     (void)state;
@@ -333,8 +333,8 @@ static void test_pause(void **state)
     }
 }
 
-/* Strokes of 10 mm, there and back in a second: by the position, a velocity with the sign of the
- * direction, or the length of the track that is given. */
+/* Strokes of 10 mm, back and forth in a second: by the position, by a signed velocity, or by the
+ * stated track length. */
 static void test_velocity_of_strokes(void **state)
 {
     (void)state;
@@ -366,7 +366,7 @@ static void test_velocity_of_strokes(void **state)
     }
 }
 
-/* Records that tell no velocity and records at two: no one friction for all. */
+/* Records without a velocity and records at two velocities: no common friction. */
 static void test_unknown_velocity(void **state)
 {
     (void)state;
@@ -395,7 +395,7 @@ static void test_unknown_velocity(void **state)
 }
 
 /* Laps of 4 and of 8 samples, whose distance the instrument divides by their number: the velocity
- * is path over time, and not the mean over laps. */
+ * is path over time, not the mean over laps. */
 static void test_uneven_laps(void **state)
 {
     (void)state;
@@ -418,8 +418,8 @@ static void test_uneven_laps(void **state)
     assert_int_equal(remove(path), 0);
 }
 
-/* The cap of a ball that grows by Archard's law from the first cycle on: what lies before the mean
- * of the first cycles counts. */
+/* The cap of a ball that grows by Archard's law from the first cycle: the path before the mean of
+ * the first cycles counts. */
 static void test_depth_by_archard(void **state)
 {
     (void)state;
@@ -446,7 +446,7 @@ static void test_depth_by_archard(void **state)
     assert_int_equal(remove(path), 0);
 }
 
-static void test_what_is_lacking(void **state)
+static void test_missing_data(void **state)
 {
     (void)state;
     wt_record_job job = wt_record_job_defaults();
@@ -469,8 +469,8 @@ static void test_what_is_lacking(void **state)
     assert_non_null(strstr(err.message, "double strokes"));
 }
 
-/* A coefficient that is not that of its forces is said. */
-static void test_a_contradiction(void **state)
+/* A coefficient that differs from the ratio of its forces is reported. */
+static void test_inconsistency(void **state)
 {
     (void)state;
     static const char path[] = "test_record_job.csv";
@@ -510,8 +510,8 @@ int main(void)
         cmocka_unit_test(test_uneven_laps),
         cmocka_unit_test(test_unknown_velocity),
         cmocka_unit_test(test_depth_by_archard),
-        cmocka_unit_test(test_what_is_lacking),
-        cmocka_unit_test(test_a_contradiction),
+        cmocka_unit_test(test_missing_data),
+        cmocka_unit_test(test_inconsistency),
     };
     return cmocka_run_group_tests(tests, open_formats, free_formats);
 }

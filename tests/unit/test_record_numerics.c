@@ -1,7 +1,7 @@
-/* Friction records: cycles, running-in, steady mean, stick-slip, wear track, ball.
+/* Friction records: cycles, running-in, steady-state mean, stick-slip, wear track, ball.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
+#include "assert_near.h"
+#include "draw_count.h"
 #include "record/numerics/autocorrelation.h"
 #include "record/numerics/pauses.h"
 #include "record/numerics/steady_state.h"
@@ -43,7 +43,7 @@ static wt_record read_record(const char *path)
     return record;
 }
 
-/* A row of friction-steady.csv: what it is of by its second and third columns. */
+/* Row of friction-steady.csv with these values of its second and third columns. */
 typedef struct expected {
     double n, k, x, kept, mean, deviation, tau, window, se_tau, se_bartlett, se_batch, min, max;
 } expected;
@@ -76,10 +76,10 @@ static void check_kept(const double *y, size_t n, const expected *e, bool period
     assert_near(s.deviation, e->deviation, 1e-8);
     assert_near(s.min, e->min, 1e-12);
     assert_near(s.max, e->max, 1e-12);
-    if (periodic) /* the wave of the lap is no scatter */
+    if (periodic) /* the wave of the lap is not scatter */
         return;
-    /* the reference's own estimates are no closer to one another, and know of no scatter that is
-     * longer than their windows */
+    /* the estimates of the reference do not agree better among themselves, and ignore scatter that
+     * is longer than their windows */
     assert_true(s.mean.standard_error > 0.5 * fmin(e->se_bartlett, e->se_batch));
     assert_true(s.mean.standard_error < 3 * fmax(e->se_tau, e->se_batch));
 }
@@ -108,7 +108,7 @@ static void check_reference(const char *file, const char *quantity, wt_cycle_kin
     wt_record_clear(&record);
 }
 
-static void test_of_the_reference(void **state)
+static void test_reference_values(void **state)
 {
     (void)state;
     if (access(FRICTION "friction-steady.csv", R_OK) != 0)
@@ -118,8 +118,8 @@ static void test_of_the_reference(void **state)
     check_reference("velstep4_BRAVA_expb819_basalt.txt", "mu", WT_CYCLE_SAMPLE);
 }
 
-/* 3 N in every row, 7.6 samples in a lap, and a running-in that ends where the rules say, too. */
-static void test_of_a_measured_disc(void **state)
+/* 3 N in every row, 7.6 samples per lap, and a running-in that ends by the rules, too. */
+static void test_measured_disc(void **state)
 {
     (void)state;
     if (access(FRICTION "trib-c1.csv", R_OK) != 0)
@@ -146,8 +146,8 @@ static void test_of_a_measured_disc(void **state)
 
 /* ---- scatter --------------------------------------------------------------------------------- */
 
-/* The filter against the covariance itself, which is inverted by elimination. */
-static void test_of_the_likelihood(void **state)
+/* The filter against the full covariance, inverted by elimination. */
+static void test_likelihood(void **state)
 {
     (void)state;
     enum { N = 9 };
@@ -182,7 +182,7 @@ static void test_of_the_likelihood(void **state)
         assert_near(s.product[c], expected_product[c], 1e-12);
 }
 
-static void test_of_the_mean_of_a_law(void **state)
+static void test_mean_of_a_law(void **state)
 {
     (void)state;
     enum { N = 37 };
@@ -196,9 +196,9 @@ static void test_of_the_mean_of_a_law(void **state)
     }
 }
 
-/* White scatter: an interval hardly wider than Student's. Slow scatter: about as much wider as the
- * law says. */
-static void test_of_the_error_of_a_mean(void **state)
+/* White scatter: an interval hardly wider than Student's. Slow scatter: wider as the law
+ * predicts. */
+static void test_error_of_a_mean(void **state)
 {
     (void)state;
     enum { N = 600, DRAWS = 40 };
@@ -221,13 +221,13 @@ static void test_of_the_error_of_a_mean(void **state)
         assert_true(s.correlation > 5 && s.correlation < 80);
     }
     print_message("error over that of white scatter %.3f, of slow scatter %.3f\n", white, slow);
-    assert_true(white > 0.95 && white < 1.2); /* that slow scatter may be there costs this */
+    assert_true(white > 0.95 && white < 1.2); /* price of a possible slow scatter */
     assert_true(slow > 0.85 && slow < 1.25);
 }
 
-/* Slow scatter that lasts a third of the record, which holds three independent pieces: laws to a
- * quarter of it, each share as likely, hold 45 of these. */
-static void test_of_scatter_as_long_as_the_record(void **state)
+/* Slow scatter with a correlation time of a third of the record, i.e. three independent parts. Laws
+ * up to a quarter of it, with equal shares, cover 45 of these. */
+static void test_scatter_as_long_as_the_record(void **state)
 {
     (void)state;
     enum { N = 60, DRAWS = 60 };
@@ -250,9 +250,9 @@ static void test_of_scatter_as_long_as_the_record(void **state)
     assert_true(held >= 54 && noted >= 54);
 }
 
-/* White scatter beside a drift of three deviations from end to end, which is no slow scatter: taken
- * for it the error is six times that. */
-static void test_of_the_error_beside_a_drift(void **state)
+/* White scatter with a drift of three standard deviations over the record, which is not slow
+ * scatter; treated as such, the error is six times as large. */
+static void test_error_with_a_drift(void **state)
 {
     (void)state;
     enum { N = 150, DRAWS = 20 };
@@ -269,7 +269,7 @@ static void test_of_the_error_beside_a_drift(void **state)
     assert_true(wide > 0.95 && wide < 3);
 }
 
-static void test_of_few_points(void **state)
+static void test_few_points(void **state)
 {
     (void)state;
     const double y[3] = {1, 2, 3}, same[50] = {0};
@@ -287,8 +287,8 @@ static void test_of_few_points(void **state)
     assert_false(r.is_detected);
 }
 
-/* One that never ends, one that is not there, one that is a jump without scatter. */
-static void test_of_the_end_of_a_running_in(void **state)
+/* A running-in without an end, none, and a jump without scatter. */
+static void test_end_of_a_running_in(void **state)
 {
     (void)state;
     enum { N = 300 };
@@ -315,7 +315,7 @@ static void test_of_the_end_of_a_running_in(void **state)
 
 /* ---- stick-slip ------------------------------------------------------------------------------ */
 
-static void test_of_stick_slip(void **state)
+static void test_stick_slip(void **state)
 {
     (void)state;
     enum { N = 2000, PERIOD = 20 };
@@ -328,7 +328,7 @@ static void test_of_stick_slip(void **state)
     assert_true(s.n >= N / PERIOD - 2 && s.n <= N / PERIOD);
     assert_near(s.amplitude, 0.1, 0.02);
     assert_true(s.standard_error > 0 && s.standard_error < 1e-3);
-    for (int i = 0; i < N; i++) /* up and down alike: a wave */
+    for (int i = 0; i < N; i++) /* up and down equally: a wave */
         y[i] = 0.5 + 0.1 * sin(2 * M_PI * i / PERIOD) + 0.001 * normal(&seed);
     s = wt_stick_slip_find(y, N);
     assert_true(s.n == 0 && isnan(s.amplitude));
@@ -343,7 +343,7 @@ static void test_of_stick_slip(void **state)
 /* ---- decay at the end ------------------------------------------------------------------------ */
 
 /* From 0.42 + `change` to 0.42 in `time` of the length, with scatter of 0.01. `kind`: 0
- * exponential, 1 its square root of the time, 2 a step half-way. */
+ * exponential, 1 exponential of the square root of time, 2 a step half-way. */
 static void decay_series(double *y, size_t n, double change, double time, int kind, uint64_t *seed)
 {
     for (size_t i = 0; i < n; i++) {
@@ -355,12 +355,11 @@ static void decay_series(double *y, size_t n, double change, double time, int ki
     }
 }
 
-/* Plateaus beyond the end of the series are held by their intervals; a constant and a step are no
- * decay. */
+/* Intervals cover plateaus beyond the end of the series; a constant and a step are not a decay. */
 static void test_decay(void **state)
 {
     (void)state;
-    enum { N_POINTS = 750, DRAWS = COUNTED(10) };
+    enum { N_POINTS = 750, DRAWS = DRAW_COUNT(10) };
     static const struct {
         double change, time;
         int kind;
@@ -379,7 +378,7 @@ static void test_decay(void **state)
         }
         print_message("decay %zu of seed 31: %d found, %d held of %d\n", k, found, held,
                       (int)DRAWS);
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         assert_in_range(found, tried[k].decays ? DRAWS - 1 : 0, tried[k].decays ? DRAWS : 1);
         if (tried[k].decays)
@@ -405,8 +404,8 @@ static double *with(wt_record *record, wt_record_channel c)
     return record->channel[c] = channel[c];
 }
 
-/* A zero of 0.7 N does not reach the coefficient; turning round does not either. */
-static void test_of_strokes(void **state)
+/* A zero of 0.7 N does not affect the coefficient, and neither does a reversal. */
+static void test_strokes(void **state)
 {
     (void)state;
     for (int by_position = 0; by_position < 2; by_position++) {
@@ -419,7 +418,7 @@ static void test_of_strokes(void **state)
             const double phase = 2 * M_PI * (i + 0.5) / 100, side = sin(phase);
             time[i] = 0.01 * i;
             load[i] = 10;
-            /* at the very ends friction is on its way to the other side */
+            /* at the ends friction is changing its sign */
             force[i] = 0.7 + 4 * (fabs(side) < 0.1 ? 10 * side : side > 0 ? 1 : -1);
             if (position != NULL)
                 position[i] = -5e-3 * cos(phase);
@@ -437,9 +436,9 @@ static void test_of_strokes(void **state)
     }
 }
 
-/* Strokes of one sign: friction of 4 N with a zero above it, to either side, and the magnitude of
- * friction without one, which falls to 0 where the motion reverses. The coefficient is 0.4. */
-static void test_of_one_sign(void **state)
+/* Strokes with one sign: friction of 4 N with a larger zero of either sign, and the magnitude of
+ * friction without one, which falls to 0 at the reversal. The coefficient is 0.4. */
+static void test_strokes_with_one_sign(void **state)
 {
     static const double zeros[] = {6.3, -6.3, 4.5, 40, 0};
     (void)state;
@@ -472,8 +471,8 @@ static void test_of_one_sign(void **state)
     }
 }
 
-/* Laps by a column, and by distance and radius; whole ones alone. */
-static void test_of_laps(void **state)
+/* Laps by a column, and by distance and radius; complete ones only. */
+static void test_laps(void **state)
 {
     (void)state;
     for (int by_distance = 0; by_distance < 2; by_distance++) {
@@ -503,8 +502,8 @@ static void test_of_laps(void **state)
     }
 }
 
-/* A span is as long as nearly all steps, also of a record of milliseconds. */
-static void test_of_short_spans(void **state)
+/* A span is as long as nearly all steps, also in a record of milliseconds. */
+static void test_short_spans(void **state)
 {
     (void)state;
     enum { DENSE = 10, ALL = 100 };
@@ -525,9 +524,9 @@ static void test_of_short_spans(void **state)
     wt_cycles_clear(&c);
 }
 
-/* A rate of sampling that is a hundred times higher in the second half gives it no more weight, and
- * a step is no cycle of two. */
-static void test_of_spans_of_time(void **state)
+/* A sampling rate that is a hundred times higher in the second half gives it no more weight, and a
+ * step is not a cycle of two. */
+static void test_spans_of_time(void **state)
 {
     (void)state;
     wt_record record = empty_record();
@@ -558,12 +557,12 @@ static void test_of_spans_of_time(void **state)
 
 /* ---- pauses ---------------------------------------------------------------------------------- */
 
-/* What a pause of 60 s is recorded by, at sample 1500 of a time of 0.1 s. */
+/* Recording of a pause of 60 s, at sample 1500 with a time step of 0.1 s. */
 typedef struct pause_case {
     wt_record_channel by; /* WT_RECORD_CHANNELS: a gap in the time alone */
-    double display;       /* what its last digit is worth */
+    double display;       /* value of the last digit */
     double noise;         /* of it, at rest and in motion */
-    bool recorded;        /* samples are taken in it */
+    bool recorded;        /* samples are recorded in it */
 } pause_case;
 
 static double shown(const pause_case *c, double value, uint64_t *seed)
@@ -572,8 +571,9 @@ static double shown(const pause_case *c, double value, uint64_t *seed)
     return c->display > 0 ? c->display * floor(value / c->display + 0.5) : value;
 }
 
-/* The pause falls to where the speed is the fourth of three decades; a slider stands in mid-way. */
-static void test_of_a_pause(void **state)
+/* The pause ends where the speed exceeds the fourth of three decades; a slider stops in
+ * mid-stroke. */
+static void test_pause(void **state)
 {
     (void)state;
     enum { ALL = 3600, AT = 1500, LAST = AT + 600, STROKE = 300 };
@@ -612,7 +612,7 @@ static void test_of_a_pause(void **state)
         record.n = n;
         record_pauses pauses = record_remove_pauses(&record);
         assert_int_equal(pauses.n, 1);
-        /* whole laps do not tell where in one it was */
+        /* complete laps do not determine the position within one */
         const bool coarse = c->by == WT_RECORD_LAPS && c->display > 0;
         assert_true(fabs(pauses.of[0].time - 60) < 0.25);
         assert_true(fabs(pauses.of[0].at - 150) < (coarse ? 1.05 : 0.25));
@@ -627,9 +627,9 @@ static void test_of_a_pause(void **state)
     }
 }
 
-/* Speeds of four decades behind a display of few digits, strokes that turn, a recorder that is off
- * for a minute again and again, and rest before and behind the sliding are none. */
-static void test_of_no_pause(void **state)
+/* Not pauses: speeds over four decades with few displayed digits, strokes that turn, a recorder
+ * that is repeatedly off for a minute, and rest before and after the sliding. */
+static void test_no_pause(void **state)
 {
     (void)state;
     static const double speed[] = {0.1, 1e-5, 1e-3, 0.1};
@@ -663,7 +663,7 @@ static void test_of_no_pause(void **state)
     }
 }
 
-static void test_of_a_force_without_a_load(void **state)
+static void test_force_without_a_load(void **state)
 {
     (void)state;
     wt_record record = empty_record();
@@ -679,7 +679,7 @@ static void test_of_a_force_without_a_load(void **state)
     assert_int_equal(wt_cycles_compute(&record, WT_CYCLE_AUTO, (double)NAN, 6, &c, &err), WT_OK);
     assert_near(c.cycle[0].coefficient, 0.5, 1e-15); /* on the positive side */
     wt_cycles_clear(&c);
-    /* both told: they are compared */
+    /* both stated: they are compared */
     for (int i = 0; i < SAMPLES; i++)
         with(&record, WT_RECORD_COEFFICIENT)[i] = i == 7 ? 0.53 : 0.5;
     assert_int_equal(wt_cycles_compute(&record, WT_CYCLE_SAMPLE, (double)NAN, 6, &c, &err), WT_OK);
@@ -696,7 +696,7 @@ static void test_of_a_force_without_a_load(void **state)
 
 /* ---- wear ------------------------------------------------------------------------------------ */
 
-static void test_of_a_made_track(void **state)
+static void test_synthetic_track(void **state)
 {
     (void)state;
     enum { N = 1000 };
@@ -726,13 +726,12 @@ static void test_of_a_made_track(void **state)
     assert_int_equal(wt_track_find(x, z, 39, &t, NULL), WT_E_RANGE);
 }
 
-/* The stated error of the area is what areas scatter by, and no more than half as much again: where
- * the samples of a narrow track make it, where the line below a wide one does as much, and where
- * neighbours go together. */
+/* The stated error of the area is its scatter, and at most half as much again: for samples of a
+ * narrow track, for the line below a wide one, and for correlated neighbours. */
 static void test_error_of_a_track(void **state)
 {
     (void)state;
-    enum { N = 400, DRAWS = COUNTED(250) };
+    enum { N = 400, DRAWS = DRAW_COUNT(250) };
     static double x[N], z[N];
     const struct {
         double half_width, memory;
@@ -755,15 +754,15 @@ static void test_error_of_a_track(void **state)
             square += t.area.value * t.area.value / DRAWS;
             stated += t.area.standard_error * t.area.standard_error / DRAWS;
         }
-        if (!SHARES_COUNT)
+        if (!TEST_RATES)
             continue;
         const double wider = sqrt(stated / (square - sum * sum));
         assert_true(wider > 0.95 && wider < 1.5);
     }
 }
 
-/* The profile by its two columns, in mm and um; the reference by the same rule. */
-static void test_of_a_measured_track(void **state)
+/* The profile by its two columns, in mm and um; the reference uses the same rule. */
+static void test_measured_track(void **state)
 {
     (void)state;
     enum { MOST = 10000 };
@@ -806,8 +805,8 @@ static void test_of_a_measured_track(void **state)
     print_message("area %.3g +- %.2g um^2\n", 1e12 * t.area.value, 1e12 * t.area.standard_error);
 }
 
-/* Hertz: the load of a sphere at the depth a^2 / R, and the pressure back to its load. */
-static void test_of_a_ball(void **state)
+/* Hertz: the load of a sphere at the depth a^2 / R, and from the pressure back to the load. */
+static void test_ball(void **state)
 {
     (void)state;
     const double radius = 3e-3, modulus = 20e6, nu = 0.49, load = 2;
@@ -821,29 +820,29 @@ static void test_of_a_ball(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_of_the_reference),
-        cmocka_unit_test(test_of_a_measured_disc),
-        cmocka_unit_test(test_of_the_likelihood),
-        cmocka_unit_test(test_of_the_mean_of_a_law),
-        cmocka_unit_test(test_of_the_error_of_a_mean),
-        cmocka_unit_test(test_of_scatter_as_long_as_the_record),
-        cmocka_unit_test(test_of_the_error_beside_a_drift),
-        cmocka_unit_test(test_of_few_points),
-        cmocka_unit_test(test_of_the_end_of_a_running_in),
-        cmocka_unit_test(test_of_stick_slip),
+        cmocka_unit_test(test_reference_values),
+        cmocka_unit_test(test_measured_disc),
+        cmocka_unit_test(test_likelihood),
+        cmocka_unit_test(test_mean_of_a_law),
+        cmocka_unit_test(test_error_of_a_mean),
+        cmocka_unit_test(test_scatter_as_long_as_the_record),
+        cmocka_unit_test(test_error_with_a_drift),
+        cmocka_unit_test(test_few_points),
+        cmocka_unit_test(test_end_of_a_running_in),
+        cmocka_unit_test(test_stick_slip),
         cmocka_unit_test(test_decay),
-        cmocka_unit_test(test_of_strokes),
-        cmocka_unit_test(test_of_one_sign),
-        cmocka_unit_test(test_of_laps),
-        cmocka_unit_test(test_of_short_spans),
-        cmocka_unit_test(test_of_spans_of_time),
-        cmocka_unit_test(test_of_a_pause),
-        cmocka_unit_test(test_of_no_pause),
-        cmocka_unit_test(test_of_a_force_without_a_load),
-        cmocka_unit_test(test_of_a_made_track),
+        cmocka_unit_test(test_strokes),
+        cmocka_unit_test(test_strokes_with_one_sign),
+        cmocka_unit_test(test_laps),
+        cmocka_unit_test(test_short_spans),
+        cmocka_unit_test(test_spans_of_time),
+        cmocka_unit_test(test_pause),
+        cmocka_unit_test(test_no_pause),
+        cmocka_unit_test(test_force_without_a_load),
+        cmocka_unit_test(test_synthetic_track),
         cmocka_unit_test(test_error_of_a_track),
-        cmocka_unit_test(test_of_a_measured_track),
-        cmocka_unit_test(test_of_a_ball),
+        cmocka_unit_test(test_measured_track),
+        cmocka_unit_test(test_ball),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

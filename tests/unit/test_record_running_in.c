@@ -1,7 +1,7 @@
-/* What several running-ins say together, of runs that are made by hand, and what is told of the
- * bundled one as its case and its record are changed.
+/* Combined result of several running-ins: synthetic runs, and the bundled one with changes of its
+ * case and its record.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "core/math/students_t.h"
 #include "record/running_in_validation.h"
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cells.h"
+#include "table_cells.h"
 
 enum { TIMES = 8, DRAWS = 40, MOST = 3, STRIDE = GROWTH_QUANTITIES + TIMES };
 static double grown[(1 + DRAWS) * STRIDE], courses[(1 + DRAWS) * TIMES];
@@ -22,7 +22,7 @@ static double values[MOST][(1 + DRAWS) * RUN_QUANTITIES];
 static run_fit run[MOST];
 static run_set all;
 
-/* A prediction whose change is 0.1 in each draw. */
+/* A prediction with a change of 0.1 in each draw. */
 static void begin(void)
 {
     for (size_t i = 0; i < (1 + DRAWS) * TIMES; i++)
@@ -37,7 +37,7 @@ static void begin(void)
     all = (run_set){.runs = run, .margin = 1, .seed = 1, .has_shear = true};
 }
 
-/* One more run: a time that is exp(at) times the predicted one, within 10 %; its ends; the draws
+/* Adds a run: a time that is exp(at) times the predicted one, within 10 %; its limits; the draws
  * scatter by 2 %. The change is as predicted. */
 static run_fit *add(double at, bool low, bool high)
 {
@@ -98,7 +98,7 @@ static void test_closed(void **state)
     check(judged().verdict, "inconclusive");
 }
 
-/* A run that agrees does not make one that contradicts agree, whichever is first. */
+/* A run that agrees does not outweigh one that contradicts, in either order. */
 static void test_open_contradicts(void **state)
 {
     (void)state;
@@ -112,14 +112,14 @@ static void test_open_contradicts(void **state)
                 (void)add(0, true, true);
             const run_verdict said = judged();
             check(said.verdict, "does not: ");
-            /* 6.69 by the record alone; what the prediction draws differs with the order. */
+            /* 6.69 from the record alone; the draws of the prediction depend on the order. */
             check(said.verdict, late ? "after 6.6" : "after 0.15");
             check_not(said.verdict, "6.69 times");
             check(said.verdict, late ? "predicted at least" : "predicted at most");
         }
 }
 
-/* The run that is told is the one that decides. */
+/* The described run is the one that decides. */
 static void test_open_second(void **state)
 {
     (void)state;
@@ -131,7 +131,7 @@ static void test_open_second(void **state)
           "after 6.65 times");
 }
 
-/* One that tells no time leaves it open, and what would close it is told of that run. */
+/* A run without a time leaves the verdict inconclusive, and the advice is for that run. */
 static void test_open_agrees(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void test_open_agrees(void **state)
     check_not(said.verdict, "exceeds");
 }
 
-/* Where the record is steady by itself that is said as another question, not against it. */
+/* A record that is steady by itself is described as another question, without contradiction. */
 static void test_steady_by_itself(void **state)
 {
     (void)state;
@@ -176,7 +176,7 @@ static void test_steady_by_itself(void **state)
     }
 }
 
-/* Draws without a layer count of any run that is compared. */
+/* Draws without a layer count for any compared run. */
 static void test_bare(void **state)
 {
     (void)state;
@@ -191,7 +191,7 @@ static void test_bare(void **state)
     }
 }
 
-/* The first run tells no time: what would settle it is by one that does. */
+/* The first run has no time: the advice uses one that has. */
 static void test_share_of_variance(void **state)
 {
     (void)state;
@@ -222,7 +222,7 @@ static void test_share_of_variance(void **state)
     check_not(other.settled_by, "nan");
 }
 
-static void test_change_untold(void **state)
+static void test_change_without_a_time(void **state)
 {
     (void)state;
     begin();
@@ -234,8 +234,8 @@ static void test_change_untold(void **state)
     check_not(said.verdict, "nan");
 }
 
-/* A change within the first, long ones of 3000 cycles: the look at the first 20 of its times would
- * be at fewer cycles than a course can be told by, and what was fitted stands. */
+/* A change within the first of long cycles of 3000: a test of the first 20 of its times would need
+ * fewer cycles than a fit does, and the fit is kept. */
 static void test_short_change(void **state)
 {
     enum { CYCLES = 3000, LONG = 12 };
@@ -263,14 +263,14 @@ static void test_short_change(void **state)
     run_fit_clear(&r);
 }
 
-/* ---- records together ------------------------------------------------------------------------ */
+/* ---- combined records ------------------------------------------------------------------------ */
 
 enum { LAPS = 120 };
 static double lap_end[LAPS], lapped[MOST][LAPS];
 static recorded_run scattered[MOST];
 
-/* Records of the course that is predicted, in `factor` [MOST] times its time, whose scatter is as
- * large as the change and partly slow. */
+/* Records of the predicted curve, with `factor` [MOST] times its time; the scatter is as large as
+ * the change and partly slow. */
 static void add_records(const double *factor, double scatter, uint64_t seed)
 {
     begin();
@@ -306,9 +306,9 @@ static void records_end(void)
     run_set_clear(&all);
 }
 
-/* One of three tells a time, a quarter of the true one, as its scatter was high in its beginning:
- * what all say holds it. */
-static void test_not_alone(void **state)
+/* One of three determines a time, a quarter of the true one, because its scatter was large at the
+ * start: the combination covers the truth. */
+static void test_combined_only(void **state)
 {
     (void)state;
     add_records((double[]){1, 1, 1}, 0.06, 190);
@@ -321,8 +321,8 @@ static void test_not_alone(void **state)
     records_end();
 }
 
-/* One tells a time, and with the others it is none. */
-static void test_not_together(void **state)
+/* One determines a time, and with the others there is none. */
+static void test_single_only(void **state)
 {
     (void)state;
     add_records((double[]){1, 1, 1}, 0.1, 20);
@@ -335,8 +335,8 @@ static void test_not_together(void **state)
     records_end();
 }
 
-/* None tells a time, and all three do. */
-static void test_together(void **state)
+/* None determines a time, and all three together do. */
+static void test_combined_time(void **state)
 {
     (void)state;
     add_records((double[]){1, 1, 1}, 0.1, 6);
@@ -349,7 +349,7 @@ static void test_together(void **state)
     records_end();
 }
 
-/* Records of another time each have none in common. */
+/* Records of different times have none in common. */
 static void test_differ(void **state)
 {
     (void)state;
@@ -402,8 +402,8 @@ static void change_case(const char *from, const char *to)
     free(text);
 }
 
-/* The record behind `rest` rows at rest, `still` of its own at rest, without friction in `blank`.
- */
+/* The record after `rest` rows at rest, with `still` of its own rows at rest, without friction in
+ * `blank`. */
 static void change_record(size_t rest, size_t still, size_t blank)
 {
     static const double each = 10.4712688; /* [s] */
@@ -429,7 +429,7 @@ static void change_record(size_t rest, size_t still, size_t blank)
     free(text);
 }
 
-/* Its first rows (0: all), with the friction by which it is above 0.3 times a factor. */
+/* Its first rows (0: all), with friction above 0.3 scaled by a factor. */
 static void rewrite_record(size_t rows, double scale)
 {
     char *const text = text_of(csv_path);
@@ -471,9 +471,9 @@ static void case_end(void)
 
 static const char energy[] = "<critical-energy>2e+10J/m^3 +- 5%</critical-energy>";
 
-/* ---- what is said, against the table --------------------------------------------------------- */
+/* ---- text against the table ------------------------------------------------------------------ */
 
-/* The text and the number say the same to the digits of the text. */
+/* The text and the number agree to the digits of the text. */
 static void check_number(const char *text, double value)
 {
     char *end = NULL;
@@ -482,7 +482,7 @@ static void check_number(const char *text, double value)
         fail_msg("the table has %.9g where \"%.40s\" is said", value, text);
 }
 
-/* Of "... 1.09 times X (95 %: 0.82 to 1.46)" the three numbers. */
+/* The three numbers of "... 1.09 times X (95 %: 0.82 to 1.46)". */
 static void check_interval(const char *text, double value, double low, double high)
 {
     check_number(text, value);
@@ -492,8 +492,8 @@ static void check_interval(const char *text, double value, double low, double hi
     check_number(to + strlen(" to "), high);
 }
 
-/* Every number of the sentence stands in the row of the one run, and of a "does not" the first
- * that is told is outside of what is asked for. */
+/* Every number of the sentence is in the row of the run, and for "does not" the first stated one is
+ * outside the required range. */
 static void check_sentence(double margin)
 {
     static const char after[] = " after ", is[] = "the change of friction is ";
@@ -524,7 +524,7 @@ static void check_sentence(double margin)
     assert_true(time < change ? by_time : by_change);
 }
 
-/* The record as it is, one that ends before its change is over, and others' friction. */
+/* The original record, one that ends before its change is complete, and foreign friction. */
 static void test_sentence_and_table(void **state)
 {
     static const struct {
@@ -575,8 +575,8 @@ static void test_without_draws(void **state)
     case_end();
 }
 
-/* What the case says where the record does not; and what the wear rate agrees with. */
-static void test_taken_for_granted(void **state)
+/* Values of the case replace missing ones of the record; agreement with the wear rate. */
+static void test_values_of_the_case(void **state)
 {
     (void)state;
     change_case(energy, energy);
@@ -590,8 +590,8 @@ static void test_taken_for_granted(void **state)
     case_end();
 }
 
-/* Samples at rest before sliding are no friction, whether laps run on under them or not; of cycles
- * that have no friction the count of the laps tells that they slid. */
+/* Samples at rest before sliding are not friction, whether laps continue during them or not. For
+ * cycles without friction the lap count shows sliding. */
 static void test_before_the_first_friction(void **state)
 {
     static const size_t changed[][3] = {{5, 0, 0}, {40, 0, 0}, {0, 5, 0}, {0, 0, 20}};
@@ -602,7 +602,7 @@ static void test_before_the_first_friction(void **state)
         run_case(40);
         if (changed[i][2] == 0)
             check(wt_table_key(runs, "verdict"), "explains: ");
-        else /* the ends of fewer cycles are wider */
+        else /* the limits of fewer cycles are wider */
             check_not(wt_table_key(runs, "verdict"), "does not: ");
         const double ratio = number_cell(runs, 0, "time_ratio");
         assert_true(ratio > 0.8 && ratio < 1.2);
@@ -624,16 +624,16 @@ int main(void)
         cmocka_unit_test(test_open_agrees),
         cmocka_unit_test(test_bare),
         cmocka_unit_test(test_share_of_variance),
-        cmocka_unit_test(test_change_untold),
+        cmocka_unit_test(test_change_without_a_time),
         cmocka_unit_test(test_short_change),
         cmocka_unit_test(test_without_draws),
-        cmocka_unit_test(test_taken_for_granted),
+        cmocka_unit_test(test_values_of_the_case),
         cmocka_unit_test(test_before_the_first_friction),
         cmocka_unit_test(test_steady_by_itself),
         cmocka_unit_test(test_sentence_and_table),
-        cmocka_unit_test(test_not_alone),
-        cmocka_unit_test(test_not_together),
-        cmocka_unit_test(test_together),
+        cmocka_unit_test(test_combined_only),
+        cmocka_unit_test(test_single_only),
+        cmocka_unit_test(test_combined_time),
         cmocka_unit_test(test_differ),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

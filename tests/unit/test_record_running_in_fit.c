@@ -1,8 +1,9 @@
-/* A course in a series of cycles: an exponential of another time and height, whose intervals are
- * held against the truth. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
-#include "truth.h"
+/* An exponential running-in with another time and height in a series of cycles; its intervals are
+ * tested against the truth.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
+#include "draw_count.h"
+#include "truth_fixture.h"
 
 #include "record/numerics/running_in_curve.h"
 
@@ -21,7 +22,7 @@ static running_in_curve exponential(double height)
     return (running_in_curve){TIMES, log(first), step, values};
 }
 
-/* Cycles of a unit of `each` times the course's own, of white scatter beside a slow one. */
+/* Cycles of `each` times the time constant, with white and slow scatter. */
 typedef struct scene {
     double factor, ratio, each, white, slow;
 } scene;
@@ -58,7 +59,7 @@ static running_in_curve_fit fitted(const scene *s, double height, uint64_t *seed
 }
 
 /* e^-3 = 0.05. */
-static void test_course(void **state)
+static void test_running_in_curve(void **state)
 {
     (void)state;
     const running_in_curve c = exponential(-0.2);
@@ -69,7 +70,7 @@ static void test_course(void **state)
     assert_true(isnan(running_in_curve_settling_time(&c, 0)));
 }
 
-/* Without scatter that counts the factor and the ratio are those that were put in. */
+/* Without scatter the factor and the ratio are the true ones. */
 static void test_exact(void **state)
 {
     (void)state;
@@ -84,8 +85,8 @@ static void test_exact(void **state)
     }
 }
 
-/* What one law says of a course twice as slow: half the factor. */
-static void test_another_course(void **state)
+/* Result of one law for a running-in that is twice as slow: half the factor. */
+static void test_slower_running_in(void **state)
 {
     (void)state;
     const scene s = {2, 1, 0.1, 1e-5, 0};
@@ -104,7 +105,7 @@ static void test_another_course(void **state)
     running_in_series_clear(&made);
 }
 
-/* A course at a third of the time fits only outside of a margin of 2, one at 0.7 of it within. */
+/* A running-in at a third of the time only fits outside a margin of 2, one at 0.7 of it within. */
 static void test_within_margin(void **state)
 {
     (void)state;
@@ -122,7 +123,7 @@ static void test_within_margin(void **state)
     }
 }
 
-/* All of it within the first cycle, whose mean is not to be missed for that. */
+/* All of the change is within the first cycle, whose mean still counts. */
 static void test_first_cycle(void **state)
 {
     (void)state;
@@ -136,7 +137,7 @@ static void test_first_cycle(void **state)
     running_in_series_clear(&made);
 }
 
-static void test_ends(void **state)
+static void test_short_records(void **state)
 {
     (void)state;
     uint64_t seed = 3;
@@ -152,11 +153,11 @@ static void test_ends(void **state)
     assert_true(!fit.seen || isnan(fit.low));
 }
 
-/* Truth within the interval of 95 % in so many of the draws as chance allows (1 in 10000). */
+/* Number of 95 % intervals that contain the truth, within chance (1 in 10000). */
 static void test_coverage(void **state)
 {
     (void)state;
-    enum { DRAWS = COUNTED(60), LEAST = 50 };
+    enum { DRAWS = DRAW_COUNT(60), LEAST = 50 };
     const scene s = {1.7, 0.8, 0.08, 0.02, 0.01};
     uint64_t seed = 20;
     int factor = 0, ratio = 0;
@@ -166,18 +167,18 @@ static void test_coverage(void **state)
         factor += fit.low < log(s.factor) && log(s.factor) < fit.high;
         ratio += fabs(fit.ratio - s.ratio) < 1.96 * fit.ratio_error;
     }
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_in_range(factor, LEAST, DRAWS);
     assert_in_range(ratio, LEAST, DRAWS);
 }
 
-/* ---- growth behind an incubation, in rows of every kind -------------------------------------- */
+/* ---- growth after an incubation, in rows of every kind --------------------------------------- */
 
-/* What a row is: the mean of the time behind its label, about it or before it, or one time. */
+/* Kind of a row: the mean of the time after its label, about it or before it, or an instant. */
 typedef enum row_kind { ROW_FROM, ROW_ABOUT, ROW_UNTIL, ROW_AT, ROW_KINDS } row_kind;
 
-/* The bare surface until the incubation is over, then a layer whose effect decays in time. */
+/* The bare surface until the end of the incubation, then a layer with an exponential effect. */
 typedef struct growing {
     double incubation, drop, bare, time;
 } growing;
@@ -204,8 +205,8 @@ static running_in_curve growing_curve(const growing *g)
     return (running_in_curve){3 * TIMES, log(1e-2), step, grown};
 }
 
-/* As the rows are taken to be: means about their labels, but the first of instants is left out.
- * `each`: of a row; `noise`: of its friction. */
+/* Rows as assumed: means about their labels, but the first of instants is excluded. `each`: time of
+ * a row; `noise`: that of its friction. */
 static running_in_series rows_of(const growing *g, row_kind kind, double each, double noise,
                                  uint64_t *seed)
 {
@@ -229,12 +230,12 @@ static double uniform(uint64_t *seed)
     return 0.5 * erfc(truth_normal(seed) / sqrt(2.0));
 }
 
-/* The interval holds the true factor of the time in 92 to 98 %, within what chance allows, for
- * every kind of rows, with an incubation and without one. Seeds as printed. */
+/* The interval contains the true factor of the time in 92 to 98 % of draws, within chance, for
+ * every kind of rows, with and without incubation. The seeds are printed. */
 static void test_rows(void **state)
 {
     (void)state;
-    enum { DRAWS = COUNTED(14), ALL = 2 * ROW_KINDS * DRAWS, LEAST = ALL * 90 / 100 };
+    enum { DRAWS = DRAW_COUNT(14), ALL = 2 * ROW_KINDS * DRAWS, LEAST = ALL * 90 / 100 };
     uint64_t seed = 77;
     int held = 0, seen = 0;
     for (int i = 0; i < ALL; i++) {
@@ -260,7 +261,7 @@ static void test_rows(void **state)
                           exp(fit.high));
     }
     print_message("seed 77: %d of %d held, %d seen\n", held, (int)ALL, seen);
-    if (!SHARES_COUNT)
+    if (!TEST_RATES)
         return;
     assert_in_range(held, LEAST, ALL);
     assert_in_range(seen, ALL * 95 / 100, ALL);
@@ -288,10 +289,10 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_course),         cmocka_unit_test(test_exact),
-        cmocka_unit_test(test_another_course), cmocka_unit_test(test_first_cycle),
-        cmocka_unit_test(test_within_margin),  cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_coverage),       cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_running_in_curve),  cmocka_unit_test(test_exact),
+        cmocka_unit_test(test_slower_running_in), cmocka_unit_test(test_first_cycle),
+        cmocka_unit_test(test_within_margin),     cmocka_unit_test(test_short_records),
+        cmocka_unit_test(test_coverage),          cmocka_unit_test(test_rows),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests_name("fit course", tests, NULL, NULL);

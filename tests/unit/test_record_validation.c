@@ -1,8 +1,9 @@
-/* Measured against predicted friction: records that are made of the prediction itself, so that what
- * must be found is known. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "sliding.h"
-#include "truth.h"
+/* Measured against predicted friction: the records follow from the prediction, so that the expected
+ * results are known.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sliding_fixture.h"
+#include "table_cells.h"
+#include "truth_fixture.h"
 
 #include "core/table/registry.h"
 #include "weartrack/record.h"
@@ -16,8 +17,8 @@ static double velocity[STEPS];
 static wt_layer_observation observation;
 static wt_table *record;
 static size_t at_rest = SIZE_MAX; /* row of the record */
-static bool by_rotation;          /* which alone says so */
-static double warm; /* temperature of every second row, of the others none; 0: of none */
+static bool by_rotation;          /* which alone states it */
+static double warm; /* temperature of every second row, the others have none; 0: of no row */
 
 static void set_up(void)
 {
@@ -31,7 +32,7 @@ static void set_up(void)
     work.replicates = 60;
 }
 
-/* A row of a record in which the other columns are empty. */
+/* A row of a record with empty other columns. */
 static void put_row(table_writer *t, const double (*values)[2], size_t n)
 {
     table_row(t);
@@ -47,9 +48,8 @@ static void put_row(table_writer *t, const double (*values)[2], size_t n)
     }
 }
 
-/* The friction of the prediction with a shear stress (below 0: four fifths of the hysteresis part
- * alone) and a largest wavenumber of its own, times a power of the velocity, as a record that is
- * good to `error`. */
+/* Predicted friction with a shear stress (below 0: four fifths of the hysteresis part only) and its
+ * own largest wavenumber, times a power of the velocity, as a record with an error of `error`. */
 static void make_record(double shear, double q1, double power, double error, bool layered)
 {
     const wt_estimate kept = sliding.shear_stress;
@@ -117,8 +117,8 @@ static double key_of(const wt_table *table, const char *key)
     return key_estimate(table, key).value;
 }
 
-/* Its two ends stand together, as the page calls the second "to", and have no errors that are not
- * known: they have none of their own. */
+/* Both limits are adjacent, as the page names the second "to", and have no unknown errors, because
+ * they have no errors. */
 static void check_ends(const wt_table *table, const char *range)
 {
     char low[64], high[64];
@@ -134,8 +134,8 @@ static void check_ends(const wt_table *table, const char *range)
     assert_true(wt_table_estimate(table, high, &end) && end.numerical_error == 0);
 }
 
-/* What it was made with is asked for, with and without the layer. */
-static void test_needed(void **state)
+/* The true shear stress is required, with and without the layer. */
+static void test_required_shear(void **state)
 {
     (void)state;
     for (int layered = 0; layered < 2; layered++) {
@@ -166,7 +166,7 @@ static void test_needed(void **state)
     }
 }
 
-/* A layer without end has no friction, and that another one is judged is said. */
+/* An infinite layer has no friction, and the message states that another one is tested. */
 static void test_endless_layer(void **state)
 {
     (void)state;
@@ -180,7 +180,7 @@ static void test_endless_layer(void **state)
     wt_tables_clear(&t, sizeof t);
 }
 
-/* The shear stress of the bulk on a layer is in the prediction as it is in friction. */
+/* The shear stress of bulk and layer is the same in the prediction as in friction. */
 static void test_layer_shear(void **state)
 {
     (void)state;
@@ -208,8 +208,8 @@ static void take_slope(double slope, double error)
     observation.ratio_temperature = (double)NAN;
 }
 
-/* A layer whose modulus goes with the frequency is that of friction, its slope stands by itself
- * among the sources, and the answer says what it was. */
+/* A layer with a frequency-dependent modulus is the same as in friction, its slope is a separate
+ * error source, and the result describes it. */
 static void test_slope(void **state)
 {
     (void)state;
@@ -233,7 +233,7 @@ static void test_slope(void **state)
     wt_tables_clear(&t, sizeof t);
 }
 
-/* Of a few replicates no row says what it does not know. */
+/* With few replicates no row states an unknown value. */
 static void test_few_replicates(void **state)
 {
     (void)state;
@@ -250,9 +250,9 @@ static void test_few_replicates(void **state)
     wt_tables_clear(&t, sizeof t);
 }
 
-/* One ratio at all frequencies needs no words. Where a slope asks for a loss modulus below 0, that
- * is said once. */
-static void test_layer_said(void **state)
+/* A constant ratio needs no message. A slope that requires a negative loss modulus is reported
+ * once. */
+static void test_layer_report(void **state)
 {
     (void)state;
     set_up();
@@ -281,7 +281,7 @@ static void test_layer_said(void **state)
     wt_tables_clear(&steep, sizeof steep);
 }
 
-/* A cut-off that is moved is found where it was moved to. */
+/* A changed cut-off is found. */
 static void test_cutoff(void **state)
 {
     (void)state;
@@ -299,8 +299,7 @@ static void test_cutoff(void **state)
     wt_tables_clear(&t, sizeof t);
 }
 
-/* Of a spectrum none is tried beyond its last density; what stands behind that in memory is none.
- */
+/* A cut-off beyond the last density of the spectrum is not tried. */
 static void test_cutoff_of_spectrum(void **state)
 {
     (void)state;
@@ -355,8 +354,8 @@ static void test_verdicts(void **state)
     }
 }
 
-/* The parts of the variance are all of it, and that of the shear stress is its stated error times
- * its share of the friction. */
+/* The parts of the variance add up, and that of the shear stress is its stated error times its
+ * share of friction. */
 static void test_sources(void **state)
 {
     (void)state;
@@ -375,7 +374,7 @@ static void test_sources(void **state)
     wt_tables_clear(&t, sizeof t);
 }
 
-/* Without a shear stress there is no verdict, and the shear stress is told all the same. */
+/* Without a shear stress there is no verdict, but the required shear stress is stated. */
 static void test_no_shear(void **state)
 {
     (void)state;
@@ -406,7 +405,7 @@ static void test_below_hysteresis(void **state)
     wt_tables_clear(&t, sizeof t);
 }
 
-/* The same for any number of threads, and the order of the rows changes nothing. */
+/* The same for any number of threads and any order of the rows. */
 static void test_threads(void **state)
 {
     (void)state;
@@ -427,7 +426,7 @@ static void test_threads(void **state)
     wt_tables_clear(&three, sizeof three);
 }
 
-/* A step at rest is told and not compared. */
+/* A step at rest is reported and not compared. */
 static void test_rest(void **state)
 {
     (void)state;
@@ -447,9 +446,7 @@ static void test_rest(void **state)
     }
 }
 
-/* Steps whose temperature is not known are no steps of another one: each is predicted at its
- * own.
- */
+/* Steps with an unknown temperature are not steps at another one: each is predicted at its own. */
 static void test_temperatures(void **state)
 {
     (void)state;
@@ -484,7 +481,7 @@ static void test_temperatures(void **state)
     wt_tables_clear(&t, sizeof t);
 }
 
-/* Without replicates the errors of the prediction are in nothing, which is said. */
+/* Without replicates the errors of the prediction are missing, which is reported. */
 static void test_no_replicates(void **state)
 {
     (void)state;
@@ -512,7 +509,7 @@ static void test_refusals(void **state)
     job.margin = 7;
     assert_int_equal(wt_validation_compute(&job, &work, &t, &err), WT_E_RANGE);
     job = job_of(false);
-    job.plausible_low = 2e7; /* above the other end */
+    job.plausible_low = 2e7; /* above the other limit */
     assert_int_equal(wt_validation_compute(&job, &work, &t, &err), WT_E_RANGE);
     job.record = NULL;
     assert_int_equal(wt_validation_compute(&job, &work, &t, &err), WT_E_ARG);
@@ -529,14 +526,14 @@ static int tear_down(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_needed),       cmocka_unit_test(test_endless_layer),
-        cmocka_unit_test(test_layer_shear),  cmocka_unit_test(test_slope),
-        cmocka_unit_test(test_layer_said),   cmocka_unit_test(test_few_replicates),
-        cmocka_unit_test(test_cutoff),       cmocka_unit_test(test_cutoff_of_spectrum),
-        cmocka_unit_test(test_verdicts),     cmocka_unit_test(test_sources),
-        cmocka_unit_test(test_no_shear),     cmocka_unit_test(test_below_hysteresis),
-        cmocka_unit_test(test_threads),      cmocka_unit_test(test_rest),
-        cmocka_unit_test(test_temperatures), cmocka_unit_test(test_no_replicates),
+        cmocka_unit_test(test_required_shear), cmocka_unit_test(test_endless_layer),
+        cmocka_unit_test(test_layer_shear),    cmocka_unit_test(test_slope),
+        cmocka_unit_test(test_layer_report),   cmocka_unit_test(test_few_replicates),
+        cmocka_unit_test(test_cutoff),         cmocka_unit_test(test_cutoff_of_spectrum),
+        cmocka_unit_test(test_verdicts),       cmocka_unit_test(test_sources),
+        cmocka_unit_test(test_no_shear),       cmocka_unit_test(test_below_hysteresis),
+        cmocka_unit_test(test_threads),        cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_temperatures),   cmocka_unit_test(test_no_replicates),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, tear_down);

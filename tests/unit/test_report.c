@@ -1,8 +1,7 @@
-/* The report room: the folder with its figures and its page.
- *
+/* The report: the folder with its figures and its page.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
-#include "report_place.h"
+#include "report_folder.h"
 
 #include <glob.h>
 #include <libxml/parser.h>
@@ -11,7 +10,7 @@
 #include <signal.h>
 #include <sys/wait.h>
 
-/* ---- the whole ------------------------------------------------------------------------------- */
+/* ---- complete report ------------------------------------------------------------------------- */
 
 static void test_every_figure_is_listed_once(void **state)
 {
@@ -58,7 +57,7 @@ static void test_everything(void **state)
             size_t length = 0;
             char *bytes = read_all(path, &length);
             assert_true(length > 200);
-            if (k == 1) { // relative names only, and nothing that runs a program
+            if (k == 1) { /* Only relative names, and nothing that runs a program. */
                 assert_null(strstr(bytes, "/tmp"));
                 assert_null(strstr(bytes, "`"));
                 assert_null(strstr(bytes, "system"));
@@ -66,7 +65,7 @@ static void test_everything(void **state)
             free(bytes);
         }
     }
-    assert_int_equal(count_files("."), 1); // nothing temporary is left beside it
+    assert_int_equal(count_files("."), 1); /* No temporary file is left. */
     wt_result_free(result);
 }
 
@@ -149,7 +148,7 @@ static void test_page(void **state)
         "<td class=\"n\" data-label=\"Numerical error\">–</td>",
         "Modulus, bulk</th><td class=\"n\" data-label=\"Value\">7.99 MPa</td>",
         (">3.16 µm</td><td class=\"n\" data-label=\"Statistical error\">± 0.80 µm</td>"
-         "<td class=\"n\" data-label=\"Numerical error\">± "), /* and of rounding */
+         "<td class=\"n\" data-label=\"Numerical error\">± "), /* and the rounding error */
         "; 1.0 % from frequencies outside the measured ones</td>",
         "bulk: 12 curves, 0 wide, 0 doubtful, 1 rejected",
         "R^2 0.71 below 0.90 &lt;i&gt;",
@@ -163,7 +162,7 @@ static void test_page(void **state)
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
         if (strstr(page, expected[i]) == NULL)
             fail_msg("the page lacks: %s", expected[i]);
-    // No error tells its digits: three.
+    /* A value without an error has three digits. */
     static const char correlation[] =
         "Correlation of C₁ and C₂</th><td data-label=\"Value\" colspan=\"3\">";
     const char *shown = strstr(page, correlation);
@@ -208,7 +207,7 @@ static void set_floor(wt_table *table)
         fixture_key(table, "offset", 0, 1e-7, "1");
 }
 
-/* Order, units and digits of the columns, and the headline numbers. */
+/* Order, units and digits of the columns, and the main numbers. */
 static void test_tables_on_the_page(void **state)
 {
     (void)state;
@@ -260,8 +259,8 @@ static void test_tables_on_the_page(void **state)
             fail_msg("no row of the page reads %s", rows[i]);
     }
     assert_int_equal(count_words(page, "<caption>Main numbers at 300 mm/s</caption>"), 1);
-    // Friction next to the decades of 1e-4 to 10 m/s.
-    /* an error that does not apply is no number */
+    // The velocities are close to the decades of 1e-4 to 10 m/s.
+    /* an error that does not apply is not a number */
     assert_non_null(strstr(page, "<th scope=\"row\">Reference temperature</th>"
                                  "<td class=\"n\" data-label=\"Value\">20 °C</td>"
                                  "<td class=\"n\" data-label=\"95 % interval\">–</td>"));
@@ -280,14 +279,14 @@ static bool ran(const wt_table *cost, size_t row)
     return wt_table_number(cost, row, (size_t)wt_table_find(cost, "runs")) > 0;
 }
 
-/* Milliseconds, in the middle of the table two of some seconds. */
+/* Milliseconds, with two values of some seconds in the middle of the table. */
 static void set_times(wt_table *cost, size_t row)
 {
     fixture_put(cost, "wall_time", row == 3 || row == 4 ? 2 : 1e-3 * (double)(2 + row));
     fixture_put(cost, "cpu_time", 5);
 }
 
-/* Not the first value, the middle one or the mean, but the median decides. */
+/* The median decides, not the first value, the middle one or the mean. */
 static void test_the_median_decides_the_unit(void **state)
 {
     (void)state;
@@ -319,7 +318,7 @@ static void test_nothing_from_a_file_is_run(void **state)
     assert_false(exists("out/plots/fixture_was_run"));
     wt_result_free(result);
 
-    // Also where a text becomes a title in a script: a group of that name.
+    // The group name is also a title in a script.
     const char *const groups = "modulus_groups";
     const fixture_change change = {groups, .edit = name_evil_group};
     result = fixture_only(&groups, 1, &change);
@@ -329,7 +328,7 @@ static void test_nothing_from_a_file_is_run(void **state)
     check_page("out/index.html", 1, 2);
     wt_result_free(result);
 
-    // Without an answer the page is called by what is in it.
+    // Without a result the title of the page describes its contents.
     size_t length = 0;
     char *page = read_all("out/index.html", &length);
     assert_non_null(strstr(page, "<title>Modulus of each group"));
@@ -365,7 +364,7 @@ static void test_the_same_bytes_twice(void **state)
     wt_result_free(result);
 }
 
-/* Without its empty groups: a gnuplot that has drawn nothing yet begins with one. */
+/* Without its empty groups, because gnuplot writes one at its start. */
 static size_t leave_out_empty_groups(char *picture)
 {
     for (char *group = strstr(picture, "<g "); group != NULL; group = strstr(group, "<g ")) {
@@ -378,7 +377,7 @@ static size_t leave_out_empty_groups(char *picture)
     return strlen(picture);
 }
 
-/* `cd plots && gnuplot NAME.gp` gives the same picture, also after the folder has moved. */
+/* `cd plots && gnuplot NAME.gp` draws the same picture, also after the folder was moved. */
 static void test_plots_can_be_drawn_again(void **state)
 {
     (void)state;
@@ -425,7 +424,7 @@ static void test_missing_tables(void **state)
 {
     (void)state;
     NEED_GNUPLOT();
-    // Friction only: its figures, its tables, nothing else.
+    /* Friction only: its figures and tables, nothing else. */
     static const char *const sliding[] = {"friction", "roughness", "contact_area"};
     const fixture_change none = {.table = NULL},
                          one = {.keep = keep_first, .edit = forget_shearing};
@@ -443,7 +442,7 @@ static void test_missing_tables(void **state)
     wt_result_free(result);
 }
 
-/* Tables without a single number: the page says so. */
+/* Tables without a number: the page states it. */
 static void test_nothing_to_draw(void **state)
 {
     (void)state;
@@ -520,7 +519,7 @@ static void test_no_gnuplot(void **state)
     wt_result_free(result);
 }
 
-static void test_words_of_gnuplot(void **state)
+static void test_messages_of_gnuplot(void **state)
 {
     (void)state;
     NEED_GNUPLOT();
@@ -552,7 +551,7 @@ static void two_seconds(wt_table *copy, size_t row)
     fixture_put(copy, "cpu_time", 1.7);
 }
 
-/* Beside its names a panel is narrow: numbers of four digits would stand on one another. */
+/* With long names a panel is narrow, so that numbers of four digits would overlap. */
 static void test_few_numbers_on_a_narrow_axis(void **state)
 {
     (void)state;
@@ -591,9 +590,9 @@ static void half_area(wt_table *copy, size_t row)
     fixture_put(copy, "isotropic_area_ratio", 0.5);
 }
 
-/* A case of one velocity is a point, no line of one; long names keep the end that tells them apart;
- * the isotropic rubber beside one with directions is dashed, in the colour of its velocity. */
-static void test_cases_beside_one_another(void **state)
+/* A case of one velocity is a point, not a line. Long names keep their distinguishing end. The
+ * isotropic rubber is dashed in the colour of its velocity. */
+static void test_cases_side_by_side(void **state)
 {
     static const struct {
         const char *table, *script, *holds;
@@ -633,8 +632,8 @@ static void known_well(wt_table *copy, size_t row)
     fixture_put(copy, "paused_time", 0);
 }
 
-/* A cell has the digits of its interval, whose ends three would print alike; zeros are of the unit
- * without a prefix. */
+/* A cell has the digits of its interval if three digits would make the limits equal; zeros have the
+ * unit without a prefix. */
 static void test_digits_of_intervals(void **state)
 {
     (void)state;
@@ -659,10 +658,10 @@ static void test_only_reports_are_replaced(void **state)
     (void)state;
     wt_result *result = wt_result_new();
     wt_error err;
-    // An empty folder may be taken; an older report may be replaced.
+    /* An empty folder may be used; an older report may be replaced. */
     assert_int_equal(mkdir("out", 0777), 0);
     write_report(result, "out/", NULL);
-    // What is not of a report stays, and stops nothing; a picture that is not drawn any more goes.
+    /* Foreign files stay and stop nothing; obsolete pictures are removed. */
     static const char *const strays[] = {"out/notes.txt",      "out/.DS_Store",
                                          "out/Thumbs.db",      "out/plots/figure.pdf",
                                          "out/plots/mine.svg", "out/plots/.DS_Store",
@@ -681,14 +680,14 @@ static void test_only_reports_are_replaced(void **state)
     }
     assert_false(exists("out/plots/friction.svg"));
     assert_int_equal(count_files("out"), 2 + 4);
-    // An empty folder that a file manager has looked at.
+    /* An empty folder that a file manager has opened. */
     assert_int_equal(mkdir("seen", 0777), 0);
     write_all("seen/.DS_Store", "x");
     write_all("seen/Thumbs.db", "x");
     write_report(result, "seen", NULL);
     assert_true(exists("seen/index.html") && exists("seen/.DS_Store") && exists("seen/Thumbs.db"));
     remove_all("seen");
-    // "plots" of the user's, who points elsewhere: nothing there is touched.
+    /* A foreign "plots" that points elsewhere is unchanged. */
     remove_all("out/plots");
     assert_int_equal(symlink("mine", "out/plots"), 0);
     assert_int_equal(try_report(result, "out", NULL, &err), WT_E_IO);
@@ -707,7 +706,7 @@ static void test_only_reports_are_replaced(void **state)
     assert_int_equal(try_report(result, "site", NULL, &err), WT_E_IO);
     assert_non_null(strstr(err.advice, "another name"));
     assert_true(exists("site/index.html"));
-    // A file, the folder itself, a place that cannot be.
+    /* A file, the folder itself, an impossible path. */
     write_all("file", "x");
     assert_int_equal(try_report(result, "file", NULL, &err), WT_E_IO);
     assert_int_equal(try_report(result, ".", NULL, &err), WT_E_ARG);
@@ -725,7 +724,8 @@ static void test_only_reports_are_replaced(void **state)
     wt_result_free(result);
 }
 
-/* One file, the same as in a folder; it replaces a page of ours and nothing else. */
+/* A single file equals that in a folder; it replaces an older page of weartrack and nothing
+ * else. */
 static void test_a_page_alone(void **state)
 {
     (void)state;
@@ -780,7 +780,7 @@ static void test_a_page_alone(void **state)
     wt_result_free(result);
 }
 
-/* A page of strain sweeps has their numbers, though no figure draws them. */
+/* The page of strain sweeps has their numbers, though no figure shows them. */
 static void test_strain_sweeps(void **state)
 {
     (void)state;
@@ -801,7 +801,7 @@ static void give_law(wt_table *shifts)
     fixture_key(shifts, "law_slope", -0.1, (double)NAN, "1/K");
 }
 
-/* A law that was given is none that was fitted, and has no band. */
+/* A stated law is not called fitted, and has no band. */
 static void test_a_given_law(void **state)
 {
     (void)state;
@@ -827,7 +827,7 @@ static void many_groups(wt_table *depths, size_t row)
     fixture_text(depths, "group", name);
 }
 
-/* More of them than a figure has colours for are not left out without a word. */
+/* A number above the colours of a figure is reported. */
 static void test_too_many_groups(void **state)
 {
     (void)state;
@@ -843,8 +843,8 @@ static void test_too_many_groups(void **state)
     wt_result_free(result);
 }
 
-/* Permissions, of the folder too, are those of the older report. */
-static void test_modes_stay(void **state)
+/* The permissions, also of the folder, are those of the older report. */
+static void test_permissions_are_kept(void **state)
 {
     (void)state;
     static const struct {
@@ -870,7 +870,7 @@ static void test_modes_stay(void **state)
     wt_result_free(result);
 }
 
-/* Writes a report in another process, and holds still while it draws. */
+/* Writes a report in another process, and pauses while it draws. */
 static pid_t draw_slowly(const wt_result *result, const char *folder, const char *gnuplot)
 {
     const pid_t writer = fork();
@@ -883,7 +883,7 @@ static pid_t draw_slowly(const wt_result *result, const char *folder, const char
     return writer;
 }
 
-/* gnuplot writes in its folder only: that of a new report, or one in the folder of the report. */
+/* gnuplot only writes in its folder: that of a new report, or one in the report folder. */
 static void wait_for(const char *name)
 {
     bool found = false;
@@ -899,8 +899,8 @@ static void wait_for(const char *name)
     assert_true(found);
 }
 
-/* What a killed run has left is swept away by the next one, in a new place and over an older
- * report; what a run that lives is working on is not. */
+/* The next run removes the files of a killed one, in a new folder and over an older report; it does
+ * not touch those of a live run. */
 static void test_leftovers(void **state)
 {
     (void)state;
@@ -918,7 +918,7 @@ static void test_leftovers(void **state)
         assert_int_equal(waitpid(killed, NULL, 0), killed);
         const pid_t alive = draw_slowly(result, "out", "./later");
         wait_for("later_begun");
-        write_report(result, "out", NULL); // into the same folder, while the other one draws
+        write_report(result, "out", NULL); /* into the same folder while the other one draws */
         write_report(result, "other", NULL);
         int end = -1;
         assert_int_equal(waitpid(alive, &end, 0), alive);
@@ -957,37 +957,44 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_figure_is_listed_once),
         cmocka_unit_test(test_the_man_pages_name_every_figure),
-        cmocka_unit_test_setup_teardown(test_everything, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_page, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_strain_sweeps, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_a_given_law, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_too_many_groups, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_tables_on_the_page, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_the_median_decides_the_unit, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_nothing_from_a_file_is_run, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_the_same_bytes_twice, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_plots_can_be_drawn_again, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_missing_tables, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_nothing_to_draw, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_an_empty_result_needs_no_gnuplot, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_no_gnuplot, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_words_of_gnuplot, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_only_reports_are_replaced, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_few_numbers_on_a_narrow_axis, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_cases_beside_one_another, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_digits_of_intervals, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_a_page_alone, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_modes_stay, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_leftovers, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_cancelled, make_workplace, remove_workplace),
+        cmocka_unit_test_setup_teardown(test_everything, create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_page, create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_strain_sweeps, create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_a_given_law, create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_too_many_groups, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_tables_on_the_page, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_the_median_decides_the_unit, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_nothing_from_a_file_is_run, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_the_same_bytes_twice, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_plots_can_be_drawn_again, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_missing_tables, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_nothing_to_draw, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_an_empty_result_needs_no_gnuplot, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_no_gnuplot, create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_messages_of_gnuplot, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_only_reports_are_replaced, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_few_numbers_on_a_narrow_axis, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_cases_side_by_side, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_digits_of_intervals, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_a_page_alone, create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_permissions_are_kept, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_leftovers, create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_cancelled, create_work_folder, remove_work_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

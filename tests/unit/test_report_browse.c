@@ -1,7 +1,7 @@
-/* The page to go through curves: its samples are those of the table, its words cannot leave their
- * element, and a result without samples has none.
+/* The page with all curves: its samples are those of the table, its texts cannot end their element,
+ * and a result without samples has no page.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+#include "table_cells.h"
 
 #include "report/report_files.h"
 #include "weartrack/indentation.h"
@@ -21,7 +21,7 @@ static void assert_within(double found, double expected, double allowed)
         fail_msg("%.9g is not %.9g (allowed %.2g)", found, expected, allowed);
 }
 
-/* A group of two maps, as a result. */
+/* A group with two maps, as a result. */
 static wt_result *fitted(const char *const *curves, size_t n)
 {
     static const char *const files[] = {CASE "bulk-1.jpk-force-map", CASE "bulk-2.jpk-force-map"};
@@ -80,7 +80,7 @@ static double value(const unsigned char *bytes, size_t i, double low, double hig
     return low + (high - low) * (bytes[2 * i] + 256 * bytes[2 * i + 1]) / 65534;
 }
 
-/* Every sample of every curve within a step of the 16 bits, force, displacement and fit. */
+/* Every sample of every curve within a step of the 16 bits: force, displacement and fit. */
 static void test_samples(void **state)
 {
     (void)state;
@@ -90,7 +90,7 @@ static void test_samples(void **state)
     char *data = data_of(result), *next = data;
     static unsigned char bytes[8192];
     size_t row = 0, n_curves = 0;
-    while ((next = strstr(next, ",[")) != NULL) { /* samples are the only lists behind a comma */
+    while ((next = strstr(next, ",[")) != NULL) { /* only samples are lists after a comma */
         unsigned long n, approach, contact;
         double z[2], f[2], compliance;
         char *end = NULL;
@@ -123,7 +123,7 @@ static void test_samples(void **state)
     wt_result_free(result);
 }
 
-/* The fit of the table is near its force, and the thinned curve keeps its ends. */
+/* The fit in the table is close to its force, and the thinned curve keeps its extremes. */
 static void test_residuals(void **state)
 {
     (void)state;
@@ -153,8 +153,8 @@ static void test_residuals(void **state)
     wt_result_free(result);
 }
 
-/* Names and reasons by other hands cannot end the element or the string that they are in. */
-static void test_words(void **state)
+/* Foreign names and reasons cannot end their element or string. */
+static void test_foreign_texts(void **state)
 {
     (void)state;
     static const char text[] = "# file[text]\tcurve[1]\tverdict[text]\treason[text]\tmodulus[Pa]\n"
@@ -193,7 +193,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_samples), cmocka_unit_test(test_residuals),
-        cmocka_unit_test(test_words), cmocka_unit_test(test_nothing)};
+        cmocka_unit_test(test_foreign_texts), cmocka_unit_test(test_nothing)};
     if (wt_formats_new(NULL, &formats, NULL, NULL) != WT_OK)
         return 1;
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,6 @@
-/* Whether a report could be written, asked before the work.
- *
+/* Checks before the work that a report can be written.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/report.h"
 
 #include <dirent.h>
@@ -54,7 +53,7 @@ static void test_nothing_is_left(void **state)
     }
     assert_int_equal(remove(options.style), 0);
 
-    /* somebody's own folder is not replaced */
+    /* a foreign folder is not replaced */
     assert_int_equal(mkdir("mine", 0777), 0);
     FILE *own = fopen("mine/own.txt", "w");
     assert_non_null(own);

@@ -1,10 +1,8 @@
-/* The figures of a report: what is drawn from which column, what the captions say, what a result
- * must hold.
- *
+/* Figures of a report: the columns that they draw, their captions, and the required tables.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "drawn_report.h"
 #include "report/drawing.h"
+#include "shared_report.h"
+#include "table_cells.h"
 
 #include <ctype.h>
 
@@ -42,8 +40,8 @@ static void test_data_have_the_described_columns(void **state)
     }
 }
 
-/* A figure's table is one of those that a report binds (FIGURE_TABLES). */
-static void test_tables_are_bound(void **state)
+/* The table of a figure is one of the tables that a report reads (FIGURE_TABLES). */
+static void test_tables_are_read(void **state)
 {
     (void)state;
     figure_tables tables = {.n_indentation = 0};
@@ -54,7 +52,7 @@ static void test_tables_are_bound(void **state)
     }
 }
 
-/* A description names columns of its own table, each of the right kind. */
+/* A description names columns of its own table with the right type. */
 static void test_descriptions_fit_their_tables(void **state)
 {
     (void)state;
@@ -81,7 +79,7 @@ static void test_descriptions_fit_their_tables(void **state)
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-/* The columns that an item of a plot command uses, in their order, each once: "time thickness". */
+/* Columns that an item of a plot command uses, in their order, each once: "time thickness". */
 static void columns_of_item(const char *item, wt_table *const *sections, size_t n, char *words,
                             size_t size)
 {
@@ -119,7 +117,7 @@ static void columns_of_item(const char *item, wt_table *const *sections, size_t 
     }
 }
 
-/* What stands behind `with`, and what must be drawn so. */
+/* Options after `with`, and the style that must be used. */
 static void test_curves_are_drawn_from_their_columns(void **state)
 {
     (void)state;
@@ -344,13 +342,13 @@ static void test_the_key_lists_what_is_drawn(void **state)
     wt_result_free(result);
 }
 
-/* A model without incubation still states its time; the curve then shows none, nor may a mark. */
+/* A model without incubation still states its time; the curve then has none, and no mark. */
 static void grow_at_once(wt_table *layer, size_t row)
 {
     fixture_put(layer, "thickness", 1e-8 * (double)(row + 1));
 }
 
-/* A time that is the last of the curve is on its axis. */
+/* A time at the end of the curve is on its axis. */
 static void relax_at_the_end(wt_table *layer)
 {
     fixture_key(layer, "relaxation_time", number_cell(layer, wt_table_n_rows(layer) - 1, "time"), 0,
@@ -406,7 +404,7 @@ static double number_behind(const char *text, const char *words)
     return strtod(at + strlen(words), NULL);
 }
 
-/* The axes of a map end half a step beyond the outermost curves, and a margin. */
+/* The axes of a map end half a step beyond the outermost curves, plus a margin. */
 static void test_range_of_a_map(void **state)
 {
     (void)state;
@@ -432,7 +430,7 @@ static void test_range_of_a_map(void **state)
     free_sections(sections, n);
 }
 
-/* Raw and shifted isotherms have one scale of colour, and so have the planes. */
+/* Raw and shifted isotherms share one colour scale, and so do the planes. */
 static void test_one_scale_of_colour(void **state)
 {
     (void)state;
@@ -454,7 +452,7 @@ static void warm_by_two_kelvins(wt_table *isotherms, size_t row)
     fixture_put(isotherms, "temperature", 293.15 + 2 * (double)(row % 5));
 }
 
-/* Set twice, to what an oven holds. */
+/* Set twice, to values of an oven. */
 static void warm_once(wt_table *isotherms, size_t row)
 {
     static const double set[] = {293.15, 293.45, 295.15, 294.9};
@@ -472,7 +470,7 @@ static size_t count_of(const char *text, const char *words)
     return n;
 }
 
-/* Temperatures are told apart by kelvins, not by their share of 293 K. */
+/* Temperatures are distinguished in kelvins, not relative to 293 K. */
 static void test_temperatures_are_colours(void **state)
 {
     (void)state;
@@ -496,7 +494,7 @@ static void test_temperatures_are_colours(void **state)
     }
 }
 
-/* The axis of a plane goes as far as what is made of the two moduli. */
+/* The axis of a plane extends over both moduli and their derived values. */
 static void test_range_of_a_plane(void **state)
 {
     (void)state;
@@ -514,7 +512,7 @@ static void test_range_of_a_plane(void **state)
     free_sections(sections, n);
 }
 
-/* A vertical shift that is none has no picture. */
+/* A vertical shift of zero has no picture. */
 static void forget_vertical(wt_table *shifts)
 {
     fixture_words(shifts, "vertical", "none");
@@ -533,7 +531,7 @@ static void test_no_vertical_shift_no_figure(void **state)
     wt_result_free(result);
 }
 
-/* A subscript needs the enhanced mode that labels are without. */
+/* A subscript needs the enhanced mode, which labels do not use. */
 static void test_label_with_subscripts(void **state)
 {
     (void)state;
@@ -547,7 +545,7 @@ static void test_label_with_subscripts(void **state)
     free(script);
 }
 
-/* The labels of upright axes lie on the paper with their ascenders: both panels have theirs. */
+/* The labels of vertical axes are on the paper with their ascenders, in both panels. */
 static void test_labels_are_on_the_paper(void **state)
 {
     (void)state;
@@ -575,8 +573,8 @@ static void check_caption(const char *folder, const char *figure, const char *wo
     free(script);
 }
 
-/* Numbers of the case as its tables hold them (and of truth.txt, within their errors), or as the
- * fixture sets them. */
+/* Numbers of the case are those of its tables (and of truth.txt, within their errors), or of the
+ * fixture. */
 static void test_numbers_of_captions(void **state)
 {
     (void)state;
@@ -644,7 +642,7 @@ static void repeat_curves(wt_table *curves)
     }
 }
 
-/* One more scan, of three points, which are no grid. */
+/* One more scan, of three points, which is not a grid. */
 static void add_ragged(wt_table *map)
 {
     for (int i = 0; i < 3; i++) {
@@ -656,8 +654,8 @@ static void add_ragged(wt_table *map)
     }
 }
 
-/* Every n-th point is drawn, and the caption says so, as it does of what cannot be drawn. */
-static void test_crowds_are_thinned(void **state)
+/* Every n-th point is drawn, and the caption states it; it also states what cannot be drawn. */
+static void test_many_points_are_thinned(void **state)
 {
     (void)state;
     NEED_REPORT();
@@ -693,7 +691,7 @@ static void test_crowds_are_thinned(void **state)
     wt_result_free(result);
 }
 
-/* ---- what a result must hold ----------------------------------------------------------------- */
+/* ---- required tables ------------------------------------------------------------------------- */
 
 static void check_refused(const char *table, const char *column, const fixture_change *change,
                           wt_status expected)
@@ -707,9 +705,9 @@ static void check_refused(const char *table, const char *column, const fixture_c
     wt_result_free(result);
 }
 
-/* A column or key that must be there and is not, and one of the wrong kind, are errors that name
- * table and column; nothing is written. */
-static void test_what_is_missing_is_an_error(void **state)
+/* A missing required column or key, or one of the wrong type, is an error that names table and
+ * column; nothing is written. */
+static void test_missing_column_is_an_error(void **state)
 {
     (void)state;
     size_t checked = 0;
@@ -741,8 +739,8 @@ static void test_what_is_missing_is_an_error(void **state)
     assert_true(checked > 100);
 }
 
-/* What an optional column would say is left out. */
-static void test_what_may_be_missing(void **state)
+/* The part of a missing optional column is omitted. */
+static void test_optional_columns(void **state)
 {
     (void)state;
     NEED_REPORT();
@@ -761,7 +759,7 @@ static void test_what_may_be_missing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tables_are_bound),
+        cmocka_unit_test(test_tables_are_read),
         cmocka_unit_test(test_descriptions_fit_their_tables),
         cmocka_unit_test(test_data_have_the_described_columns),
         cmocka_unit_test(test_curves_are_drawn_from_their_columns),
@@ -776,9 +774,9 @@ int main(void)
         cmocka_unit_test(test_range_of_a_plane),
         cmocka_unit_test(test_no_vertical_shift_no_figure),
         cmocka_unit_test(test_numbers_of_captions),
-        cmocka_unit_test(test_crowds_are_thinned),
-        cmocka_unit_test(test_what_is_missing_is_an_error),
-        cmocka_unit_test(test_what_may_be_missing),
+        cmocka_unit_test(test_many_points_are_thinned),
+        cmocka_unit_test(test_missing_column_is_an_error),
+        cmocka_unit_test(test_optional_columns),
     };
-    return cmocka_run_group_tests(tests, draw_everything, remove_everything);
+    return cmocka_run_group_tests(tests, create_shared_report, remove_shared_report);
 }

@@ -1,9 +1,8 @@
-/* What gnuplot is given and what it does: texts of strangers, a gnuplot that hangs, floods, dies or
- * leaves children behind, a report that is killed while it draws.
- *
+/* Input and behaviour of gnuplot: hostile texts, a gnuplot that hangs, writes too much, dies or
+ * leaves child processes, a report that is killed while it draws.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
-#include "report_place.h"
+#include "report_folder.h"
 
 #include <errno.h>
 #include <libxml/parser.h>
@@ -21,7 +20,7 @@ static void rename_first_group(wt_table *table, size_t row)
         fixture_text(table, "group", hostile);
 }
 
-/* The text between the tags of a picture, entities resolved. */
+/* Text between the tags of a picture, with entities resolved. */
 static bool picture_says(const char *path, const char *words)
 {
     xmlDoc *picture = xmlReadFile(path, NULL, XML_PARSE_NONET | XML_PARSE_NOERROR);
@@ -39,7 +38,7 @@ static void test_hostile_texts(void **state)
     (void)state;
     NEED_GNUPLOT();
     static const struct {
-        const char *group, *drawn; /* NULL: as it is */
+        const char *group, *drawn; /* NULL: unchanged */
     } texts[] = {
         {"'", NULL},
         {"'quoted'", NULL},
@@ -89,7 +88,7 @@ static void test_hostile_texts(void **state)
     free(long_text);
 }
 
-/* Settings of the user's change nothing and run nothing. */
+/* Settings of the user change nothing and execute nothing. */
 static void test_settings_of_the_user(void **state)
 {
     (void)state;
@@ -130,7 +129,7 @@ static void test_settings_of_the_user(void **state)
     wt_result_free(result);
 }
 
-/* ---- a gnuplot that does what it should not -------------------------------------------------- */
+/* ---- a gnuplot that fails -------------------------------------------------------------------- */
 
 static void write_program(const char *name, const char *script)
 {
@@ -178,7 +177,7 @@ static void test_programs_that_hang_flood_and_die(void **state)
             strstr(err.found, programs[i].found) == NULL)
             fail_msg("%s: %s, found %s", programs[i].script, err.message, err.found);
         assert_true(took < 10 && (!programs[i].late || took > 0.4));
-        assert_true(programs_end());
+        assert_true(all_programs_end());
         assert_int_equal(count_files("."), 1);
     }
     wt_result_free(result);
@@ -205,12 +204,12 @@ static void test_cancelled_while_it_draws(void **state)
     const wt_progress progress = {cancel_after, &end};
     assert_int_equal(wt_report_write(result, "out", &options, &progress, &err), WT_E_CANCELLED);
     assert_true(wt_time_wall() - begin < 5);
-    assert_true(programs_end());
+    assert_true(all_programs_end());
     assert_false(exists("out"));
     wt_result_free(result);
 }
 
-/* Not even SIGKILL leaves gnuplot behind. */
+/* gnuplot ends also after SIGKILL of the report. */
 static void test_killed_while_it_draws(void **state)
 {
     (void)state;
@@ -230,22 +229,22 @@ static void test_killed_while_it_draws(void **state)
     assert_int_not_equal(find_program(), 0);
     assert_int_equal(kill(writer, SIGKILL), 0);
     assert_int_equal(waitpid(writer, NULL, 0), writer);
-    assert_true(programs_end());
+    assert_true(all_programs_end());
     wt_result_free(result);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_hostile_texts, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_settings_of_the_user, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_programs_that_hang_flood_and_die, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_cancelled_while_it_draws, make_workplace,
-                                        remove_workplace),
-        cmocka_unit_test_setup_teardown(test_killed_while_it_draws, make_workplace,
-                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_hostile_texts, create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_settings_of_the_user, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_programs_that_hang_flood_and_die, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_cancelled_while_it_draws, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_killed_while_it_draws, create_work_folder,
+                                        remove_work_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

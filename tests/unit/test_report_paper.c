@@ -1,8 +1,7 @@
-/* Figures for a paper: as wide as asked for in every format, with the same type, and refusals.
- *
+/* Figures for a paper: the requested width in every format, with the same font size, and refusals.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
-#include "report_place.h"
+#include "report_folder.h"
 
 #include <math.h>
 
@@ -25,7 +24,7 @@ static unsigned long prefix_length(const char *bytes)
     return word;
 }
 
-/* Width and height in millimetres as the file says them. */
+/* Width and height in millimetres as stated in the file. */
 static void svg_size(const char *bytes, double size[2])
 {
     size[0] = number_behind(bytes, "<svg width=\"");
@@ -40,7 +39,7 @@ static void pdf_size(const char *bytes, size_t length, double size[2])
     char *end = NULL;
     size[0] = strtod(found + sizeof box - 1, &end) / 72 * 25.4;
     size[1] = strtod(end, NULL) / 72 * 25.4;
-    // Text is text: there is a font, and no page is a picture.
+    // Text is stored as text with a font, not as a picture.
     assert_non_null(memmem(bytes, length, "/Font", 5));
     assert_null(memmem(bytes, length, "/Subtype /Image", 15));
 }
@@ -58,7 +57,7 @@ static void png_size(const char *bytes, size_t length, double size[2])
     size[1] = 1e3 * (double)prefix_length(bytes + 20) / dots;
 }
 
-/* All type is of one size, but for what stands higher or lower. */
+/* All text has the same size, except superscripts and subscripts. */
 static void check_type(const char *name, const char *bytes)
 {
     static const char size[] = "font-size=\"";
@@ -86,7 +85,7 @@ static void check_sizes(const char *figure, double width, double units)
             pdf_size(bytes, length, size);
         else
             png_size(bytes, length, size);
-        // A point is the grain of a page of PDF, a unit that of SVG.
+        // The resolution of a PDF page is a point, that of SVG a unit.
         if (fabs(size[0] - width) > 0.36)
             fail_msg("%s is %g mm wide, not %g", path, size[0], width);
         if (k == 0) {
@@ -118,7 +117,7 @@ static void test_widths_and_type(void **state)
         check_sizes(figures[i], column, units);
     // Every figure is there in every format.
     assert_int_equal(count_files("out/plots"), 5 * wt_figure_count() + 2);
-    // What is not asked for goes, as it would show old numbers.
+    /* Figures that are not requested are removed, because they would show old numbers. */
     options.figures = WT_FIGURE_PDF;
     options.width = (double)NAN;
     write_report(result, "out", &options);
@@ -151,7 +150,7 @@ static void test_the_font_is_that_of_the_figures_and_the_page(void **state)
     wt_result_free(result);
 }
 
-/* An fc-match that has one family, whatever it is asked for. */
+/* An fc-match that always returns one family. */
 static void test_a_font_that_is_not_there(void **state)
 {
     (void)state;
@@ -159,7 +158,7 @@ static void test_a_font_that_is_not_there(void **state)
     char instead[10] = "";
     FILE *script = fopen("fc-match", "w");
     assert_non_null(script);
-    /* a hyphen that is not escaped would begin a size */
+    /* an unescaped hyphen would begin a size */
     (void)fprintf(script, "#!/bin/sh\ncase $3 in 7-*) exit 1;; esac\n"
                           "echo 'DejaVu Sans,Sans Book'\n");
     assert_int_equal(fclose(script), 0);
@@ -173,7 +172,8 @@ static void test_a_font_that_is_not_there(void **state)
     assert_string_equal(instead, "DejaVu Sa");
     assert_false(wt_report_font_is_available("7-", instead, sizeof instead));
     assert_int_equal(unlink("fc-match"), 0);
-    assert_true(wt_report_font_is_available("Sans", instead, sizeof instead)); /* none to ask */
+    /* no family to return */
+    assert_true(wt_report_font_is_available("Sans", instead, sizeof instead));
     assert_int_equal(setenv("PATH", path, 1), 0);
     free(here);
     free(path);
@@ -203,7 +203,7 @@ static void test_refusals(void **state)
         options.width = widths[i];
         assert_int_not_equal(wt_report_check("out", &options, &err), WT_OK);
     }
-    // The page alone has no place for them.
+    /* The page alone has no folder for them. */
     options = wt_report_defaults();
     assert_int_equal(wt_report_check("page.html", &options, &err), WT_OK);
     options.figures = WT_FIGURE_PDF;
@@ -220,7 +220,7 @@ static void test_refusals(void **state)
     assert_int_equal(options.figures, WT_FIGURE_PNG | WT_FIGURE_SVG);
 }
 
-/* Each picture has its time, the last one too. */
+/* Each picture has its own time limit, the last one too. */
 static void test_one_of_many_hangs(void **state)
 {
     (void)state;
@@ -246,13 +246,15 @@ static void test_one_of_many_hangs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_widths_and_type, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_a_font_that_is_not_there, make_workplace,
-                                        remove_workplace),
+        cmocka_unit_test_setup_teardown(test_widths_and_type, create_work_folder,
+                                        remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_a_font_that_is_not_there, create_work_folder,
+                                        remove_work_folder),
         cmocka_unit_test_setup_teardown(test_the_font_is_that_of_the_figures_and_the_page,
-                                        make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_refusals, make_workplace, remove_workplace),
-        cmocka_unit_test_setup_teardown(test_one_of_many_hangs, make_workplace, remove_workplace),
+                                        create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_refusals, create_work_folder, remove_work_folder),
+        cmocka_unit_test_setup_teardown(test_one_of_many_hangs, create_work_folder,
+                                        remove_work_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

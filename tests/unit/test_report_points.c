@@ -1,10 +1,9 @@
-/* No figure loses a point: each section of its data holds the rows of a table that it is of, all of
- * them, in their order and blocks, and gnuplot finds them and draws them.
- *
+/* No figure loses a point. Each section of its data has all rows of its table, in their order and
+ * blocks; gnuplot reads and draws them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "drawn_report.h"
 #include "report/drawing.h"
+#include "shared_report.h"
+#include "table_cells.h"
 
 #include <ctype.h>
 
@@ -21,7 +20,7 @@ static sections begin_sections(const char *figure)
     return s;
 }
 
-/* All of them were asked for. */
+/* All of them were requested. */
 static void end_sections(sections *s)
 {
     if (s->seen != s->n)
@@ -34,7 +33,7 @@ static const double seven_digits = 6e-7;
 
 /* ---- against their tables -------------------------------------------------------------------- */
 
-/* Rows of a table whose text columns hold these texts; "!accepted": any other. */
+/* Rows of a table with these texts in text columns; "!accepted": any other text. */
 typedef struct chosen {
     const char *table, *column[2], *text[2];
 } chosen;
@@ -51,7 +50,7 @@ static bool is_chosen(const wt_table *table, size_t row, const chosen *c)
     return true;
 }
 
-/* The next section holds the chosen rows, with the columns that it names. */
+/* The next section has the chosen rows and the named columns. */
 static void next_is(sections *s, chosen c)
 {
     const wt_table *table = wt_result_find(everything, c.table);
@@ -80,7 +79,7 @@ static void next_is(sections *s, chosen c)
                  wt_table_n_rows(section), row, c.table);
 }
 
-/* The next section is one row of these numbers. */
+/* The next section is one row with these numbers. */
 static void next_has(sections *s, const double *numbers, size_t n)
 {
     assert_true(s->seen < s->n);
@@ -156,7 +155,7 @@ static void test_groups(void **state)
             next_is(&s, (chosen){by_group[i].figure, {by_group[i].column}, {by_group[i].group[k]}});
         end_sections(&s);
     }
-    /* a panel for each of one column, in it each of another */
+    /* a panel for each value of one column, with a curve for each of another */
     static const char *const samples[] = {"HC", FIXTURE_EVIL}, *const conditions[] = {"mild",
                                                                                       "severe"};
     sections rates = begin_sections("collected_modulus"),
@@ -219,7 +218,7 @@ static void test_segments_with_their_contact(void **state)
     const wt_table *table = wt_result_find(everything, "force_displacement");
     static const char *const groups[] = {"bulk", "track"}, *const segments[] = {"approach",
                                                                                 "retract"};
-    /* the points of contact stand behind the two segments of their group */
+    /* the contact points follow the two segments of their group */
     for (size_t i = 0; i < 2; i++) {
         char point[64], force[64];
         wt_estimate at = {0}, of = {0};
@@ -235,8 +234,7 @@ static void test_segments_with_their_contact(void **state)
     end_sections(&s);
 }
 
-/* On the sheet of curves those that were refused come before the others, which are in their order.
- */
+/* The curve sheet begins with refused curves; the others are in their order. */
 static void test_refused_curves_come_first(void **state)
 {
     (void)state;
@@ -257,8 +255,7 @@ static void test_refused_curves_come_first(void **state)
     free(script);
 }
 
-/* The colour of the next bars of a budget: what is measured, what the model leaves open, the rest.
- */
+/* The colour of the next bars of a budget: measured, model, other. */
 static void next_bars(const char **script, const char *kind)
 {
     static const char bars[] = "boxxyerror ls ";
@@ -270,7 +267,7 @@ static void next_bars(const char **script, const char *kind)
         fail_msg("bars of kind %s have style %c", kind, **script);
 }
 
-/* Each number of the budget that has an error above what is drawn, its kinds in their order. */
+/* Each number of the budget with an error above the drawing limit, and its kinds in their order. */
 static void test_error_budget(void **state)
 {
     (void)state;
@@ -321,7 +318,7 @@ static void test_work_precision(void **state)
     end_sections(&s);
 }
 
-/* ---- what if: the range of each choice, the widest last, then what chance does --------------- */
+/* ---- sensitivity: range of each choice, the widest last, then that of chance ----------------- */
 
 typedef struct range {
     const char *choice;
@@ -335,7 +332,7 @@ static int wider(const void *a, const void *b)
     return more > 0 ? 1 : more < 0 ? -1 : 0;
 }
 
-/* "'choice' 2.2, 'tried; tried unit' 1.8": of one that moves the number, the unit once. */
+/* "'choice' 2.2, 'tried; tried unit' 1.8": a row that moves the number has the unit once. */
 static void add_tics(char *tics, size_t size, size_t place_of, const wt_table *t,
                      const char *choice, const char *column)
 {
@@ -402,8 +399,8 @@ static void test_what_if(void **state)
     free(script);
 }
 
-/* Names at the places of their rows: "'name' 3". */
-static void test_names_at_their_places(void **state)
+/* Names at the positions of their rows: "'name' 3". */
+static void test_names_at_their_positions(void **state)
 {
     (void)state;
     NEED_REPORT();
@@ -451,9 +448,10 @@ static void test_names_at_their_places(void **state)
     free(script);
 }
 
-/* ---- as gnuplot sees them -------------------------------------------------------------------- */
+/* ---- points in gnuplot ----------------------------------------------------------------------- */
 
-/* Lines of numbers in each data set of a file: two blank lines part them, '#' begins a comment. */
+/* Number of rows in each data set of a file: two blank lines separate them, '#' begins a
+ * comment. */
 static size_t count_sets(const char *figure, size_t lines[MOST])
 {
     size_t n = 0, blank = 2;
@@ -496,7 +494,7 @@ static void test_index_finds_every_section(void **state)
     }
 }
 
-/* The script with what is plotted written as tables. */
+/* The script with its plots written as tables. */
 static void tabulate(const char *figure)
 {
     char path[160];
@@ -519,14 +517,14 @@ static void tabulate(const char *figure)
     assert_int_equal(system(path), 0); // NOLINT(cert-env33-c): a name of ours
 }
 
-/* Of a plot item that draws a section: how many points of it; whether some may lie outside; whether
- * those that a condition leaves out are not even said to be undefined. */
+/* Number of points of a plot item that draws a section; flags for points outside the axes, and for
+ * points that a condition removes without a mark. */
 typedef struct item {
     size_t points;
     bool outside, unknown, fewer;
 } item;
 
-/* Items of a script that give points in the table, in their order. */
+/* Items of a script with points in the table, in their order. */
 static size_t list_items(const sections *s, item items[], size_t most)
 {
     char *script = read_plot("out", s->figure, "gp"), *rest = NULL;
@@ -552,7 +550,7 @@ static size_t list_items(const sections *s, item items[], size_t most)
             items[n].points = (wt_table_n_rows(s->of[section]) + step - 1) / step;
             if (strstr(line, " matrix ") != NULL)
                 items[n].points *= wt_table_n_columns(s->of[section]);
-            // A band that has no width in seven digits loses a point there.
+            // A band without a width in seven digits loses a point.
             items[n].fewer = strstr(line, "NaN") != NULL || strstr(line, "filledcurves") != NULL;
             items[n].outside =
                 strstr(line, "filledcurves") != NULL || strstr(line, "lines ls 11") != NULL;
@@ -611,7 +609,7 @@ static void test_gnuplot_draws_every_point(void **state)
     assert_true(drawn_ones > 1000 && points - drawn_ones < points / 10);
 }
 
-/* Panels do not lie on one another: several plots are of a multiplot, with a place for each. */
+/* Panels do not overlap: several plots are a multiplot, with a position for each. */
 static void test_panels(void **state)
 {
     (void)state;
@@ -636,7 +634,7 @@ static void test_panels(void **state)
     }
 }
 
-/* ---- crowds ---------------------------------------------------------------------------------- */
+/* ---- many points ----------------------------------------------------------------------------- */
 
 static void repeat(wt_table *copy)
 {
@@ -651,9 +649,9 @@ static void repeat(wt_table *copy)
     }
 }
 
-/* Of more points than can be told apart every n-th is drawn, the least n that leaves so many, and
- * the caption says it; the line of a fit is whole. */
-static void test_crowds(void **state)
+/* If there are too many points, every n-th is drawn with the least n, and the caption states it;
+ * the line of a fit is complete. */
+static void test_thinned_points(void **state)
 {
     (void)state;
     NEED_REPORT();
@@ -726,13 +724,13 @@ int main(void)
         cmocka_unit_test(test_error_budget),
         cmocka_unit_test(test_work_precision),
         cmocka_unit_test(test_what_if),
-        cmocka_unit_test(test_names_at_their_places),
+        cmocka_unit_test(test_names_at_their_positions),
         cmocka_unit_test(test_index_finds_every_section),
         cmocka_unit_test(test_gnuplot_draws_every_point),
         cmocka_unit_test(test_panels),
-        cmocka_unit_test(test_crowds),
+        cmocka_unit_test(test_thinned_points),
         cmocka_unit_test(test_every),
     };
-    return cmocka_run_group_tests_name("points of the figures", tests, draw_everything,
-                                       remove_everything);
+    return cmocka_run_group_tests_name("points of the figures", tests, create_shared_report,
+                                       remove_shared_report);
 }

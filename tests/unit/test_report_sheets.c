@@ -1,7 +1,6 @@
-/* Sheets of force curves: which stands where, what is said of it, sheets of A4, refusals.
- *
+/* Curve sheets: positions, texts, sheets of A4, refusals.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+#include "table_cells.h"
 
 #include "report/curve_panel.h"
 #include "weartrack/report.h"
@@ -12,7 +11,7 @@
 
 enum { MANY = 30 };
 
-/* A reason as long as one can be. Curve 6 has it. */
+/* A reason of the largest length, for curve 6. */
 static const char long_reason[] =
     "the 95 % interval is wide: E +- 55 % (55 % from the fit range), above 20 %; a pull that "
     "the contact law does not describe; baseline bent, which is in the error";
@@ -102,7 +101,7 @@ static char *script_of(const figure_tables *tables, const listed_curve *curve)
     return script;
 }
 
-/* Writes the labels from the third on, with a blank between two. Returns the longest length. */
+/* Writes the labels from the third on, separated by blanks. Returns the longest length. */
 static size_t join_reason_lines(const char *script, char *to, size_t size)
 {
     size_t longest = 0;
@@ -120,8 +119,8 @@ static size_t join_reason_lines(const char *script, char *to, size_t size)
     }
 }
 
-/* The longest reason stands whole above a panel of the last column, which begins 180 points
- * before the edge of the sheet; 40 letters of 8 points have 160 in the mean. */
+/* The longest reason is complete above a panel of the last column, which begins 180 points before
+ * the edge of the sheet; 40 letters of 8 points need 160 on average. */
 static void test_long_reason(void **state)
 {
     (void)state;
@@ -141,7 +140,7 @@ static void test_long_reason(void **state)
     wt_result_free(result);
 }
 
-static void test_words(void **state)
+static void test_texts(void **state)
 {
     (void)state;
     wt_result *result = curves_by_hand(MANY);
@@ -189,7 +188,7 @@ static void test_sheets(void **state)
         skip();
     wt_result *result = curves_by_hand(MANY);
     wt_error err = WT_ERROR_INIT;
-    for (int again = 0; again < 2; again++) /* its own file it may replace */
+    for (int again = 0; again < 2; again++) /* it may replace its own file */
         if (wt_curve_sheets_write(result, "sheets.pdf", NULL, NULL, &err) != WT_OK)
             fail_msg("%s", err.message);
     size_t length = 0, pages = 0;
@@ -199,7 +198,7 @@ static void test_sheets(void **state)
     for (const char *s = pdf; (s = memmem(s, (size_t)(end - s), page, sizeof page - 1)) != NULL;
          s++)
         pages++;
-    assert_int_equal(pages, 3); /* 29 curves, twelve on a sheet */
+    assert_int_equal(pages, 3); /* 29 curves, twelve per sheet */
     const char *size = memmem(pdf, length, box, sizeof box - 1);
     assert_non_null(size);
     char *next = NULL;
@@ -244,7 +243,7 @@ static void test_refusals(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_order), cmocka_unit_test(test_words),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_order), cmocka_unit_test(test_texts),
                                        cmocka_unit_test(test_long_reason),
                                        cmocka_unit_test(test_sheets),
                                        cmocka_unit_test(test_refusals)};

@@ -1,7 +1,6 @@
-/* The report room: texts and numbers for reading, lab units, pictures for a page, axes.
- *
+/* Texts of a report: numbers for reading, lab units, pictures for a page, axes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+#include "assert_near.h"
 #include "report/display_units.h"
 #include "report/drawing.h"
 #include "report/figure_files.h"
@@ -103,7 +102,7 @@ static void test_escaping(void **state)
     assert_text(&text, "# a b  c   \n");
 }
 
-/* Numbers and units in ASCII have the signs of the page; names and words stay. */
+/* Numbers and units in ASCII get the typographic characters of the page; names and words do not. */
 static void test_typography(void **state)
 {
     (void)state;
@@ -183,7 +182,7 @@ static void test_svg_is_made_fit_for_a_page(void **state)
     text_free(&text);
 }
 
-/* Symbols that pictures have in common stand once on a page; colours and empty groups are short. */
+/* Symbols that pictures share occur once on a page; colours and empty groups are short. */
 static void test_svg_symbols_are_shared(void **state)
 {
     (void)state;
@@ -217,8 +216,8 @@ static void test_data_links(void **state)
     assert_text(&text, "data:text/plain;charset=utf-8,");
 }
 
-/* gnuplot puts the label of an axis beside those of its tics, and off the paper if they are wide.
- */
+/* gnuplot puts the label of an axis next to those of its tics, and off the paper if they are
+ * wide. */
 static void test_wide_labels_have_a_margin(void **state)
 {
     (void)state;
@@ -255,7 +254,7 @@ static void test_logarithmic_tics_are_at_whole_decades(void **state)
     axis_log(&d, "y", "E", &modulus, (value_span){20.1e6, 20.3e6});
     assert_non_null(strstr(text_string(&d.script), "set ytics (19.5, 20.0, 20.5, 21.0)\n"));
     text_free(&d.script);
-    // Numbers of many digits stand as powers, and have room beside the axis.
+    /* Numbers with many digits are powers, and have a margin at the axis. */
     axis_log(&d, "y", "q", &wavenumber, (value_span){1.2e5, 8e6});
     assert_non_null(strstr(text_string(&d.script), ", '2·10^{5}' 200000.0, "));
     assert_non_null(strstr(text_string(&d.script), "set lmargin 12\n"));
@@ -273,7 +272,7 @@ static void test_logarithmic_tics_are_at_whole_decades(void **state)
     axis_linear(&d, "x", "T", &temperature, (value_span){293.15, 293.15});
     assert_non_null(strstr(text_string(&d.script), "x_offset = -273.15"));
     text_free(&d.script);
-    // Numbers that no axis can show do not make one.
+    // There is no axis for numbers that it cannot show.
     value_span span = EMPTY_SPAN;
     span_add(&span, 1e300, true);
     span_add(&span, 1e-300, true);

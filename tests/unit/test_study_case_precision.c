@@ -1,7 +1,7 @@
 /* Error against run time of the numbers of a case. */
-#include "cells.h"
-#include "near.h"
-#include "sliding.h"
+#include "assert_near.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
 #include "weartrack/case.h"
 
 #include <math.h>
@@ -37,8 +37,8 @@ static wt_estimate friction_at(double tolerance, size_t replicates, uint64_t see
     return e;
 }
 
-/* What a user would find who ran the case at this tolerance and at the tightest; never less than
- * the reference is good to. */
+/* Difference between this tolerance and the tightest, never less than the error of the
+ * reference. */
 static void test_tolerance(void **state)
 {
     (void)state;
@@ -62,7 +62,7 @@ static void test_tolerance(void **state)
     wt_table_free(table);
 }
 
-/* The trapezoidal rule: nine times as good with three times the wavenumbers, to the same number. */
+/* Trapezoidal rule: nine times as accurate with three times the wavenumbers, to the same number. */
 static void test_textbook(void **state)
 {
     (void)state;
@@ -90,7 +90,7 @@ static void test_textbook(void **state)
     wt_table_free(table);
 }
 
-/* Standard errors as sets of replicates give them; more of them are better known. */
+/* Standard errors from sets of replicates; more replicates determine them better. */
 static void test_replicates(void **state)
 {
     (void)state;
@@ -118,7 +118,7 @@ static void test_replicates(void **state)
     wt_table_free(table);
 }
 
-/* Without times two tables are the same on any number of threads, and with them all else is. */
+/* Without times two tables are the same for any number of threads; with them everything else is. */
 static void test_times(void **state)
 {
     (void)state;
@@ -139,8 +139,7 @@ static void test_times(void **state)
     wt_table_free(timed);
 }
 
-/* The bundled case: fewer isotherms are further off, by what they state, and all of its numbers
- * have their rows. */
+/* The bundled case: fewer isotherms have a larger error, as stated, and all numbers have rows. */
 static void test_isotherms(void **state)
 {
     (void)state;
@@ -149,7 +148,7 @@ static void test_isotherms(void **state)
     wt_run_options options = wt_run_defaults();
     size_t found = 0, failed = 0;
     double before = (double)INFINITY, fewest = 0;
-    /* 50 draws tell a standard error to 10 %, so that equal ones may follow in either order */
+    /* 50 draws determine a standard error to 10 %, so that equal ones may be in either order */
     const double resolution = 1 + 1 / sqrt(2 * 49.);
     options.no_provenance = true;
     options.threads = 1;
@@ -176,7 +175,7 @@ static void test_isotherms(void **state)
         found++;
     }
     assert_true(before < 0.5 * fewest);
-    assert_int_equal(found, 4); /* 4, 6, 9 and 12 of 12; of a quarter a law is not told */
+    assert_int_equal(found, 4); /* 4, 6, 9 and 12 of 12; a quarter determines no law */
     const char *answer = wt_table_key(table, "answer");
     assert_non_null(answer);
     assert_int_equal(strncmp(answer, "friction coefficient with layer: ", 33), 0);

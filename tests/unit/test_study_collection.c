@@ -1,7 +1,8 @@
-/* Constants that cases have in common, of results that are made here: what they share, what counts
- * once, and of what no verdict can be had. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "near.h"
+/* Constants that cases share, from results created here: shared errors, duplicates, and missing
+ * verdicts.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
+#include "table_cells.h"
 
 #include "core/table/registry.h"
 #include "weartrack/case.h"
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a case tells; NaN or NULL: it does not. */
+/* Values of a case; NaN or NULL: none. */
 typedef struct told {
     const char *condition;
     double wear, wear_error, wear_df;
@@ -138,8 +139,8 @@ static void check(told first, told second, const char *suffices, const char *key
     wt_tables_clear(&t, sizeof t);
 }
 
-/* What scans are off by is one error of the two, and no reason to call them two: with none of it in
- * common they are four of their errors of 0.07 apart, or one and a half. */
+/* The error of the scans is shared and no reason for a difference. Without shared errors both
+ * differ by four of their errors of 0.07, or by one and a half. */
 static void test_shared_file(void **state)
 {
     (void)state;
@@ -148,7 +149,7 @@ static void test_shared_file(void **state)
     check(shear, other, "differs", "includes", "scans of a surface");
     other.shear = 1.11e6;
     check(shear, other, "one", "includes", "strain sweeps");
-    /* the error of the shared value holds that what is common does not average out */
+    /* the error of the shared value includes that a shared error does not average out */
     other.shear = shear.shear;
     other.condition = "b";
     static const char *const sources[] = {"roughness", "shift law", "softening with strain",
@@ -182,7 +183,7 @@ static void test_partly_known(void **state)
     check(other, shear, "inconclusive", "settled_by", "shear stress of HC, a");
 }
 
-/* One record of two cases counts once, and that is said; without digests by names and sizes. */
+/* One record of two cases counts once, with a message; without digests by names and sizes. */
 static void test_counts_once(void **state)
 {
     (void)state;
@@ -198,7 +199,7 @@ static void test_counts_once(void **state)
     check(one, other, "one", "includes", "");
 }
 
-/* What has no logarithm, and of few runs an interval that is Student's. */
+/* Values without a logarithm; few runs with an interval by Student's t. */
 static void test_left_out(void **state)
 {
     (void)state;
@@ -210,14 +211,14 @@ static void test_left_out(void **state)
     other.wear = 1e-12;
     other.wear_error = (double)NAN;
     check(wear, other, NULL, "left_out", "HC, b: no error is stated");
-    other.wear_error = 0.1e-12; /* 12.7 of which are more than all of it */
+    other.wear_error = 0.1e-12; /* 12.7 of which exceed the total */
     other.wear_df = 1;
     check(wear, other, NULL, "left_out", "HC, b: its interval reaches zero");
 }
 
-/* Of two values with errors of 20 % the intervals reach 0.317 to either side: over what ln 1.5
- * leaves, or over the distance from the mean, whichever is less. */
-static void test_settled(void **state)
+/* Two values with errors of 20 %: the intervals reach 0.317 to either side. It is divided by the
+ * remainder of ln 1.5 or by the distance from the mean, whichever is less. */
+static void test_advice(void **state)
 {
     (void)state;
     told one = wear, other = wear;
@@ -236,8 +237,8 @@ static void test_settled(void **state)
 
 /* ---- moduli against rate --------------------------------------------------------------------- */
 
-/* Two spots a group, at two rates a decade apart, moduli that double; `wide`: the interval of the
- * loss factor of the DMA by whose spectrum they are fitted, NaN: there is none. */
+/* Two positions per group, at two rates a decade apart, with moduli that double. `wide`: interval
+ * of the loss factor of their DMA, NaN: none. */
 static void add_curves(const char *group, double wide, wt_result *to)
 {
     wt_table *curves = NULL;
@@ -315,8 +316,8 @@ static wt_collection_tables rates_of(double wide, double reference)
     return tables;
 }
 
-/* Spots that do not scatter at all: what is left is the spectrum that their curves share, of bulk
- * and track alike. */
+/* Positions without scatter: the remaining error is that of the shared spectrum, equal for bulk and
+ * track. */
 static void test_spectrum(void **state)
 {
     (void)state;
@@ -327,7 +328,7 @@ static void test_spectrum(void **state)
     assert_near(number_cell(t.shared_constants, 0, "value"), 2, 1e-12);
     assert_near(log(number_cell(t.shared_constants, 0, "value_high") / 2), 1.959964 * error, 1e-6);
     wt_tables_clear(&t, sizeof t);
-    t = rates_of(wide, 303.15); /* which of its frequencies the curves are at is not known */
+    t = rates_of(wide, 303.15); /* the frequency of the curves in it is unknown */
     assert_near(log(number_cell(t.shared_constants, 0, "value_high") / 2), 20 * 1.959964 * error,
                 1e-5);
     wt_tables_clear(&t, sizeof t);
@@ -338,7 +339,7 @@ static void test_spectrum(void **state)
 
 /* ---- critical energy and wear rate ----------------------------------------------------------- */
 
-/* A case that knows both by thickness and wear rate. */
+/* A case that determines both by thickness and wear rate. */
 static wt_result *pair_of(const char *condition, double u_c, double k, double correlation,
                           const char *lacks)
 {
@@ -405,7 +406,7 @@ static void says(const wt_collection_tables *t, const char *one_u_c, const char 
     assert_string_equal(wt_table_key(t->shared_pairs, "one_layer_constants"), both);
 }
 
-/* The rows about them: verdict and both constants; the table goes with them. */
+/* Rows of both: verdict and constants; frees the table. */
 static void prints(wt_collection_tables *t, const char *both, const char *energy, const char *rate)
 {
     char line[3][300];
@@ -426,8 +427,8 @@ static void prints(wt_collection_tables *t, const char *both, const char *energy
     wt_result_free(result);
 }
 
-/* Half as much again of each is within the errors of each, and no way for a pair whose product is
- * known to 2 %: their correlation tells. */
+/* Half as much again is within the errors of each, but not for a pair whose product is known to 2
+ * %: the correlation decides. */
 static void test_pairs(void **state)
 {
     (void)state;
@@ -438,7 +439,7 @@ static void test_pairs(void **state)
     assert_near(number_cell(t.shared_pairs, 0, "df"), 2, 1e-12);
     assert_string_equal(text_cell(t.shared_pairs, 0, "loose"), "U_c k^-1.00");
     wt_tables_clear(&t, sizeof t);
-    t = pairs(1.5e10, 1e-12 / 1.5, -0.99, 3, NULL); /* along what is known least */
+    t = pairs(1.5e10, 1e-12 / 1.5, -0.99, 3, NULL); /* along the direction of the largest error */
     says(&t, "one", "one", "one");
     prints(&t, "one U_c and k of 2 cases|one||by thickness and wear rate",
            "critical energy U_c|12.2 GJ/m^3|9.28 to 16.2|one",
@@ -449,7 +450,7 @@ static void test_pairs(void **state)
     prints(&t, "one U_c and k of 2 cases|differs||by thickness and wear rate",
            "critical energy U_c|not known||differs", "specific wear rate|not known||one");
     wt_tables_clear(&t, sizeof t);
-    t = pairs(1e10, 1e-12, -0.5, 0.1, NULL); /* alike, and too vague to be called one */
+    t = pairs(1e10, 1e-12, -0.5, 0.1, NULL); /* equal, but too inaccurate for "one" */
     says(&t, "inconclusive", "inconclusive", "inconclusive");
     assert_non_null(strstr(wt_table_key(t.shared_pairs, "settled_by"), "is known least"));
     wt_tables_clear(&t, sizeof t);
@@ -467,7 +468,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_shared_file), cmocka_unit_test(test_partly_known),
         cmocka_unit_test(test_counts_once), cmocka_unit_test(test_left_out),
-        cmocka_unit_test(test_settled),     cmocka_unit_test(test_pairs),
+        cmocka_unit_test(test_advice),      cmocka_unit_test(test_pairs),
         cmocka_unit_test(test_spectrum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

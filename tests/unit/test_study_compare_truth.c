@@ -1,7 +1,7 @@
-/* The comparison of two groups whose moduli, spots and rates are chosen: every column of its tables
- * against formulas written out here.
+/* Comparison of two groups with known moduli, positions and rates: every column of its tables
+ * against formulas written here.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "core/table/registry.h"
 #include "study/compare.h"
@@ -11,16 +11,17 @@ enum { SPOTS = 3, RATES = 2 };
 
 #define BULK 5e6
 #define RATIO 0.8
-#define SCATTER 0.03          /* standard deviation of ln E between spots: one lower, one higher */
+/* standard deviation of ln E between positions: one lower, one higher */
+#define SCATTER 0.03
 #define T_2 4.302652729749464 /* 97.5 % points of Student's t */
 #define T_4 2.776445105197793
 
 static const double rate[RATES] = {1e-6, 2e-5};     /* [m/s] */
 static const double frequency[RATES] = {300, 9000}; /* [rad/s] */
 static const double with_rate[RATES] = {0.9, 1.0 / 0.9};
-static const double spread[RATES] = {1, 1.5}; /* of the scatter at a rate */
+static const double spread[RATES] = {1, 1.5}; /* factor of the scatter at a rate */
 
-/* Of curve i of a rate: the geometric means over the three are the nominal ones. */
+/* Value of curve i at a rate: the geometric means over the three are the nominal ones. */
 static const double shift[SPOTS] = {1.1, 1 / 1.1, 1};
 
 static double modulus(double mean, int r, int spot)
@@ -28,10 +29,10 @@ static double modulus(double mean, int r, int spot)
     return mean * with_rate[r] * exp((spot - 1) * SCATTER * spread[r]);
 }
 
-static wt_curve_verdict verdict_of_all = WT_CURVE_ACCEPTED; /* but the one that is rejected */
-static int n_names = SPOTS; /* of spots; the others are called as those are */
+static wt_curve_verdict verdict_of_all = WT_CURVE_ACCEPTED; /* except the rejected one */
+static int n_names = SPOTS; /* names of positions; the others have the same names */
 
-/* An indentation table with all its columns; one curve for each spot and rate, one rejected. */
+/* An indentation table with all columns; one curve for each position and rate, one rejected. */
 static wt_table *indentation(const char *group, double mean)
 {
     static const struct {
@@ -119,7 +120,7 @@ typedef struct expected {
     double t, df, p;
 } expected;
 
-/* Welch's test of ln E of the units of two groups; r < 0: units are spots over all rates. */
+/* Welch's test of ln E of the units of two groups; r < 0: units are positions over all rates. */
 static expected welch(double bulk, double track, int r)
 {
     double x[2][SPOTS], mean[2] = {bulk, track};
@@ -156,7 +157,7 @@ static wt_rubber rubber_of(double *tau, double *term)
                        .temperature_max = 333.15};
 }
 
-/* As somebody says who knows: without a temperature that is stated it may be what differs. */
+/* The temperature is stated, because otherwise it may be the cause of a difference. */
 static wt_compare_job at_one_temperature(void)
 {
     wt_compare_job job = wt_compare_job_defaults();
@@ -205,7 +206,7 @@ static void check_row(size_t row, int r, double ratio)
     assert_near(cell(c, row, "welch_t"), e.t, 1e-9);
     assert_near(cell(c, row, "welch_df"), e.df, 1e-9);
     assert_near(cell(c, row, "welch_p"), e.p, 1e-6);
-    /* all of one group below all of the other: 2 of the 20 rankings are as far */
+    /* all of one group below all of the other: 2 of the 20 rankings are as extreme */
     assert_near(cell(c, row, "mann_whitney_p"), 0.1, 1e-12);
     assert_near(cell(c, row, "mann_whitney_smallest_p"), 0.1, 1e-12);
     assert_near(cell(c, row, "spots_bulk"), SPOTS, 0);
@@ -287,9 +288,9 @@ static void test_verdict(void **state)
                            "spots in each group would show a difference of 5 %"));
 }
 
-/* Nobody says a temperature, and there is no DMA: by the slope against the rate and Williams,
- * Landel and Ferry 70 K above the glass transition, 0.14 per kelvin, 20 K either way. */
-static void test_unsaid_temperature(void **state)
+/* No temperature is stated, and there is no DMA: by the slope against the rate and the WLF law 70 K
+ * above the glass transition, 0.14 per kelvin, 20 K in either direction. */
+static void test_unstated_temperature(void **state)
 {
     (void)state;
     const double ratio = 0.85;
@@ -311,13 +312,13 @@ static void test_unsaid_temperature(void **state)
     assert_near(key_estimate(c, "modulus_ratio").standard_error / ratio,
                 hypot(error, 20 * slope * sqrt(2.0 / 3)), 1e-9);
     assert_non_null(strstr(wt_table_key(c, "interval_includes"), "what else may well make"));
-    /* what 20 K would not do, and what they would have to hide */
+    /* effects that 20 K cannot cause, and the difference that they could hide */
     assert_non_null(strstr(verdict_of(wt_compare_job_defaults(), 0.6), "yes"));
     assert_non_null(strstr(wt_table_key(tables.comparison, "would_explain"), "K warmer"));
     assert_non_null(strstr(verdict_of(wt_compare_job_defaults(), 1.02), "no:"));
 }
 
-/* What two spots cannot tell is said where the others are more. */
+/* The note on two positions is also written if the other group has more. */
 static void test_two_spots(void **state)
 {
     (void)state;
@@ -398,7 +399,7 @@ static void test_rates(void **state)
     }
 }
 
-/* Against a rubber with much loss, so that |E*| is far from E'; also at another temperature. */
+/* Against a rubber with much loss, so that |E*| differs from E'; also at another temperature. */
 static void test_dma(void **state)
 {
     (void)state;
@@ -461,7 +462,8 @@ static const char *warmer(double ratio, bool temperature_known, const wt_rubber 
     return wt_table_key(tables.comparison, "differs");
 }
 
-/* The verdict on a track that is 1.25 times as stiff, beside a DMA that is `dma` times the bulk. */
+/* Returns the verdict on a track that is 1.25 times as stiff, with a DMA of `dma` times the bulk.
+ */
 static const char *beside_dma(double dma, wt_cantilever_sharing cantilevers)
 {
     static double tau = 1e-3, none = 0;
@@ -477,8 +479,8 @@ static const char *beside_dma(double dma, wt_cantilever_sharing cantilevers)
     return verdict_of(job, 1.25);
 }
 
-/* Where the track has the moduli of the DMA and the bulk has not, the calibration of the bulk may
- * make the ratio; but not if one cantilever is stated, or if both are off alike. */
+/* The calibration of the bulk may cause the ratio if the track agrees with the DMA and the bulk
+ * does not. One stated cantilever, or an equal error of both groups, excludes it. */
 static void test_calibration_of_the_bulk(void **state)
 {
     (void)state;
@@ -493,7 +495,7 @@ static void test_calibration_of_the_bulk(void **state)
     assert_string_equal(beside_dma(2, WT_CANTILEVERS_AUTO), yes);
 }
 
-/* On a rubber with much loss 10 K look like a layer, unless the material takes them out. */
+/* On a rubber with much loss 10 K look like a layer, unless the material corrects for them. */
 static void test_warmer(void **state)
 {
     (void)state;
@@ -508,7 +510,7 @@ static void test_warmer(void **state)
                            "inconclusive: bulk and track were indented at "
                            "different temperatures"));
     assert_null(wt_table_key(tables.comparison, "modulus_ratio"));
-    /* the material states no error, so that its step may be off by more than the margin */
+    /* the material states no error, so that its shift may be wrong by more than the margin */
     assert_non_null(strstr(warmer(1, true, &rubber, 0), "is not known: material"));
     assert_non_null(strstr(wt_table_key(tables.comparison, "differs"), "inconclusive"));
     assert_near(key_estimate(tables.comparison, "modulus_ratio").value, 1, 1e-9);
@@ -520,19 +522,19 @@ static void test_warmer(void **state)
     /* one line of the DMA for each temperature */
     assert_int_equal(wt_table_block(tables.dma_comparison, RATES - 1), 0);
     assert_int_equal(wt_table_block(tables.dma_comparison, RATES), 1);
-    /* and what is not known of the step, by the slope of ln |E*| there */
+    /* and the error of the shift, by the slope of ln |E*| there */
     warmer(RATIO, true, &rubber, 0.5);
     const double slope = log(complex_modulus(11) / complex_modulus(9)) / 2;
     assert_near(key_estimate(tables.comparison, "modulus_ratio").standard_error,
                 RATIO * hypot(scatter, 0.5 * slope), 1e-9);
-    /* a material that states no error is not exact */
+    /* a material without a stated error is not exact */
     const char *includes = wt_table_key(tables.comparison, "interval_includes");
     assert_non_null(strstr(includes, "but not, for it is not known: material"));
     assert_non_null(strstr(includes, "temperatures"));
 }
 
-/* A temperature below the pole of the law, or without a law, leaves the question open. */
-static void test_out_of_reach(void **state)
+/* A temperature below the pole of the law, or without a law, makes the result inconclusive. */
+static void test_temperature_out_of_range(void **state)
 {
     (void)state;
     static double tau = 1e-3, term = 6e6;
@@ -546,7 +548,8 @@ static void test_out_of_reach(void **state)
         assert_int_equal(isnan(cell(tables.dma_comparison, i, "ratio")) != 0, i < RATES);
     rubber.law.kind = WT_LAW_NONE;
     assert_non_null(strstr(warmer(1, true, &rubber, 0), "no shift law"));
-    assert_string_equal(warmer(RATIO, false, &rubber, 0), /* at one temperature it is not asked */
+    /* at one temperature the question does not arise */
+    assert_string_equal(warmer(RATIO, false, &rubber, 0),
                         "yes: the wear track is softer than the bulk");
 }
 
@@ -560,7 +563,7 @@ static const char *includes_of(wt_compare_job job)
     return wt_table_key(tables.comparison, "interval_includes");
 }
 
-/* An error that cannot be had is named; one that can is not lost to a default beside it. */
+/* An unknown error is named; a known one is not replaced with a default. */
 static void test_not_known(void **state)
 {
     (void)state;
@@ -570,7 +573,7 @@ static void test_not_known(void **state)
     compare(RATIO, (double)NAN);
     wt_compare_job job = wt_compare_job_defaults();
     assert_null(strstr(includes_of(job), "sensitivity"));
-    job.sensitivity_error = 0.05; /* and no curve says what it does to the modulus */
+    job.sensitivity_error = 0.05; /* no curve states its effect on the modulus */
     assert_non_null(strstr(includes_of(job), "but not, for it is not known: deflection "
                                              "sensitivity"));
     job = wt_compare_job_defaults();
@@ -590,9 +593,9 @@ static void set_radius(wt_table *table, double error, double gain)
     assert_int_equal(wt_table_set_estimate(table, "radius_gain", values[1], NULL), WT_OK);
 }
 
-/* A tip that both groups share leaves what their gains differ by, of two tips each adds its own;
- * each group has the whole of it. */
-static void test_common(void **state)
+/* A tip that both groups share leaves the difference of their gains; two tips add both errors. Each
+ * group has the whole error. */
+static void test_shared_tip(void **state)
 {
     (void)state;
     const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
@@ -635,8 +638,8 @@ static void set_assumed(wt_table *table, double lever, double radius, double gai
         assert_int_equal(wt_table_set_estimate(table, keys[i], values[i], NULL), WT_OK);
 }
 
-/* Assumed errors cancel as stated ones do, enter with two cantilevers, and give way to what is
- * stated here. Two cantilevers still need a stated error for a verdict. */
+/* Assumed errors cancel like stated ones, count for two cantilevers, and are replaced with stated
+ * ones. Two cantilevers still need a stated error for a verdict. */
 static void test_assumed(void **state)
 {
     (void)state;
@@ -671,7 +674,7 @@ static void test_assumed(void **state)
     assert_near(cell(tables.modulus_budget, 2, "relative_error"), 0.01, 1e-9);
 }
 
-/* So does a half-angle; what is given for tips that state nothing is not taken then. */
+/* So does a half-angle; the option for tips without stated errors is then not used. */
 static void test_half_angle(void **state)
 {
     (void)state;
@@ -696,9 +699,9 @@ static void set_lever(wt_table *table, double value, double error)
     assert_int_equal(wt_table_set_estimate(table, "spring_constant", lever, NULL), WT_OK);
 }
 
-/* Two levers of 0.5 +- 0.05 and 2 +- 0.06 N/m: 10 % and 3 %, whatever is given for such that state
- * none. Without both stated the given one is that of both. */
-static void test_stated_levers(void **state)
+/* Two cantilevers of 0.5 +- 0.05 and 2 +- 0.06 N/m: 10 % and 3 %, for any option for those without
+ * an error. Unless both are stated, the option applies to both. */
+static void test_stated_cantilevers(void **state)
 {
     (void)state;
     const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
@@ -717,7 +720,7 @@ static void test_stated_levers(void **state)
                 RATIO * hypot(scatter, hypot(0.1, 0.3)), 1e-9);
 }
 
-/* What is not given has no value and no error, of which the numerical one does not apply. */
+/* A value that is not stated has no error, and its numerical error does not apply. */
 static void test_not_given(void **state)
 {
     (void)state;
@@ -736,9 +739,9 @@ static void set_shown(wt_table *table, double loss, double bend)
     assert_int_equal(wt_table_set_estimate(table, "bend_error", values[1], NULL), WT_OK);
 }
 
-/* What curves lose and bend: one piezo bends both groups alike, of spectra each has its own. Where
- * that is most of the interval, no more spots are asked for. */
-static void test_shown(void **state)
+/* Hysteresis loss and curvature: one piezo distorts both groups equally, each group has its own
+ * spectrum. If that dominates the interval, no more positions are advised. */
+static void test_shown_loss_and_curvature(void **state)
 {
     (void)state;
     const double scatter = SCATTER * (spread[0] + spread[1]) / 2 * sqrt(2.0 / SPOTS);
@@ -769,8 +772,8 @@ static void set_shift(const char *key, double bulk, double track, double noise)
     assert_int_equal(wt_table_set_estimate(track_table, key, values[1], NULL), WT_OK);
 }
 
-/* A choice of the fit moves both groups; the range of the ratio has what they differ by beyond the
- * noise. A tip with a stated error is no choice. */
+/* A choice of the fit moves both groups; the range of the ratio includes their difference beyond
+ * the noise. A tip with a stated error is not a choice. */
 static void test_model_choices(void **state)
 {
     (void)state;
@@ -805,7 +808,7 @@ static void test_model_choices(void **state)
     job.tip_error = 0.05;
     assert_non_null(includes_of(job));
     assert_string_equal(wt_table_key(tables.comparison, "widest_choice"), "range of the fit");
-    /* a choice that shows no difference withdraws the verdict */
+    /* a choice without a difference withdraws the verdict */
     assert_int_equal(strncmp(wt_table_key(tables.comparison, "differs"), "yes", 3), 0);
     set_shift("loss_shift", 0, 1 / RATIO, 0);
     assert_non_null(includes_of(job));
@@ -814,13 +817,12 @@ static void test_model_choices(void **state)
                         "Measure a DMA of the rubber.");
 }
 
-/* What the loss of the curves does to the moduli may be unknown: that is not zero, and bars "no".
- */
+/* An unknown effect of the loss on the moduli is not zero, and excludes the verdict "no". */
 static void test_loss_not_known(void **state)
 {
     (void)state;
     const wt_compare_job job = wt_compare_job_defaults();
-    compare(1, (double)NAN); /* a track that is colder would hide a difference */
+    compare(1, (double)NAN); /* a colder track would hide a difference */
     assert_non_null(strstr(wt_table_key(tables.comparison, "differs"), "K colder than the bulk"));
     assert_non_null(strstr(wt_table_key(tables.comparison, "settled_by"), "track-temperature"));
     compare(1, 293.15);
@@ -845,14 +847,14 @@ static void test_loss_not_known(void **state)
     assert_non_null(strstr(wt_table_key(budget, "says_bulk"), "nothing says what the loss"));
 }
 
-/* E' of the rubber above at an angular frequency, so many kelvin above its reference. */
+/* E' of the rubber above at an angular frequency, at a number of kelvins above its reference. */
 static double storage_at(double omega, double step)
 {
     const double z = omega * 1e-3 * pow(10, -6.5 * step / (110 + step));
     return 2e6 + 6e6 * z * z / (1 + z * z);
 }
 
-/* The error of the temperature is in that of the DMA, and where no law reaches it is named. */
+/* The error of the temperature is part of that of the DMA, and is named where no law applies. */
 static void test_temperature_error(void **state)
 {
     (void)state;
@@ -916,7 +918,8 @@ static void test_temperature_error(void **state)
     assert_near(key_estimate(tables.dma_comparison, "temperature").standard_error, 2, 1e-12);
 }
 
-/* Without an accepted curve in a group the other one is told, and what rejected the most. */
+/* Without an accepted curve in a group the other one has a result, with the most frequent reason of
+ * rejection. */
 static void test_none_accepted(void **state)
 {
     (void)state;
@@ -972,7 +975,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_comparison),
         cmocka_unit_test(test_verdict),
-        cmocka_unit_test(test_unsaid_temperature),
+        cmocka_unit_test(test_unstated_temperature),
         cmocka_unit_test(test_two_spots),
         cmocka_unit_test(test_none_accepted),
         cmocka_unit_test(test_groups),
@@ -981,13 +984,13 @@ int main(void)
         cmocka_unit_test(test_calibration_of_the_bulk),
         cmocka_unit_test(test_warmer),
         cmocka_unit_test(test_not_known),
-        cmocka_unit_test(test_out_of_reach),
-        cmocka_unit_test(test_common),
+        cmocka_unit_test(test_temperature_out_of_range),
+        cmocka_unit_test(test_shared_tip),
         cmocka_unit_test(test_assumed),
         cmocka_unit_test(test_half_angle),
-        cmocka_unit_test(test_stated_levers),
+        cmocka_unit_test(test_stated_cantilevers),
         cmocka_unit_test(test_not_given),
-        cmocka_unit_test(test_shown),
+        cmocka_unit_test(test_shown_loss_and_curvature),
         cmocka_unit_test(test_model_choices),
         cmocka_unit_test(test_loss_not_known),
         cmocka_unit_test(test_temperature_error),

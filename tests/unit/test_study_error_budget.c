@@ -1,8 +1,8 @@
 /* The error budget of a sliding contact.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "sliding.h"
-#include "truth.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
+#include "truth_fixture.h"
 #include "weartrack/study.h"
 
 static double relative(const wt_table *table, const char *number, const char *source)
@@ -15,7 +15,7 @@ static double relative(const wt_table *table, const char *number, const char *so
     return 0;
 }
 
-/* The standard error that a run with this source alone states. */
+/* Standard error of a run with only this source. */
 static double alone(const wt_sliding *of)
 {
     wt_friction_tables tables = {0};
@@ -25,7 +25,7 @@ static double alone(const wt_sliding *of)
     return e.standard_error / e.value;
 }
 
-/* "The choice of the X moves it by -76 % to +345 %": as the table of the choices has it. */
+/* "The choice of the X moves it by -76 % to +345 %": as in the table of choices. */
 static void check_reach(const char *advice, const wt_table *what_if, const char *change)
 {
     static const char of[] = "The choice of the ", by[] = " moves it by ", to[] = " % to ";
@@ -48,9 +48,9 @@ static void check_reach(const char *advice, const wt_table *what_if, const char 
     assert_near_abs(strtod(end + strlen(to), NULL), 100 * high, 0.51);
 }
 
-/* What a stated error does is a line of the draws: another seed moves it by 2 % (rms), for what is
- * not straight; the scatter of the draws alone would move it by 5 %, and eight by 14 % from the
- * least to the largest. */
+/* The effect of a stated error is a line through the draws. Another seed moves it by 2 % (rms)
+ * because of curvature; the scatter of the draws alone would move it by 5 %, and eight of them by
+ * 14 % from the smallest to the largest. */
 static void test_seeds(void **state)
 {
     (void)state;
@@ -112,8 +112,8 @@ static void test_one_source_at_a_time(void **state)
     wt_table_free(table);
 }
 
-/* Of a measured surface its scatter and its law are one source, and in no other. What one per cent
- * of each does is there if it is asked for. */
+/* Scatter and law of a measured surface are one source, and in no other. The effect of one per cent
+ * of each is written on request. */
 static void test_measured_surface(void **state)
 {
     (void)state;
@@ -140,9 +140,9 @@ static void test_measured_surface(void **state)
     wt_table_free(table);
 }
 
-/* With times every row of the budget has its own, those of the choices of the model too, and all
- * else is the same. */
-static void test_seconds(void **state)
+/* With times every row of the budget has its own, also those of model choices, and everything else
+ * is the same. */
+static void test_times(void **state)
 {
     (void)state;
     sliding_set_up_uncertain();
@@ -173,7 +173,7 @@ static void test_seconds(void **state)
     wt_table_free(timed);
 }
 
-/* What does not move a number has no row of it. */
+/* A source without an effect on a number has no row for it. */
 static void test_nothing_stated(void **state)
 {
     (void)state;
@@ -186,7 +186,7 @@ static void test_nothing_stated(void **state)
         assert_string_equal(text_cell(table, i, "kind"), "numerical");
     assert_non_null(strstr(wt_table_key(table, "friction_advice"), "No error"));
     wt_table_free(table);
-    /* the choices of the model are said all the same */
+    /* the model choices are stated nevertheless */
     wt_table *what_if = NULL;
     assert_int_equal(wt_model_sensitivity_compute(&sliding, NULL, NULL, &work, &what_if, NULL),
                      WT_OK);
@@ -197,7 +197,7 @@ static void test_nothing_stated(void **state)
     wt_table_free(table);
 }
 
-/* A ratio without an error is no source of one. */
+/* A ratio without an error is not a source. */
 static void test_exact_ratio(void **state)
 {
     (void)state;
@@ -217,7 +217,7 @@ static void test_exact_ratio(void **state)
     wt_table_free(table);
 }
 
-/* The scatter of the spots and what is known of their calibration are parts of one variance. */
+/* The scatter of the positions and the calibration errors are parts of one variance. */
 static void test_calibration(void **state)
 {
     (void)state;
@@ -232,7 +232,8 @@ static void test_calibration(void **state)
     const double spots = relative(table, number, "modulus ratio"),
                  calibration = relative(table, number, "calibration");
     assert_near(calibration / spots, 0.6 / 0.8, 0.02);
-    /* of the ratio itself the parts are known: 0.1 in all, its arithmetic without curves is not */
+    /* the parts of the ratio itself are known: 0.1 in total; its numerical part without curves is
+     * not */
     assert_near(relative(table, "modulus ratio", "stated error"), 0.08, 1e-12);
     assert_near(relative(table, "modulus ratio", "calibration"), 0.06, 1e-12);
     assert_near(relative(table, "modulus ratio", "all together"), 0.1, 1e-12);
@@ -253,7 +254,7 @@ static wt_layer_observation with_slope(double slope, double error)
                                   .ratio_temperature = (double)NAN};
 }
 
-/* A slope is a source by itself, and no other row has its error. */
+/* A slope is a separate source, and no other row includes its error. */
 static void test_slope(void **state)
 {
     (void)state;
@@ -281,7 +282,7 @@ int main(void)
         cmocka_unit_test(test_seeds),
         cmocka_unit_test(test_one_source_at_a_time),
         cmocka_unit_test(test_measured_surface),
-        cmocka_unit_test(test_seconds),
+        cmocka_unit_test(test_times),
         cmocka_unit_test(test_nothing_stated),
         cmocka_unit_test(test_exact_ratio),
         cmocka_unit_test(test_calibration),

@@ -1,9 +1,7 @@
-/* Two ratios against each other: by hand, what has no answer, and how often the interval holds the
- * truth where four spots each tell a ratio.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#include "near.h"
+/* Comparison of two ratios: by hand, without a result, and coverage of the interval for ratios from
+ * four positions each.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
 #include "weartrack/study.h"
 
@@ -18,7 +16,7 @@ static void by_hand(void **state)
         wt_log_ratio_compare(&(wt_log_ratio){0.5, 0.03, 5}, &(wt_log_ratio){0.2, 0.04, 3});
     assert_near(d.value, 0.3, 1e-15);
     assert_near(d.df, 6.155613919894945, 1e-12);
-    /* the integral of the density of Student, by a program of its own */
+    /* integral of Student's density from another program */
     assert_near(d.p, 8.779878336e-4, 1e-9);
     assert_near(d.high - d.value, d.value - d.low, 1e-15);
     /* normal errors */
@@ -27,10 +25,10 @@ static void by_hand(void **state)
     assert_near(d.p, 0.04550026389635842, 1e-13);
     assert_near(d.high, -0.1 + 0.05 * 1.959963984540054, 1e-13);
     assert_near(d.low, -0.1 - 0.05 * 1.959963984540054, 1e-13);
-    /* one of each: the freedom is that of the other's share */
+    /* one of each: the degrees of freedom are those of the other's share */
     d = wt_log_ratio_compare(&(wt_log_ratio){0, 0.03, 4}, &(wt_log_ratio){0.1, 0.04, nan});
     assert_near(d.df, 4 * pow(0.05 / 0.03, 4), 1e-10);
-    /* swapped, the other sign and the same p */
+    /* exchanged: the opposite sign and the same p value */
     const wt_log_ratio_difference e =
         wt_log_ratio_compare(&(wt_log_ratio){0.1, 0.04, nan}, &(wt_log_ratio){0, 0.03, 4});
     assert_near(e.low, -d.high, 0);
@@ -47,7 +45,7 @@ static void no_answer(void **state)
         const wt_log_ratio_difference d = wt_log_ratio_compare(&known, &odd[i]);
         assert_true(isnan(d.p) && isnan(d.low) && isnan(d.high));
     }
-    /* errors of nothing tell no difference from none */
+    /* zero errors do not show a difference of zero */
     const wt_log_ratio exact = {0.1, 0, nan};
     assert_true(isnan(wt_log_ratio_compare(&exact, &exact).p));
 }
@@ -65,7 +63,7 @@ static double draw(uint64_t *state)
     return sum;
 }
 
-/* A ratio as compare tells it: logarithms of n spots of the track less those of n in the bulk. */
+/* A ratio as from compare: logarithms at n positions of the track minus those of n in the bulk. */
 static wt_log_ratio observe(double truth, double scatter, size_t n, uint64_t *seed)
 {
     double mean[2] = {truth, 0}, squares = 0;

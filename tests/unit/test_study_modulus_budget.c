@@ -1,6 +1,6 @@
-/* The budget of a modulus: every number of its table by hand, whatever source is stated.
+/* Budget of a modulus: every number of its table by hand, for any stated sources.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "truth.h"
+#include "truth_fixture.h"
 
 #include "indentation/calibration_errors.h"
 #include "indentation/numerics/group_statistics.h"
@@ -10,7 +10,7 @@ enum { SPOTS = 4, CURVES = 8 };
 static double modulus[CURVES];
 static long spot[CURVES];
 
-/* Two curves of each spot, a little above and below it. */
+/* Two curves at each position, a little above and below it. */
 static wt_group_data make_group(void)
 {
     static const double of_spot[SPOTS] = {-0.15, 0.05, -0.02, 0.12};
@@ -32,7 +32,7 @@ static double squared(double x)
     return x * x;
 }
 
-/* By hand: the means of the spots are their offsets, which add up to 0. */
+/* By hand: the means of the positions are their offsets, which add up to 0. */
 static double spot_variance(void)
 {
     return (squared(0.15) + squared(0.05) + squared(0.02) + squared(0.12)) / (SPOTS - 1) / SPOTS;
@@ -56,7 +56,7 @@ static void check_row(const wt_table *t, size_t row, const char *source, const c
     assert_near(cell(t, row, "share"), squared(effect / all), 1e-9);
 }
 
-/* Each source alone, with a sign of its own, then all of them. */
+/* Each source alone, with its own sign, then all of them. */
 static void test_every_source(void **state)
 {
     (void)state;
@@ -107,13 +107,13 @@ static void test_every_source(void **state)
         assert_near(e.standard_error, 3e6 * all, 1e-9);
         assert_near(key_estimate(t, "low_track").value, 3e6 * exp(-reach), 1e-6);
         assert_near(key_estimate(t, "high_track").value, 3e6 * exp(reach), 1e-6);
-        /* of Welch and Satterthwaite: what is known has no end of freedom */
+        /* degrees of freedom by Welch and Satterthwaite: known errors have an infinite number */
         assert_near(df, (SPOTS - 1) * squared(variance / scatter), 1e-6);
         wt_table_free(t);
     }
 }
 
-/* The words: the largest part first, its share of the square, and what nothing states. */
+/* The text: the largest part first, its share of the square, and unstated errors. */
 static void test_words(void **state)
 {
     (void)state;
@@ -138,7 +138,7 @@ static void test_words(void **state)
     if (strstr(says, words) == NULL)
         fail_msg("\"%s\" does not say \"%s\"", says, words);
     wt_table_free(t);
-    /* one spot tells nothing, the shared parts do */
+    /* one position gives no scatter, the shared parts remain */
     d.group.n = 2;
     assert_int_equal(modulus_budget_create(&d, names, 1, &t, NULL), WT_OK);
     says = wt_table_key(t, "says_bulk");
@@ -148,14 +148,14 @@ static void test_words(void **state)
     assert_null(wt_table_key(t, "low_bulk"));
     assert_true(isnan(cell(t, wt_table_n_rows(t) - 2, "relative_error")));
     wt_table_free(t);
-    /* of a source without a known effect neither is the sum */
+    /* a source of unknown effect makes the sum unknown */
     d.group.n = CURVES;
     d.common_gain[3].value = (double)NAN;
     assert_int_equal(modulus_budget_create(&d, names, 1, &t, NULL), WT_OK);
     assert_non_null(strstr(wt_table_key(t, "says_bulk"), "no curve could be fitted anew"));
     assert_null(wt_table_key(t, "low_bulk"));
     wt_table_free(t);
-    /* nothing stated is no budget */
+    /* without stated errors there is no budget */
     d.common_error[0] = d.common_error[3] = 0;
     assert_int_equal(modulus_budget_create(&d, names, 1, &t, NULL), WT_OK);
     assert_null(t);

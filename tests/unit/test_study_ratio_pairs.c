@@ -1,7 +1,7 @@
-/* Pairs of cases whose modulus ratios depend on the rate, of draws that are made here.
+/* Pairs of cases whose modulus ratios depend on the rate, from draws created here.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "near.h"
+#include "assert_near.h"
+#include "table_cells.h"
 
 #include "core/table/registry.h"
 #include "weartrack/case.h"
@@ -32,7 +32,7 @@ typedef struct drawn_group {
     long spot[CURVES], class[CURVES];
 } drawn_group;
 
-/* ln E goes with ln rate by `slope`; spots scatter by 4 %, curves by 2 %. Rate by rate. */
+/* ln E is linear in ln rate with `slope`; positions scatter by 4 %, curves by 2 %. Rate by rate. */
 static void draw_group(double modulus, double slope, drawn_group *g)
 {
     double spot[SPOTS];
@@ -65,7 +65,7 @@ static wt_comparison compare_drawn(const drawn_group g[2], int r)
     return c;
 }
 
-/* What `weartrack compare` tells of two such groups, whose ratio depends on the rate. */
+/* Result of `weartrack compare` for two such groups with a rate-dependent ratio. */
 static wt_result *drawn_case(int a, int b, double slope)
 {
     drawn_group g[2];
@@ -120,8 +120,8 @@ static wt_result *drawn_case(int a, int b, double slope)
     return to;
 }
 
-/* Pairs of eight cases; the ratio goes with the rate by `slope` in all, and by another in the
- * severe ones. */
+/* Pairs of eight cases; the ratio has the same `slope` in all, and another one in the severe
+ * ones. */
 static wt_table *drawn_pairs(double slope, double severe_slope)
 {
     const wt_collect_job job = wt_collect_job_defaults();
@@ -144,9 +144,9 @@ static wt_table *drawn_pairs(double slope, double severe_slope)
     return pairs;
 }
 
-/* Four compounds, mild and severe, at three rates, with ratios that go with the rate: severe wear
- * softens more in each compound, and compounds do not differ. The dependence on the rate is common
- * to all and no error of a pair. The intervals hold the truth; seed as written. */
+/* Four compounds, mild and severe, at three rates, with rate-dependent ratios: severe wear softens
+ * more in each compound, and the compounds do not differ. The rate dependence is common to all and
+ * not an error of a pair. The intervals cover the truth; fixed seed. */
 static void pairs_at_equal_rates(void **state)
 {
     (void)state;
@@ -175,7 +175,7 @@ static void pairs_at_equal_rates(void **state)
     assert_true((double)of_rate <= 0.05 * DRAWS * PAIRS);
 }
 
-/* A difference that itself depends on the rate is seen, and its range is in the interval. */
+/* A difference that depends on the rate is detected, and the interval includes its range. */
 static void pairs_that_depend_on_the_rate(void **state)
 {
     (void)state;

@@ -1,14 +1,14 @@
-/* One value behind several, against closed forms and draws.
+/* One shared value of several estimates, against closed forms and draws.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 #include "layer/numerics/correlated_pair.h"
-#include "near.h"
 #include "study/numerics/shared_value.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 
-/* Two normal values: a mean of inverse variances and the square of their distance. */
+/* Two normal values: inverse-variance mean and squared distance. */
 static void test_two(void **state)
 {
     (void)state;
@@ -21,14 +21,15 @@ static void test_two(void **state)
     assert_near(found.chi_squared, 0.09 / 0.05, 1e-12);
     assert_near(found.df, 1, 0);
     assert_near(found.p, gsl_cdf_chisq_Q(1.8, 1), 1e-12);
-    /* of a value less the mean, by Bonferroni */
+    /* distance of a value from the mean, with Bonferroni correction */
     assert_near(d[1].value, 1.3 - found.value, 1e-12);
     assert_near(d[1].high - d[1].value, gsl_cdf_ugaussian_Qinv(0.0125) * sqrt(0.04 - 1.0 / 125),
                 1e-12);
 }
 
-/* What both may share may widen the mean and makes neither the test nor the distances sharper. */
-static void test_common(void **state)
+/* A possible shared error may widen the error of the mean, but makes neither the test nor the
+ * distances sharper. */
+static void test_shared_errors(void **state)
 {
     (void)state;
     const double shared[] = {0, 0.09, 0.09, 0};
@@ -42,13 +43,14 @@ static void test_common(void **state)
     assert_near(d[1].high - d[1].value, gsl_cdf_ugaussian_Qinv(0.0125) * sqrt(0.05), 1e-12);
 }
 
-/* Two of three share all of their error: that they agree among one another makes the third no more
- * different than one of them would. */
+/* Two of three share all of their error: their agreement does not make the third more different
+ * than a single one would. */
 static void test_third(void **state)
 {
     (void)state;
     const double shared[] = {0, 1, 0, 1, 0, 0, 0, 0, 0},
-                 chain[] = {0, 1, 0, 1, 0, 1, 0, 1, 0}; /* which is no covariance as a whole */
+                 /* which together are not a valid covariance */
+        chain[] = {0, 1, 0, 1, 0, 1, 0, 1, 0};
     const wt_log_ratio of[] = {{0, 1, (double)NAN}, {0, 1, (double)NAN}, {2, 0.1, (double)NAN}};
     shared_value found;
     shared_deviation d[3];
@@ -58,8 +60,8 @@ static void test_third(void **state)
     assert_true(found.p > 0 && found.p < 1);
 }
 
-/* The distance of a normal value from the mean of it and one of few spots has these' freedom, too:
- * by Satterthwaite of the parts. */
+/* The distance of a normal value from its mean with a value of few positions has the degrees of
+ * freedom of the latter, too: by Satterthwaite for the parts. */
 static void test_freedom(void **state)
 {
     (void)state;
@@ -68,7 +70,7 @@ static void test_freedom(void **state)
     shared_value found;
     shared_deviation d[2];
     assert_int_equal(shared_value_fit(of, NULL, 2, &found, d, NULL), WT_OK);
-    /* half of either, so that half of the variance is of the second */
+    /* half of each, so that half of the variance is of the second */
     for (int i = 0; i < 2; i++)
         assert_near(d[i].high - d[i].value, gsl_cdf_tdist_Qinv(0.0125, 4 * df) * sqrt(0.005),
                     1e-12);
@@ -82,15 +84,15 @@ static void test_refused(void **state)
     shared_value found;
     shared_deviation d[2];
     assert_int_equal(shared_value_fit(of, NULL, 1, &found, d, NULL), WT_E_ARG);
-    /* errors that are all shared fail nothing */
+    /* only shared errors reject nothing */
     assert_int_equal(shared_value_fit(of, all, 2, &found, d, NULL), WT_OK);
     assert_near(found.chi_squared, 1 / 0.02, 1e-9);
     of[0].standard_error = 0;
     assert_int_equal(shared_value_fit(of, NULL, 2, &found, d, NULL), WT_E_ARG);
 }
 
-/* Means of a few values each that scatter by different amounts: how often the interval holds the
- * truth, and how often they are said to differ. */
+/* Means of a few values each with different scatter: coverage of the interval, and rate of the
+ * verdict "differs". */
 static void count(int each)
 {
     enum { DRAWS = 4000, GROUPS = 4, MOST = 10 };
@@ -114,7 +116,7 @@ static void count(int each)
         different += found.p < 0.05;
     }
     gsl_rng_free(random);
-    /* 95 % and 5 %, with what the corrections are off by and three binomial errors */
+    /* 95 % and 5 %, with the error of the corrections and three binomial errors */
     assert_in_range(held, 0.93 * DRAWS, 0.975 * DRAWS);
     assert_in_range(different, 0.035 * DRAWS, 0.075 * DRAWS);
 }
@@ -129,8 +131,8 @@ static void test_few_degrees(void **state)
 
 /* ---- pairs ----------------------------------------------------------------------------------- */
 
-/* Two pairs by hand: their difference has the sum of the covariances less what they have in common
- * twice, and chi-squared is that of the difference. */
+/* Two pairs by hand: their difference has the sum of the covariances minus twice the common one;
+ * chi-squared is that of the difference. */
 static double by_hand(const constant_pair *a, const constant_pair *b, double part)
 {
     const double e = a->energy - b->energy, k = a->wear - b->wear,
@@ -154,10 +156,10 @@ static void test_pair(void **state)
     const pair_covariance apart = s.covariance;
     common[1] = common[2] = true;
     assert_int_equal(shared_pair_fit(of, common, 2, &s, NULL), WT_OK);
-    /* what is in common makes a difference more telling: the less is told */
+    /* a common error makes a difference more significant: the smaller one is stated */
     assert_near(s.chi_squared, by_hand(&of[0], &of[1], 0), 1e-9);
     assert_true(s.covariance.energy + s.covariance.wear >= apart.energy + apart.wear);
-    /* alike ones: the mean has half of what is of one alone and all of what is in common */
+    /* equal ones: the mean has half of a single variance and all of the common one */
     of[1] = of[0];
     assert_int_equal(shared_pair_fit(of, common, 2, &s, NULL), WT_OK);
     assert_near(s.energy, of[0].energy, 1e-12);
@@ -178,7 +180,7 @@ static void test_pair(void **state)
     assert_int_equal(shared_pair_fit(of, common, 1, &s, NULL), WT_E_ARG);
 }
 
-/* ln U_c + 0.5 ln k is known least; of less in U_c than in k the other way round. */
+/* ln U_c + 0.5 ln k has the largest error; with a smaller error of U_c than of k the reverse. */
 static void test_axes(void **state)
 {
     (void)state;
@@ -202,7 +204,7 @@ static void test_axes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_two),     cmocka_unit_test(test_common),
+        cmocka_unit_test(test_two),     cmocka_unit_test(test_shared_errors),
         cmocka_unit_test(test_third),   cmocka_unit_test(test_freedom),
         cmocka_unit_test(test_refused), cmocka_unit_test(test_few_degrees),
         cmocka_unit_test(test_pair),    cmocka_unit_test(test_axes),

@@ -1,17 +1,17 @@
-/* The thickness of a layer that curves allow: the bundled case, whose track is one rubber to the
- * depth of its curves, the same with the residual of a layer, and what cannot be said.
+/* Layer thickness that the curves allow: the bundled case, whose track is one rubber down to the
+ * depth of its curves; the same with the residual of a layer; and inconclusive cases.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
 
-#include "cells.h"
-#include "near.h"
+#include "assert_near.h"
+#include "table_cells.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Mean residual of curves on a soft layer of 100 nm, by the integral equation, a fifth of it: that
- * of one some times as thick. */
+/* Mean residual of curves on a soft layer of 100 nm by the integral equation, a fifth of it, scaled
+ * to another thickness. */
 static const double wave[] = {1.513e-4, 6.242e-4, -5.172e-4, -1.915e-4, -3.442e-4, -8.22e-5};
 
 static void add_waves(wt_table *copy, size_t row)
@@ -59,7 +59,7 @@ static void begins(const wt_table *t, const char *key, const char *words)
         fail_msg("%s: %s", key, said != NULL ? said : "not said");
 }
 
-/* Below 0.3 of the bulk, where no law of a layer reaches. */
+/* Below 0.3 of the bulk modulus, where no law of a layer is valid. */
 static void soften(wt_table *copy, size_t row)
 {
     static const char *const columns[] = {"modulus", "spectrum_factor"};
@@ -75,7 +75,7 @@ static const fixture_change as_it_is = {.table = "indentation/track"},
                             old = {.table = "indentation/track", .without = "misfit_wave_1"};
 
 /* The truth is 3.16 um. */
-static void test_bound(void **state)
+static void test_one_limit(void **state)
 {
     (void)state;
     wt_table *t = track_layer(&as_it_is, 3e-6, 0.3e-6);
@@ -96,7 +96,7 @@ static void test_bound(void **state)
     wt_table_free(t);
 }
 
-static void test_both_ends(void **state)
+static void test_both_limits(void **state)
 {
     (void)state;
     wt_table *t = track_layer(&layered, 250e-9, 20e-9);
@@ -105,7 +105,7 @@ static void test_both_ends(void **state)
     assert_true(low > 100e-9 && low < at && at < high && high < 3e-6);
     begins(t, "agree", "inconclusive: the curves allow");
     assert_true(key_of(t, "both_low") > 190e-9 && key_of(t, "both_high") < 310e-9);
-    /* on its way to the bulk, from the modulus of the layer itself */
+    /* transition to the bulk, from the modulus of the layer */
     assert_true(key_of(t, "layer_to_bulk") < 0.7 && key_of(t, "layer_to_bulk") > 0.5);
     wt_table_free(t);
     t = track_layer(&layered, 50e-9, 5e-9);
@@ -117,7 +117,7 @@ static void test_both_ends(void **state)
     wt_table_free(t);
 }
 
-static void test_silence(void **state)
+static void test_no_result(void **state)
 {
     (void)state;
     wt_table *t = track_layer(&few, 3e-6, 0.3e-6);
@@ -128,7 +128,7 @@ static void test_silence(void **state)
     begins(t, "allowed", "inconclusive: the tables of bulk and track say nothing of depth");
     begins(t, "settled_by", "the same curves once more");
     wt_table_free(t);
-    /* of two tables that say nothing nothing is made unless a thickness is given */
+    /* two tables without a result give none unless a thickness is stated */
     wt_compare_job job = wt_compare_job_defaults();
     const wt_job work = wt_job_defaults();
     wt_table *bulk = fixture_copy(wt_result_find(fixture_case, "indentation/bulk"), &old);
@@ -142,7 +142,7 @@ static void test_silence(void **state)
     wt_table_free(track);
 }
 
-/* The layer of the fixture has 0.64 of the bulk; 0.15 of that is none of the law. */
+/* The layer of the fixture has 0.64 of the bulk modulus; the law does not extend to 0.15 of it. */
 static void test_beyond_the_law(void **state)
 {
     (void)state;
@@ -176,14 +176,14 @@ static void test_below_the_law(void **state)
     assert_true(a.ratio_low == 0);
     p.thinner_allowed = false;
     assert_true(wt_layer_compare(&p, thinner).differ);
-    /* of another source without a lower end, and curves that tell nothing, there is none */
+    /* without a lower limit from the other source, and with undetermined curves, there is none */
     for (size_t i = 0; i < p.n_steps; i++)
         p.deviate[i] = 0;
     a = wt_layer_compare(&p, (wt_interval){end, 0, -end, 3 * end});
     assert_true(a.low == 0 && isfinite(a.high) && a.high > end);
 }
 
-/* A profile that is a straight line in ln of the thickness is a normal error of 10 %. */
+/* A profile that is linear in ln of the thickness corresponds to a normal error of 10 %. */
 static void test_agreement(void **state)
 {
     (void)state;
@@ -207,7 +207,7 @@ static void test_agreement(void **state)
     assert_true(wt_layer_compare(&p, (wt_interval){far, 0, far / reach, far * reach}).differ);
     assert_false(
         wt_layer_compare(&p, (wt_interval){near_by, 0, near_by / reach, near_by * reach}).differ);
-    /* of an error without a lower end nothing thinner is excluded */
+    /* without a lower limit no thinner layer is excluded */
     const wt_layer_agreement open = wt_layer_compare(&p, (wt_interval){far, 0, -far, far * reach});
     assert_false(open.differ);
 }
@@ -234,8 +234,8 @@ static int set_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bound),          cmocka_unit_test(test_both_ends),
-        cmocka_unit_test(test_silence),        cmocka_unit_test(test_agreement),
+        cmocka_unit_test(test_one_limit),      cmocka_unit_test(test_both_limits),
+        cmocka_unit_test(test_no_result),      cmocka_unit_test(test_agreement),
         cmocka_unit_test(test_beyond_the_law), cmocka_unit_test(test_below_the_law)};
     return cmocka_run_group_tests_name("track layer", tests, set_up, tear_down);
 }

@@ -1,8 +1,8 @@
-/* What if: every row is what a single run with that choice moved gives, to the last bit.
+/* One-at-a-time sensitivity: every row equals a single run with that choice, to the last bit.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
-#include "sliding.h"
-#include "truth.h"
+#include "sliding_fixture.h"
+#include "table_cells.h"
+#include "truth_fixture.h"
 
 #include "core/table/result_value.h"
 #include "weartrack/study.h"
@@ -33,7 +33,7 @@ static wt_table *what_if(bool with_layer, bool with_known)
     return table;
 }
 
-/* The row in which a choice is so; the table must have it if it is asked for. */
+/* Row of a choice; the table must have it on request. */
 static size_t find_row(const wt_table *table, const char *choice, const char *tried)
 {
     for (size_t i = 0; i < wt_table_n_rows(table); i++)
@@ -49,7 +49,7 @@ static void check_cell(const wt_table *table, size_t row, const char *column, do
 {
     char change[64];
     const double used = number_cell(table, 0, column), cell = number_cell(table, row, column);
-    /* the velocity alone is that among others but for digits below the error */
+    /* the velocity alone gives the same as with others, except for digits below the error */
     if (!(fabs(cell / value - 1) <= 1e-12))
         fail_msg("row %zu (%s %s), %s: %.17g, a single run gives %.17g", row,
                  text_cell(table, row, "choice"), text_cell(table, row, "alternative"), column,
@@ -58,7 +58,7 @@ static void check_cell(const wt_table *table, size_t row, const char *column, do
     assert_true(fabs(number_cell(table, row, change) - (value / used - 1)) <= 2e-12);
 }
 
-/* What the settings as they are now give in single runs. */
+/* Results of single runs with the present settings. */
 static void check_row(const wt_table *table, const char *choice, const char *tried)
 {
     const size_t row = find_row(table, choice, tried);
@@ -114,7 +114,7 @@ static void heat_up(void)
     sliding.flash.on = true;
 }
 
-/* With flash temperature: without it, and with other constants of heat. */
+/* With flash temperature: without it, and with other thermal constants. */
 static void test_heat(void **state)
 {
     (void)state;
@@ -141,8 +141,8 @@ static void test_heat(void **state)
     wt_table_free(table);
 }
 
-/* Each choice from its other side. */
-static void test_what_is_used_is_not_tried(void **state)
+/* Each choice in the reverse direction. */
+static void test_reverse_direction(void **state)
 {
     (void)state;
     set_up();
@@ -159,8 +159,8 @@ static void test_what_is_used_is_not_tried(void **state)
     wt_table_free(table);
 }
 
-/* What does not apply has no row, and is named. */
-static void test_what_does_not_apply(void **state)
+/* A choice that does not apply has no row, and is named. */
+static void test_choices_that_do_not_apply(void **state)
 {
     (void)state;
     set_up();
@@ -177,14 +177,14 @@ static void test_what_does_not_apply(void **state)
     assert_non_null(strstr(left_out, "smallest wavenumber q0 (the roughness has no roll-off)"));
     wt_table_free(table);
     set_up();
-    layer.critical_energy.value = (double)NAN; /* then the thickness is put in */
+    layer.critical_energy.value = (double)NAN; /* then the thickness is stated */
     layer.observed_thickness.value = 3e-6;
     table = what_if(true, false);
     assert_true(find_row(table, "depth profile", NULL) == SIZE_MAX);
     wt_table_free(table);
 }
 
-/* The densities of a measured spectrum are known between its ends only. */
+/* The densities of a measured spectrum are only known between its limits. */
 static void test_limits(void **state)
 {
     (void)state;
@@ -203,7 +203,7 @@ static void test_limits(void **state)
     wt_table_free(table);
 }
 
-/* The range of a finding is that of all rows. */
+/* The range of a result is that of all rows. */
 static void test_range(void **state)
 {
     (void)state;
@@ -231,9 +231,9 @@ static void test_range(void **state)
     wt_result_free(result);
 }
 
-/* A row that cannot be computed says why, and the others stand: here the roughness of one row is
- * beyond every number. */
-static void test_what_cannot_be_computed(void **state)
+/* A row that cannot be computed states the reason, and the others remain: here the roughness of one
+ * row overflows. */
+static void test_failed_rows(void **state)
 {
     (void)state;
     set_up();
@@ -245,7 +245,7 @@ static void test_what_cannot_be_computed(void **state)
         assert_int_equal(text_cell(table, i, "note")[0] != '\0', i == row);
     }
     assert_non_null(strstr(text_cell(table, row, "note"), "variance G stays finite"));
-    surface.c0.value = 1e290; /* not even as used: an error, no table of blanks */
+    surface.c0.value = 1e290; /* not even the reference run: an error, no table of blanks */
     wt_table *none = NULL;
     assert_int_equal(wt_model_sensitivity_compute(&sliding, NULL, NULL, &work, &none, NULL),
                      WT_E_RANGE);
@@ -273,11 +273,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_single_runs),
         cmocka_unit_test(test_heat),
-        cmocka_unit_test(test_what_is_used_is_not_tried),
-        cmocka_unit_test(test_what_does_not_apply),
+        cmocka_unit_test(test_reverse_direction),
+        cmocka_unit_test(test_choices_that_do_not_apply),
         cmocka_unit_test(test_limits),
         cmocka_unit_test(test_range),
-        cmocka_unit_test(test_what_cannot_be_computed),
+        cmocka_unit_test(test_failed_rows),
         cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests_name("what if", tests, NULL, NULL);

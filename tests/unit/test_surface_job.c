@@ -1,21 +1,22 @@
-/* Height maps and profiles in files to one power spectrum: surfaces that are made by a formula,
- * whose spectrum is known. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "near.h"
+/* Height maps and profiles in files to one power spectrum: synthetic surfaces with a known
+ * spectrum.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
 
-#include "study/made_surface.h"
+#include "study/synthetic_surface.h"
 
 #include "core/base/array.h"
 #include "friction/counter_surface.h"
 #include "job/random_draws.h"
-#include "truth.h"
+#include "truth_fixture.h"
 #include "weartrack/case.h"
 
 #include <string.h>
 #include <unistd.h>
 
 #define SURFACE WT_SOURCE_DIR "/fixtures/surface/"
-/* As tests/generate/generate_surface.c has them. */
-static const made_surface behind = {256, 200e-6, 21, 126, 6e-26, 6e5, 0.8, 0, true, 0};
+/* The values of tests/generate/generate_surface.c. */
+static const synthetic_surface behind = {256, 200e-6, 21, 126, 6e-26, 6e5, 0.8, 0, true, 0};
 
 static wt_formats *formats;
 
@@ -89,9 +90,9 @@ static double error_of(const wt_table *t, const char *name)
     return e.standard_error;
 }
 
-/* Three scans of two sizes: the densities hold the truth, and so do the law and the sums of it over
- * the range. */
-static void test_whole(void **state)
+/* Three scans of two sizes: the densities cover the truth, and so do the law and its sums over the
+ * range. */
+static void test_density_law_and_sums(void **state)
 {
     (void)state;
     making m = {.job = wt_topography_job_defaults()};
@@ -102,7 +103,7 @@ static void test_whole(void **state)
     const size_t n = wt_table_n_rows(t);
     size_t within = 0;
     for (size_t i = 0; i < n; i++) {
-        const double q = cell(t, i, "wavenumber"), c = made_density(&behind, q);
+        const double q = cell(t, i, "wavenumber"), c = surface_density(&behind, q);
         within += cell(t, i, "density_low") < c && c < cell(t, i, "density_high") ? 1 : 0;
         assert_string_equal(cell_text(t, i, "source"), "measured");
         assert_near(cell(t, i, "self_affine"), c, 0.6);
@@ -130,8 +131,8 @@ static void test_whole(void **state)
     clear(&m);
 }
 
-/* The end: given within the range, beyond it, and by the slope. */
-static void test_ends(void **state)
+/* The upper limit: stated within the range, beyond it, and by the slope. */
+static void test_upper_limit(void **state)
 {
     (void)state;
     making m = {.job = wt_topography_job_defaults()};
@@ -141,7 +142,7 @@ static void test_ends(void **state)
     size_t last = wt_table_n_rows(t) - 1;
     assert_string_equal(cell_text(t, last, "source"), "cut");
     assert_near(cell(t, last, "wavenumber"), 3e6, 1e-12);
-    assert_near(cell(t, last, "density"), made_density(&behind, 3e6), 0.9);
+    assert_near(cell(t, last, "density"), surface_density(&behind, 3e6), 0.9);
     const double slope = key(t, "rms_slope");
     clear(&m);
 
@@ -162,8 +163,8 @@ static void test_ends(void **state)
     assert_string_equal(wt_table_key(t, "steep_by"), "law");
     assert_true(key(t, "extrapolated_share") > 0.3);
     assert_true(said(&m, "beyond the reliable range"));
-    /* the law is known the less the further it goes, and the slope with it */
-    const double truth = made_density(&behind, cell(t, last, "wavenumber"));
+    /* the error of the law increases with the extrapolation, and so does that of the slope */
+    const double truth = surface_density(&behind, cell(t, last, "wavenumber"));
     assert_near_abs(log(cell(t, last, "density") / truth), 0, 3 * cell(t, last, "law_error"));
     assert_near(cell(t, last, "density_standard_error") / cell(t, last, "density"),
                 log(cell(t, last, "density_high") / cell(t, last, "density")) / 1.96, 1e-3);
@@ -187,8 +188,8 @@ static void test_ends(void **state)
     clear(&m);
 }
 
-/* Heights less their form, every so many points of four maps together; the line of a map is the one
- * in its middle, and a profile has no map. */
+/* Heights minus form of four maps together, with a step of several points; the line of a map is the
+ * middle one, and a profile has no map. */
 static void test_heights(void **state)
 {
     (void)state;
@@ -225,12 +226,12 @@ static void test_heights(void **state)
     clear(&m);
 }
 
-/* A made surface with x and y in each other's place, as a Gwyddion simple field. */
+/* A synthetic surface with x and y exchanged, as a Gwyddion simple field. */
 /* With `crossed`, grooves along x and along y are added, as random as two lines of the surface. */
-static void write_turned(const char *path, const made_surface *made, bool crossed)
+static void write_turned(const char *path, const synthetic_surface *made, bool crossed)
 {
     const size_t n = made->n;
-    double *z = make_surface(made);
+    double *z = surface_create(made);
     FILE *out = fopen(path, "wb");
     assert_non_null(out);
     const int used = fprintf(out,
@@ -249,8 +250,8 @@ static void write_turned(const char *path, const made_surface *made, bool crosse
     free(z);
 }
 
-/* Texture across y: both orders with errors, and as friction takes them; none of surfaces that are
- * alike in all directions, and no table of profiles. */
+/* Texture across y: both orders with errors, and as input of friction; none for isotropic surfaces,
+ * and no table for profiles. */
 static void test_directions(void **state)
 {
     (void)state;
@@ -259,7 +260,7 @@ static void test_directions(void **state)
     assert_true(fd >= 0);
     close(fd);
     const char *const file[] = {path};
-    made_surface made = behind;
+    synthetic_surface made = behind;
     made.stretch = 0.6;
     write_turned(path, &made, false);
     making m = {.job = wt_topography_job_defaults()};
@@ -290,7 +291,7 @@ static void test_directions(void **state)
                  fourth = key(m.tables.power_spectrum, "anisotropy_fourth");
     clear(&m);
 
-    /* profiles beside maps tell nothing of directions and take nothing away */
+    /* profiles with maps do not affect the anisotropy */
     make(&m, (const char *const[]){path, SURFACE "profile-*.gsf"}, 2);
     t = m.tables.power_spectrum;
     assert_near(key(t, "anisotropy"), alone, 1e-12);
@@ -313,7 +314,7 @@ static void test_directions(void **state)
     unlink(path);
 }
 
-/* Grooves that cross have an anisotropy of order 4 only. Friction has no option for it. */
+/* Crossing grooves only have an anisotropy of order 4. Friction has no option for it. */
 static void test_crossing_grooves_give_no_option(void **state)
 {
     (void)state;
@@ -330,8 +331,8 @@ static void test_crossing_grooves_give_no_option(void **state)
     unlink(path);
 }
 
-/* One scan says what it cannot know. */
-static void test_alone(void **state)
+/* One scan states what it cannot determine. */
+static void test_single_scan(void **state)
 {
     (void)state;
     making m = {.job = wt_topography_job_defaults()};
@@ -344,8 +345,8 @@ static void test_alone(void **state)
     clear(&m);
 }
 
-/* How places differ is in the errors of heights and slopes, half of it, for they go by the root of
- * the density; what no number approximates has no numerical error. */
+/* The scatter of positions is part of the errors of heights and slopes, with half its size, because
+ * they follow the root of the density. Numbers without approximation have no numerical error. */
 static void test_numerical_errors(void **state)
 {
     (void)state;
@@ -360,8 +361,8 @@ static void test_numerical_errors(void **state)
     clear(&m);
 }
 
-/* The table is a counter surface with its errors: replicates scatter by them, each point by itself.
- */
+/* The table is a counter surface with its errors: replicates scatter by them, each point
+ * separately. */
 static void test_replicates(void **state)
 {
     (void)state;
@@ -409,8 +410,9 @@ static void test_replicates(void **state)
     unlink(path);
 }
 
-/* What a window ties is drawn together: with the next point as stated, with no other. */
-static void test_ties_of_points(void **state)
+/* A window correlates neighbouring points, which are drawn together as stated, and with no
+ * others. */
+static void test_correlated_points(void **state)
 {
     (void)state;
     enum { DRAWS = 4000, POINTS = 4 };
@@ -441,8 +443,8 @@ static void test_ties_of_points(void **state)
             assert_near_abs(found[k][l], k == l ? 1 : k == l + 1 ? tie[l] : 0, 0.06);
 }
 
-/* Places of three sizes are drawn each for itself: what is of one size alone goes its own way and
- * by its own error, and a bin between by both. */
+/* Positions of three scan sizes are drawn separately: a part of the spectrum from one size has its
+ * own error, and a bin between has both. */
 static void test_places_of_sizes(void **state)
 {
     (void)state;
@@ -491,11 +493,10 @@ static void test_places_of_sizes(void **state)
     wt_roughness_free(r);
 }
 
-/* A copy whose heights are so many times as large, and whose sides are ten times as small if
- * `near`. */
+/* A copy with scaled heights, and sides ten times as small if `near`. */
 static void write_changed(const char *from, float factor, bool near, const char *to)
 {
-    enum { VALUES = 112 * 112 }; /* behind the head */
+    enum { VALUES = 112 * 112 }; /* after the header */
     static const char *const sides[] = {"XReal = 8.75e-0", "YReal = 8.75e-0"};
     static char bytes[1 << 16];
     FILE *in = fopen(from, "rb"), *out = fopen(to, "wb");
@@ -517,7 +518,7 @@ static void write_changed(const char *from, float factor, bool near, const char 
     assert_int_equal(fclose(out), 0);
 }
 
-/* What the places of a size, counted from 1, give a row of the spectrum. */
+/* Effect of the positions of a size, counted from 1, on a row of the spectrum. */
 static double place_error_of(const wt_table *t, double size, double row)
 {
     for (size_t i = 0; i < wt_table_n_rows(t); i++)
@@ -526,9 +527,9 @@ static double place_error_of(const wt_table *t, double size, double row)
     return 0;
 }
 
-/* Two places that differ by four in C, a narrow scan elsewhere and a narrower one: each part of the
- * spectrum has the error of its own places, and the numbers hold that two places tell little of
- * their scatter. */
+/* Two positions that differ by four in C, a narrow scan elsewhere and a narrower one: each part of
+ * the spectrum has the error of its own positions. The numbers include that two positions hardly
+ * determine their scatter. */
 static void test_scatter_of_places(void **state)
 {
     (void)state;
@@ -567,7 +568,7 @@ static void test_scatter_of_places(void **state)
     unlink(narrowest);
 }
 
-/* What the densities of the spectrum, each moved by ln C of `moves`, change of a number. */
+/* Change of a number if each density of the spectrum moves by ln C of `moves`. */
 static double change_by(const wt_table *t, const double *moves,
                         double (*number)(const wt_roughness *))
 {
@@ -588,9 +589,9 @@ static double change_by(const wt_table *t, const double *moves,
     return values[1] - values[0];
 }
 
-/* Errors of rms height and slope by what the tables say of the rows: the law together, the places
- * of each size together, or of all, and every bin by itself, but for what a window ties it to the
- * next by, which is less than that again. */
+/* Errors of rms height and slope from the row errors of the tables: the law, the positions of
+ * each size together, or of all, and every bin separately. The correlation by a window reduces
+ * the last. */
 static void check_errors(const wt_topography_tables *tables)
 {
     enum { MOST = 100 };
@@ -622,7 +623,7 @@ static void check_errors(const wt_topography_tables *tables)
     }
 }
 
-/* One place, two that differ, more of other sizes, and beyond them by the law. */
+/* One position, two that differ, more of other sizes, and the extrapolation by the law. */
 static void test_errors_of_numbers(void **state)
 {
     (void)state;
@@ -642,7 +643,7 @@ static void test_errors_of_numbers(void **state)
             assert_true(said(&m, "shorter than 1 nm") == false);
             clear(&m);
         }
-    /* ends between bins and on one, and where no roughness is */
+    /* limits between bins, at a bin, and outside the roughness */
     making m = {.job = wt_topography_job_defaults()};
     make(&m, files, 1);
     const double first = cell(m.tables.power_spectrum, 0, "wavenumber"),
@@ -666,7 +667,7 @@ static void test_errors_of_numbers(void **state)
     unlink(narrowest);
 }
 
-/* All profiles of the surface one behind the other. */
+/* All profiles of the surface one after the other. */
 static void write_long_profile(const char *to)
 {
     enum { EACH = 250, PROFILES = 8 };
@@ -690,9 +691,9 @@ static void write_long_profile(const char *to)
     assert_int_equal(fclose(out), 0);
 }
 
-/* What profiles are beside height maps: of one surface, of one that is as rough as three times of
- * it, which is not taken for a scatter of places, of other waves, and where places differ. */
-static void test_profiles_beside(void **state)
+/* Profiles with height maps: of the same surface; of one with three times its roughness, which does
+ * not count as scatter of positions; of other waves; and with positions that differ. */
+static void test_profiles_with_maps(void **state)
 {
     (void)state;
     char low[] = "/tmp/weartrack-place-XXXXXX", twice[] = "/tmp/weartrack-place-XXXXXX";
@@ -722,7 +723,7 @@ static void test_profiles_beside(void **state)
         assert_true(cases[i].disagree == (ratio[1] > 1 || ratio[2] < 1));
         assert_true(cases[i].disagree == (strstr(words, "they disagree") != NULL));
         assert_true(cases[i].disagree == said(&m, "the profiles and the height maps disagree"));
-        if (i == 3) /* two places that differ by four, of which nothing else tells */
+        if (i == 3) /* two positions that differ by four, without other information */
             assert_true(ratio[2] / ratio[1] > exp(0.9 * 12.7 * log(4)));
         clear(&m);
     }
@@ -737,7 +738,7 @@ static void test_profiles_beside(void **state)
                         "they alone tell waves of 3.96 µm to 19.6 µm; they share no waves with "
                         "the height maps");
     clear(&m);
-    /* of one place each none knows how they differ, however much they do */
+    /* one position each: the scatter is unknown, whatever their difference */
     write_long_profile(twice);
     make(&m, (const char *const[]){low, twice}, 2);
     assert_int_equal(m.status, WT_OK);
@@ -750,7 +751,7 @@ static void test_profiles_beside(void **state)
     unlink(twice);
 }
 
-/* Rows of places that are of no row of the spectrum, or of no size, are no errors. */
+/* Rows of positions without a row of the spectrum, or without a size, are errors. */
 static void test_bad_places(void **state)
 {
     (void)state;
@@ -803,8 +804,8 @@ static void test_bad_places(void **state)
     unlink(path);
 }
 
-/* A height map stands where a spectrum does, and is what its own spectrum would be; of several the
- * error of the places comes with them. */
+/* A height map may replace a spectrum, with the result of its own spectrum; several maps include
+ * the error of the positions. */
 static void test_map_as_roughness(void **state)
 {
     (void)state;
@@ -873,12 +874,12 @@ static friction_of_case run_case(const char *roughness)
     return got;
 }
 
-/* What the map adds to the error of friction: the law behind it, over the same waves, lies within
- * three times that. */
+/* Contribution of the map to the error of friction: the law over the same waves is within a factor
+ * of three of it. */
 static double error_of_surface(const friction_of_case *map)
 {
     char law[256];
-    /* the first wave of a scan is shorter than that of the roll-off */
+    /* the first wave of a scan is shorter than the roll-off */
     snprintf(law, sizeof law,
              "<self-affine><q0>%.17grad/m</q0><q1>%.17grad/m</q1><hurst>0.8</hurst>"
              "<c0>%.17gm^4</c0></self-affine>",
@@ -905,11 +906,11 @@ static void test_map_in_a_case(void **state)
     const friction_of_case beyond =
         run_case("<end>1e6rad/m</end><files>" SURFACE "road.gsf</files>");
     assert_near(beyond.last, 1e6, 1e-9);
-    /* a decade and a half beyond the map the exponent of the law is what is least known */
+    /* a decade and a half beyond the map the exponent of the law has the largest error */
     assert_true(error_of_surface(&beyond) > 3 * of_surface);
 }
 
-/* What is no height map, or has none, fails; the others go on. */
+/* Files without a height map fail; the others continue. */
 static void test_failures(void **state)
 {
     (void)state;
@@ -935,20 +936,20 @@ static void test_failures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_whole),
-        cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_density_law_and_sums),
+        cmocka_unit_test(test_upper_limit),
         cmocka_unit_test(test_heights),
         cmocka_unit_test(test_directions),
         cmocka_unit_test(test_crossing_grooves_give_no_option),
-        cmocka_unit_test(test_alone),
+        cmocka_unit_test(test_single_scan),
         cmocka_unit_test(test_numerical_errors),
         cmocka_unit_test(test_replicates),
-        cmocka_unit_test(test_ties_of_points),
+        cmocka_unit_test(test_correlated_points),
         cmocka_unit_test(test_places_of_sizes),
         cmocka_unit_test(test_scatter_of_places),
         cmocka_unit_test(test_bad_places),
         cmocka_unit_test(test_errors_of_numbers),
-        cmocka_unit_test(test_profiles_beside),
+        cmocka_unit_test(test_profiles_with_maps),
         cmocka_unit_test(test_failures),
         cmocka_unit_test(test_map_as_roughness),
         cmocka_unit_test(test_map_in_a_case),

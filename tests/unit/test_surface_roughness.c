@@ -1,5 +1,5 @@
-/* Power spectra: densities, root-mean-square height and slope, what is refused. */
-#include "near.h"
+/* Power spectra: densities, root-mean-square height and slope, refused values. */
+#include "assert_near.h"
 
 #include "numeric/friction_scene.h"
 
@@ -79,7 +79,7 @@ static const double *no_breaks(const wt_roughness *roughness, size_t *n)
     return NULL;
 }
 
-/* A law without a moment in closed form is integrated: the same as the one that has it. */
+/* A law without a moment in closed form is integrated: the same as the closed form. */
 static void integrated_moment(void **state)
 {
     (void)state;

@@ -1,10 +1,10 @@
-/* Heights to power spectra, against numbers of another program for surfaces that are made by a
- * formula. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "counted.h"
-#include "near.h"
-#include "truth.h"
+/* Heights to power spectra, against numbers of another program for synthetic surfaces.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "assert_near.h"
+#include "draw_count.h"
+#include "truth_fixture.h"
 
-#include "study/made_surface.h"
+#include "study/synthetic_surface.h"
 #include "surface_reference.h"
 
 #include "core/base/array.h"
@@ -18,9 +18,9 @@ static const double length = 256e-6;
 static double *p, *a, *b; /* [SIDE * SIDE] */
 
 /* A part of a larger surface. */
-static double *cut(const made_surface *s, size_t x, size_t y)
+static double *cut(const synthetic_surface *s, size_t x, size_t y)
 {
-    double *whole = make_surface(s), *part = malloc(sizeof(double) * SIDE * SIDE);
+    double *whole = surface_create(s), *part = malloc(sizeof(double) * SIDE * SIDE);
     for (size_t j = 0; j < SIDE; j++)
         memcpy(part + j * SIDE, whole + (y + j) * s->n + x, SIDE * sizeof *part);
     free(whole);
@@ -31,9 +31,11 @@ static int make_all(void **state)
 {
     (void)state;
     const double roll_off = 8.3 * 2 * M_PI / length;
-    p = make_surface(&(made_surface){SIDE, length, 12345, 120, 3e-23, roll_off, 0.8, 0, false, 0});
-    a = cut(&(made_surface){512, 512e-6, 777, 240, 3e-23, roll_off, 0.8, 0, false, 0}, 37, 61);
-    b = cut(&(made_surface){512, 64e-6, 4242, 240, 3e-23, roll_off, 0.8, 0, false, 0}, 100, 20);
+    p = surface_create(
+        &(synthetic_surface){SIDE, length, 12345, 120, 3e-23, roll_off, 0.8, 0, false, 0});
+    a = cut(&(synthetic_surface){512, 512e-6, 777, 240, 3e-23, roll_off, 0.8, 0, false, 0}, 37, 61);
+    b = cut(&(synthetic_surface){512, 64e-6, 4242, 240, 3e-23, roll_off, 0.8, 0, false, 0}, 100,
+            20);
     return 0;
 }
 
@@ -53,7 +55,7 @@ static double *duplicate_file(const double *z)
     return c;
 }
 
-/* Surface A with the form that is to be found again. */
+/* Surface A with a form that must be recovered. */
 static double *tilted(void)
 {
     double *z = duplicate_file(a);
@@ -80,7 +82,7 @@ static double rms_of(const double *z)
     return sqrt(sum / SIDE / SIDE);
 }
 
-/* The bins of the reference, relative to the largest density where one is nearly nothing. */
+/* The bins of the reference; nearly zero ones relative to the largest density. */
 static void compare_bins(const wt_surface_spectrum *s, const reference_bin *bins, size_t n,
                          double close)
 {
@@ -117,8 +119,8 @@ static void test_samples(void **state)
     assert_near(b[0], 1.3159534177204704e-06, 1e-12);
 }
 
-/* The surface goes on beyond its edges, so that with one more row and column forward differences
- * are there at every point. */
+/* The surface continues beyond its edges, so that with one more row and column forward differences
+ * exist at every point. */
 static void test_heights(void **state)
 {
     (void)state;
@@ -196,7 +198,7 @@ static void test_missing(void **state)
     size_t n = 0;
     for (size_t i = 0; i < SIDE; i++)
         for (size_t j = 0; j < SIDE; j++)
-            if (made_uniform(999, i * SIDE + j) < 0.05) {
+            if (surface_uniform(999, i * SIDE + j) < 0.05) {
                 z[j * SIDE + i] = (double)NAN;
                 n++;
             }
@@ -228,7 +230,7 @@ static void test_missing(void **state)
     free(with_holes);
 }
 
-/* C1 at mode k, of all rows in the mean: a range that holds no other. */
+/* C1 at mode k, mean of all rows: a range with a single mode. */
 static double line_density(const wt_height_map *map, wt_surface_window window, size_t k)
 {
     const double q = 2 * M_PI * (double)k / ((double)map->nx * map->dx);
@@ -273,7 +275,7 @@ static void test_inversion(void **state)
                     1e-13);
     }
     assert_true(isnan(surface_invert_profile(q, c1, 5, true, 999, rule)));
-    /* A power law goes on for ever: C = C1/q Gamma(1 + H) / (sqrt(pi) Gamma(1/2 + H)). */
+    /* An unlimited power law: C = C1/q Gamma(1 + H) / (sqrt(pi) Gamma(1/2 + H)). */
     const double h = 0.8, two[] = {1e3, 2e3}, power[] = {1, pow(2, -1 - 2 * h)};
     assert_near(surface_invert_profile(two, power, 2, true, 1e3, rule),
                 1e-3 * tgamma(1 + h) / (sqrt(M_PI) * tgamma(0.5 + h)), 1e-12);
@@ -282,10 +284,10 @@ static void test_inversion(void **state)
     gsl_integration_glfixed_table_free(rule);
 }
 
-/* Two scans of different size. What a mean of logarithms is too low by, which the reference leaves
- * in, is known. */
-/* What places make of the constants is what the fit makes of bins that the places of each size have
- * moved, one size after the other. */
+/* Two scans of different size. The bias of a mean of logarithms, which the reference contains, is
+ * known. */
+/* The effect of positions on the constants equals that of fits to bins moved by the positions of
+ * each size, one size after the other. */
 static void check_places_of_law(wt_surface_spectrum *s)
 {
     enum { CONSTANTS = 3 };
@@ -358,7 +360,7 @@ static void test_stitch(void **state)
         assert_near(joined.bins[k].wavenumber, stitched[k].q, 1e-12);
         assert_near(joined.bins[k].density * exp(lacks), stitched[k].c, 1e-9);
     }
-    /* The law behind both; without exponential amplitudes the misfit is far below 1. */
+    /* The law of both; without exponential amplitudes the lack of fit is far below 1. */
     wt_self_affine law;
     law = wt_self_affine_fit(&joined);
     assert_true(law.found);
@@ -372,8 +374,8 @@ static void test_stitch(void **state)
     wt_surface_spectrum_clear(&joined);
 }
 
-/* Of a power law through so few bins the errors have a closed form: by the scatter of the modes, or
- * by a larger misfit with Student's t of its six degrees of freedom; not by both. */
+/* Errors of a power law through so few bins have a closed form: by the scatter of the modes, or by
+ * a larger lack of fit with Student's t of its six degrees of freedom; not by both. */
 static void errors_of_the_law(void **state)
 {
     (void)state;
@@ -429,15 +431,16 @@ static void test_slope_end(void **state)
     }
 }
 
-/* A part of a random surface, whose squared amplitudes are exponential; bins agree with the truth
- * within their scatter, and so do directions and the law. */
+/* A part of a random surface with exponential squared amplitudes: bins agree with the truth within
+ * their scatter, and so do anisotropy and the law. */
 static void test_scatter(void **state)
 {
     (void)state;
     const double roll_off = 8.3 * 2 * M_PI / length;
     size_t within = 0, all = 0;
     for (uint64_t seed = 1; seed <= 6; seed++) {
-        const made_surface truth = {512, 512e-6, 100 * seed, 250, 3e-23, roll_off, 0.8, 0, true, 0};
+        const synthetic_surface truth = {512,      512e-6, 100 * seed, 250,  3e-23,
+                                         roll_off, 0.8,    0,          true, 0};
         double *z = cut(&truth, 37, 61);
         const wt_height_map map = map_of(z);
         const wt_surface_options options = wt_surface_options_defaults();
@@ -448,7 +451,7 @@ static void test_scatter(void **state)
             if (!s.bins[k].reliable)
                 continue;
             const wt_interval c = wt_surface_density(&s, k);
-            const double is = made_density(&truth, s.bins[k].wavenumber);
+            const double is = surface_density(&truth, s.bins[k].wavenumber);
             within += c.low < is && is < c.high ? 1 : 0;
             all++;
         }
@@ -460,9 +463,10 @@ static void test_scatter(void **state)
     assert_true((double)within > 0.88 * (double)all);
 }
 
-/* What a window mixes in of longer waves is taken off, of every window: of a steep law that goes on
- * beyond the map the first bins, of two waves and more, would be a fifth to a third too high. */
-static void test_leak(void **state)
+/* The leakage of longer waves through a window is subtracted, for every window. For a steep law
+ * that continues beyond the map the first bins of two or more waves would be too high by a fifth to
+ * a third. */
+static void test_leakage(void **state)
 {
     (void)state;
     enum { SURFACES = 100, N = 128, CUT = 56, BINS = 4 };
@@ -470,8 +474,8 @@ static void test_leak(void **state)
     static const double most[] = {0.2, 0.1};
     double sum[COUNT_OF(windows)][BINS] = {{0}};
     for (uint64_t seed = 1; seed <= SURFACES; seed++) {
-        const made_surface made = {N, 200e-6, seed, 60, 1e-26, 1.2e5, 0.8, 0, false, 0};
-        double *z = make_surface(&made), *part = malloc((size_t)CUT * CUT * sizeof *part);
+        const synthetic_surface made = {N, 200e-6, seed, 60, 1e-26, 1.2e5, 0.8, 0, false, 0};
+        double *z = surface_create(&made), *part = malloc((size_t)CUT * CUT * sizeof *part);
         assert_non_null(part);
         for (size_t j = 0; j < CUT; j++)
             memcpy(part + j * CUT, z + (j + 9) * N + 5, CUT * sizeof *part);
@@ -488,7 +492,7 @@ static void test_leak(void **state)
                 first++;
             for (size_t k = 0; k < BINS; k++)
                 sum[w][k] += s.bins[first + 2 * k].density /
-                             made_density(&made, s.bins[first + 2 * k].wavenumber) / SURFACES;
+                             surface_density(&made, s.bins[first + 2 * k].wavenumber) / SURFACES;
             wt_surface_spectrum_clear(&s);
         }
         free(part);
@@ -502,8 +506,8 @@ static void test_leak(void **state)
 static void test_directions(void **state)
 {
     (void)state;
-    const made_surface truth = {512, 512e-6, 5,    250, 3e-23, 8.3 * 2 * M_PI / length,
-                                0.8, 0.3,    true, 0};
+    const synthetic_surface truth = {512, 512e-6, 5,    250, 3e-23, 8.3 * 2 * M_PI / length,
+                                     0.8, 0.3,    true, 0};
     double *z = cut(&truth, 37, 61);
     const wt_height_map map = map_of(z);
     const wt_surface_options options = wt_surface_options_defaults();
@@ -518,8 +522,8 @@ static void test_directions(void **state)
     free(z);
 }
 
-/* Of random surfaces whose density is 1 + 0.4 cos 2 (phi - 0.5) + 0.25 cos 4 (phi + 0.2) times that
- * of their law, from x. */
+/* Random surfaces whose density is 1 + 0.4 cos 2 (phi - 0.5) + 0.25 cos 4 (phi + 0.2) times that of
+ * their law, from x. */
 static const double grooves[] = {0.4, 0.25}, grooves_at[] = {0.5, -0.2};
 
 static double grooved_density(double phi)
@@ -540,17 +544,18 @@ static double *make_grooved(uint64_t seed, size_t n)
             row[i] = 0;
         for (int mx = my == 0 ? 1 : -MODES; mx <= MODES; mx++) {
             const uint64_t k = (uint64_t)(my * 1000 + mx + 500);
-            const double square = -log1p(-made_uniform(seed, k)) * grooved_density(atan2(my, mx)) *
-                                  pow(mx * mx + my * my, -1.8);
+            const double square = -log1p(-surface_uniform(seed, k)) *
+                                  grooved_density(atan2(my, mx)) * pow(mx * mx + my * my, -1.8);
             const double complex amplitude =
-                sqrt(square) * cexp(made_complex(0, 2 * M_PI * made_uniform(seed + 1, k)));
-            const double complex turn = cexp(made_complex(0, 2 * M_PI * mx / (double)n));
+                sqrt(square) * cexp(surface_complex(0, 2 * M_PI * surface_uniform(seed + 1, k)));
+            const double complex turn = cexp(surface_complex(0, 2 * M_PI * mx / (double)n));
             double complex at = amplitude;
             for (size_t i = 0; i < n; i++, at *= turn)
                 row[i] += at;
         }
         for (size_t j = 0; j < n; j++) {
-            const double complex t = cexp(made_complex(0, 2 * M_PI * my * (double)j / (double)n));
+            const double complex t =
+                cexp(surface_complex(0, 2 * M_PI * my * (double)j / (double)n));
             for (size_t i = 0; i < n; i++)
                 z[j * n + i] += 1e-6 * creal(row[i] * t);
         }
@@ -559,7 +564,7 @@ static double *make_grooved(uint64_t seed, size_t n)
     return z;
 }
 
-/* What is found of them lies about the truth as its errors say. */
+/* The recovered values scatter about the truth by their errors. */
 static void check_grooved(wt_surface_window window)
 {
     enum { SURFACES = 60, N = 256 };
@@ -572,7 +577,7 @@ static void check_grooved(wt_surface_window window)
         wt_surface_spectrum s = {.n = 0};
         wt_surface_heights h;
         options.window = window;
-        options.form = WT_FORM_MEAN; /* another ends the waves of a period at the edges */
+        options.form = WT_FORM_MEAN; /* another window suppresses the periodic waves at the edges */
         assert_int_equal(wt_surface_analyse(&map, &options, &h, &s, NULL), WT_OK);
         for (size_t k = 0; k < 2; k++) {
             const wt_surface_anisotropy found = wt_surface_anisotropy_fit(&s, k == 0 ? 2 : 4);
@@ -608,7 +613,7 @@ static void test_orders(void **state)
     check_grooved(WT_WINDOW_HANN);
 }
 
-/* Places that differ by a factor: it is told, and the interval holds it. */
+/* Positions that differ by a factor: it is stated, and the interval covers it. */
 static void test_places(void **state)
 {
     (void)state;
@@ -616,12 +621,13 @@ static void test_places(void **state)
     const double factor[PLACES] = {0.5, 0.8, 1, 1.3, 2.1};
     wt_surface_spectrum s[PLACES] = {{.n = 0}}, joined = {.n = 0};
     const wt_surface_spectrum *all[PLACES];
-    const made_surface one = {256, length, 9, 120, 3e-23, 8.3 * 2 * M_PI / length, 0.8, 0, true, 0};
+    const synthetic_surface one = {256, length, 9,    120, 3e-23, 8.3 * 2 * M_PI / length,
+                                   0.8, 0,      true, 0};
     for (size_t i = 0; i < PLACES; i++) {
-        made_surface here = one;
+        synthetic_surface here = one;
         here.seed += 10 * i;
         here.c0 *= factor[i];
-        double *z = make_surface(&here);
+        double *z = surface_create(&here);
         const wt_height_map map = map_of(z);
         const wt_surface_options options = wt_surface_options_defaults();
         wt_surface_heights h;
@@ -635,7 +641,8 @@ static void test_places(void **state)
     wt_surface_spectrum_clear(&joined);
     assert_int_equal(wt_surface_combine(all, PLACES, &joined, NULL), WT_OK);
     assert_near(joined.place_scatter, 0.54, 0.15); /* of the logarithms of the factors */
-    /* Student's t of four degrees of freedom; the modes are little beside such a scatter */
+    /* Student's t with four degrees of freedom; the modes are negligible compared with such a
+     * scatter */
     assert_near(joined.place_reach, joined.place_scatter * 2.7764 / 1.95996, 0.02);
     assert_near(joined.place_error, joined.place_reach / sqrt(PLACES), 1e-12);
     const wt_interval together = wt_surface_density(&joined, joined.n - 1);
@@ -645,8 +652,8 @@ static void test_places(void **state)
     wt_surface_spectrum_clear(&joined);
 }
 
-/* Of one bin at `n` places that scatter by `scatter` times what its modes do: how many of the
- * intervals hold the truth, which is 1. */
+/* One bin at `n` positions that scatter by `scatter` times the effect of its modes: the number of
+ * intervals that contain the true value 1. */
 static size_t places_held(size_t n, double scatter, size_t draws)
 {
     enum { MOST = 3, MODES = 200 };
@@ -679,17 +686,17 @@ static size_t places_held(size_t n, double scatter, size_t draws)
     return held;
 }
 
-/* The modes of few places often scatter by as much as the places do, or by little: neither makes
- * an interval too narrow. While all of what modes do in the mean was taken off, 87 and 91 % of two
- * and three places were held. */
+/* The modes of few positions often scatter as much as the positions, or little: neither makes an
+ * interval too narrow. When the whole mean effect of the modes was subtracted, 87 and 91 % of two
+ * and three positions were covered. */
 static void test_few_places(void **state)
 {
     (void)state;
-    enum { DRAWS = COUNTED(2000), LEAST = DRAWS * 92 / 100, HIGHEST = DRAWS * 99 / 100 };
+    enum { DRAWS = DRAW_COUNT(2000), LEAST = DRAWS * 92 / 100, HIGHEST = DRAWS * 99 / 100 };
     for (size_t n = 2; n <= 3; n++)
         for (double scatter = 0; scatter <= 4; scatter += 2) {
             const size_t held = places_held(n, scatter, DRAWS);
-            if (SHARES_COUNT)
+            if (TEST_RATES)
                 assert_in_range(held, LEAST, HIGHEST);
         }
 }
@@ -716,7 +723,7 @@ static void test_refused(void **state)
     free(z);
 }
 
-/* A tip rounds what is sharper than it, and the range ends there. */
+/* A tip rounds sharper features, and the range ends there. */
 static void test_tip(void **state)
 {
     (void)state;
@@ -744,7 +751,7 @@ int main(void)
         cmocka_unit_test(test_missing),      cmocka_unit_test(test_lines),
         cmocka_unit_test(test_inversion),    cmocka_unit_test(test_stitch),
         cmocka_unit_test(errors_of_the_law), cmocka_unit_test(test_slope_end),
-        cmocka_unit_test(test_scatter),      cmocka_unit_test(test_leak),
+        cmocka_unit_test(test_scatter),      cmocka_unit_test(test_leakage),
         cmocka_unit_test(test_directions),   cmocka_unit_test(test_orders),
         cmocka_unit_test(test_places),       cmocka_unit_test(test_few_places),
         cmocka_unit_test(test_refused),      cmocka_unit_test(test_tip),

@@ -1,6 +1,7 @@
-/* Requests to the local server: its own page is admitted, and nothing else is. Files outside of the
- * folder of the case are neither read nor written. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cells.h"
+/* Requests to the local server: only its own page is admitted. Files outside the folder of the case
+ * are neither read nor written.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "table_cells.h"
 
 #include "view/view.h"
 
@@ -55,7 +56,7 @@ static void refuses_others(void **state)
     assert_int_equal(get("/" TOKEN "0/state"), 403);
     assert_int_equal(get(TOKEN "/state"), 403);
     assert_int_equal(get(""), 403);
-    /* another host name that leads here, and another page */
+    /* another host name for this server, and another page */
     assert_int_equal(parse("GET", page, NULL, NULL, NULL), 403);
     assert_int_equal(parse("GET", page, "evil.example:4711", NULL, NULL), 403);
     assert_int_equal(parse("GET", page, "127.0.0.1:4712", NULL, NULL), 403);
@@ -68,7 +69,7 @@ static void refuses_others(void **state)
     assert_int_equal(parse("GET", page, own, NULL, "none"), 200);
 }
 
-static void refuses_what_is_malformed(void **state)
+static void refuses_malformed_requests(void **state)
 {
     (void)state;
     assert_int_equal(get("/" TOKEN "/../state"), 404);
@@ -154,6 +155,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(admits_its_page), cmocka_unit_test(refuses_others),
-        cmocka_unit_test(refuses_what_is_malformed), cmocka_unit_test(stays_in_its_folder)};
+        cmocka_unit_test(refuses_malformed_requests), cmocka_unit_test(stays_in_its_folder)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

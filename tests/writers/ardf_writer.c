@@ -1,4 +1,5 @@
-/* Force maps of Asylum Research for tests. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Force maps of Asylum Research for tests.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "writers/ardf_writer.h"
 
 #include <stdint.h>
@@ -14,7 +15,7 @@ typedef struct buffer {
 static void set(buffer *b, size_t at, uint64_t value, size_t width)
 {
     for (size_t i = 0; i < width; i++)
-        b->bytes[at + i] = i < 8 ? (unsigned char)(value >> (8 * i)) : 0; /* padding behind */
+        b->bytes[at + i] = i < 8 ? (unsigned char)(value >> (8 * i)) : 0; /* padding at the end */
 }
 
 static void put(buffer *b, uint64_t value, size_t width)
@@ -47,7 +48,7 @@ static uint32_t check_sum(const unsigned char *bytes, size_t n)
     return ~sum;
 }
 
-void ardf_writer_mend(unsigned char *bytes, size_t length)
+void ardf_writer_fix_checksums(unsigned char *bytes, size_t length)
 {
     buffer b = {bytes, length};
     for (size_t at = 0; at + 16 <= length; at += 4) {
@@ -62,7 +63,7 @@ void ardf_writer_mend(unsigned char *bytes, size_t length)
     }
 }
 
-/* Begins a section, whose check sum comes last. */
+/* Begins a section; its checksum is written at the end. */
 static void section(buffer *b, const char *name, size_t size)
 {
     put(b, 0, 4);
@@ -114,7 +115,7 @@ static void curve(buffer *b, const ardf_writer_file *f, unsigned k, unsigned pas
     }
 }
 
-/* A volume without its curves. Returns where its table of lines is. */
+/* Writes a volume without its curves. Returns the position of its line table. */
 static size_t volume(buffer *b, const ardf_writer_file *f)
 {
     table(b, "VOLM", 2, 24);
@@ -189,7 +190,7 @@ int ardf_write(const ardf_writer_file *f)
                 previous = here;
             }
         }
-    ardf_writer_mend(b.bytes, b.n);
+    ardf_writer_fix_checksums(b.bytes, b.n);
     FILE *out = fopen(f->path, "wb");
     const bool good = out != NULL && fwrite(b.bytes, 1, b.n, out) == b.n;
     free(b.bytes);

@@ -17,7 +17,7 @@ typedef struct cell {
     double number;
 } cell;
 
-/* The next cell that is not empty; *at is where to go on. */
+/* Returns the next non-empty cell; *at is the start of the next search. */
 static bool next_cell(const char **at, cell *c)
 {
     for (; **at != '\0'; (*at)++) {
@@ -200,7 +200,7 @@ static void put_length(uint8_t *to, const cell *c, xls_way way)
     memcpy(to + (way == XLS_OLD ? 2 : 3), c->text, c->length);
 }
 
-/* The upper bits of a number that has no others, or an integer of hundredths. */
+/* Upper bits of a number whose other bits are zero, or an integer in hundredths. */
 static bool pack_number(double x, uint32_t *packed)
 {
     uint64_t bits;
@@ -213,7 +213,7 @@ static bool pack_number(double x, uint32_t *packed)
     return hundredths > 0 && !(hundredths / 100.0 < x) && !(hundredths / 100.0 > x);
 }
 
-/* One cell; `shared`: how many texts stood before it. */
+/* Writes one cell; `shared` is the number of earlier texts. */
 static void put_cell(bytes *b, xls_way way, const cell *c, size_t shared)
 {
     const size_t flag = way == XLS_OLD ? 0 : 1;
@@ -221,7 +221,7 @@ static void put_cell(bytes *b, xls_way way, const cell *c, size_t shared)
     uint32_t packed = 0;
     uint8_t *to = NULL;
     if (c->is_number && way == XLS_SHARED && pack_number(c->number, &packed)) {
-        to = record(b, 0x00bd, 12); /* several packed numbers: one, and the last column */
+        to = record(b, 0x00bd, 12); /* several packed numbers: one record, and the last column */
         put(to + 6, packed, 4);
         put(to + 10, c->column, 2);
     } else if (c->is_number) {
@@ -254,15 +254,15 @@ static void put_cells(bytes *b, xls_way way, const char *text, size_t *shared)
             abort();
         cells[n++] = c;
     }
-    for (size_t i = 0; i < n; i++) { /* the old program fills its sheets from below */
+    for (size_t i = 0; i < n; i++) { /* The old program writes its sheets from the last row. */
         const cell *now = &cells[way == XLS_OLD ? n - 1 - i : i];
         put_cell(b, way, now, *shared);
         *shared += !now->is_number;
     }
 }
 
-/* The texts of all sheets, each begun in one record and ended in the next, where its characters
- * are two bytes wide. */
+/* Texts of all sheets. Each begins in one record and ends in the next, which uses two bytes per
+ * character. */
 static void put_shared(bytes *b, const book_writer_sheet *sheets, size_t n)
 {
     uint8_t *to = record(b, 0x00fc, 8);
@@ -274,7 +274,7 @@ static void put_shared(bytes *b, const book_writer_sheet *sheets, size_t n)
             if (c.is_number)
                 continue;
             const size_t first = c.length / 2, rest = c.length - first;
-            uint8_t *at = record(b, 0x003c, 5 + first); /* with two runs of fonts */
+            uint8_t *at = record(b, 0x003c, 5 + first); /* with two font runs */
             put(at, c.length, 2);
             at[2] = 8;
             put(at + 3, 2, 2);
@@ -311,7 +311,7 @@ static void put_stream(bytes *b, xls_way way, const book_writer_sheet *sheets, s
     for (size_t i = 0; i < n; i++) {
         put(b->data + place[i], b->n, 4);
         put_bof(b, way, 0x10);
-        put_bof(b, way, 0x20); /* a chart in the sheet, with a number that is none of its cells */
+        put_bof(b, way, 0x20); /* a chart in the sheet, with a number that is not a cell */
         memset(record(b, 0x0203, 14), 0, 14);
         (void)record(b, 0x000a, 0);
         put_cells(b, way, sheets[i].text, &shared);
@@ -341,8 +341,8 @@ static void put_chain(uint8_t *table, size_t first, size_t n)
         put(table + 4 * i, i + 1 < first + n ? i + 1 : 0xfffffffe, 4);
 }
 
-/* Sectors: table, folder, table of small sectors, the stream. What is shorter than 4096 bytes
- * stands in small sectors, of which the root is the stream. */
+/* Sectors: table, directory, table of small sectors, the stream. A stream below 4096 bytes uses
+ * small sectors, which are the stream of the root. */
 int xls_write(const char *path, xls_way way, const book_writer_sheet *sheets, size_t n)
 {
     static const uint8_t signature[8] = {0xd0, 0xcf, 0x11, 0xe0, 0xa1, 0xb1, 0x1a, 0xe1};
@@ -358,16 +358,16 @@ int xls_write(const char *path, xls_way way, const book_writer_sheet *sheets, si
     put(head + 24, 0x003e, 2);
     put(head + 26, 3, 2);
     put(head + 28, 0xfffe, 2);
-    put(head + 30, 9, 2); /* 2^9 bytes a sector */
+    put(head + 30, 9, 2); /* 2^9 bytes per sector */
     put(head + 32, 6, 2);
-    put(head + 44, 1, 4); /* sectors of the FAT */
-    put(head + 48, 1, 4); /* the folder is sector 1 */
+    put(head + 44, 1, 4); /* number of FAT sectors */
+    put(head + 48, 1, 4); /* The directory is sector 1. */
     put(head + 56, 4096, 4);
     put(head + 60, 2, 4);
     put(head + 64, 1, 4);
     put(head + 68, 0xfffffffe, 4);
     memset(head + 76, 0xff, SECTOR - 76);
-    put(head + 76, 0, 4); /* the FAT is sector 0 */
+    put(head + 76, 0, 4); /* The FAT is sector 0. */
     memset(fat, 0xff, sizeof fat);
     memset(small, 0xff, sizeof small);
     put(fat, 0xfffffffd, 4);

@@ -1,4 +1,5 @@
-/* HDF5 files of force curves for tests. SPDX-License-Identifier: GPL-3.0-or-later */
+/* HDF5 files of force curves for tests.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "writers/curve_hdf5_writer.h"
 
 #include <hdf5.h>
@@ -38,13 +39,13 @@ static void put_text(hid_t object, const char *name, const char *text, bool fixe
     check(H5Tclose(type));
 }
 
-/* Left open, for attributes. */
+/* The object is left open for attributes. */
 static hid_t put_data(hid_t group, const char *name, hid_t type, size_t n, const void *values,
                       bool packed)
 {
     const hsize_t size = n;
     const hid_t space = H5Screate_simple(1, &size, NULL), list = H5Pcreate(H5P_DATASET_CREATE);
-    check(H5Pset_obj_track_times(list, false)); /* the same bytes every time */
+    check(H5Pset_obj_track_times(list, false)); /* makes the bytes reproducible */
     if (packed) {
         check(H5Pset_chunk(list, 1, &size));
         check(H5Pset_deflate(list, 6));
@@ -139,7 +140,7 @@ static void put_segment(const nhf_writer_file *f, hid_t parent, size_t number)
     char name[32];
     for (size_t i = 0; i < f->n_curves; i++)
         n += (size_t)s->sizes[i];
-    /* By name the links are in the reverse of the order of time. */
+    /* The alphabetical order of the links is the reverse of the time order. */
     snprintf(name, sizeof name, "segment_%04zu", f->n_segments - number);
     const hid_t group = make_group(parent, name);
     put_text(group, f->version == 1 ? "name" : "segment_name", s->name, false);
@@ -155,7 +156,7 @@ static void put_segment(const nhf_writer_file *f, hid_t parent, size_t number)
     check(H5Gclose(group));
 }
 
-/* From the counts to volts, and from the force back to them: a node that is written backwards. */
+/* From counts to volts, and from force back to volts: this node is written in reverse. */
 static void put_calibration(const nhf_writer_file *f, hid_t file)
 {
     static const double zero = 0;

@@ -1,4 +1,5 @@
-/* Damages HDF5 files where it hurts. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Damages the internal structures of HDF5 files.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "writers/hdf5_damage.h"
 
 #include <stdio.h>
@@ -20,7 +21,7 @@ static uint32_t word(const uint8_t *k, size_t n)
     return x;
 }
 
-/* lookup3 (Jenkins 2006, public domain), by which HDF5 checks its structures. */
+/* lookup3 (Jenkins 2006, public domain), the checksum of HDF5 structures. */
 static uint32_t lookup3(const uint8_t *k, size_t n)
 {
     uint32_t a = 0xdeadbeef + (uint32_t)n, b = a, c = a;
@@ -62,8 +63,8 @@ static bool begins(const uint8_t *bytes, size_t at)
     return true;
 }
 
-/* The structures: where a checksum agrees with what stands before it back to a signature. A file
- * of the first layout has none, and its metadata stand in front. */
+/* Structures end where a checksum matches the bytes back to a signature. A file of the first layout
+ * has no checksums, and its metadata are at the start. */
 void hdf5_find(const uint8_t *bytes, size_t size, hdf5_map *map)
 {
     map->n = 0;
@@ -117,7 +118,7 @@ size_t hdf5_damage(const uint8_t *bytes, size_t size, size_t n, hdf5_use *use, v
     const size_t count = n < all ? n : all;
     size_t used = 0;
     for (size_t k = 0; used < n && k < 2 * count; k++) {
-        /* every place in turn, with the widths and values of another turn of its own */
+        /* takes every position in turn; the next pass uses other widths and values */
         const size_t number = k * (places * 32 / count) + k % 32;
         const size_t variant = (k * 7 + number) % 32;
         size_t place = number / 32 % places, i = 0;

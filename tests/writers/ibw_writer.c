@@ -1,4 +1,5 @@
-/* Igor binary waves for tests. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Igor binary waves for tests.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "writers/ibw_writer.h"
 
 #include <stdint.h>
@@ -24,7 +25,7 @@ static void put_real(unsigned char *to, double value, bool wide, bool big)
     put(to, wide ? bits : half, wide ? 8 : 4, big);
 }
 
-void ibw_writer_mend(unsigned char *bytes, size_t length)
+void ibw_writer_fix_checksums(unsigned char *bytes, size_t length)
 {
     unsigned sum = 0;
     if (length < HEADERS)
@@ -64,7 +65,7 @@ int ibw_write(const ibw_writer_file *f)
     memcpy(b + HEADERS + samples, f->note, note);
     for (size_t c = 0; c < f->n_channels; c++)
         snprintf((char *)b + HEADERS + samples + note + 32 * (c + 1), 32, "%s", f->labels[c]);
-    ibw_writer_mend(b, size);
+    ibw_writer_fix_checksums(b, size);
     FILE *out = fopen(f->path, "wb");
     const bool good = out != NULL && fwrite(b, 1, size, out) == size;
     free(b);

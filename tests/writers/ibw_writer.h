@@ -1,8 +1,6 @@
-/* Writes Igor binary waves of version 5 as Asylum Research does: float or double, either order of
- * bytes. Shares no code with the reader.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Writes Igor binary waves of version 5 in the layout of Asylum Research: float or double, either
+ * byte order. The writer shares no code with the reader.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef TESTS_WRITERS_IBW_WRITER_H
 #define TESTS_WRITERS_IBW_WRITER_H
 
@@ -12,16 +10,16 @@
 typedef struct ibw_writer_file {
     const char *path;
     bool big_endian, doubles;
-    size_t n, n_channels; /* samples, channels; 0 channels: a wave of one dimension */
+    size_t n, n_channels; /* number of samples and channels; 0 channels: a one-dimensional wave */
     const char *const *labels;
     const double *const *values; /* [n_channels][n] */
     double interval;             /* [s] */
     const char *note;            /* lines that end with \r */
 } ibw_writer_file;
 
-/* 0, or -1 */
+/* Returns 0 or -1. */
 int ibw_write(const ibw_writer_file *file);
-/* Makes the check sum of a wave agree, if its headers are there. */
-void ibw_writer_mend(unsigned char *bytes, size_t length);
+/* Corrects the checksum of a wave, if its headers are complete. */
+void ibw_writer_fix_checksums(unsigned char *bytes, size_t length);
 
 #endif

@@ -1,7 +1,5 @@
 /* Writer of JPK force files for tests and fixtures.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "writers/jpk_writer.h"
 
 #include <math.h>
@@ -12,11 +10,11 @@
 #include <string.h>
 #include <zip.h>
 
-/* The piezo of this instrument: volts to nominal metres, then a correction. */
+/* Piezo of this instrument: volts to nominal metres, then a correction. */
 #define NOMINAL_OFFSET 1.5e-5
 #define NOMINAL_MULTIPLIER (-1.3125e-7)
 #define CALIBRATED_MULTIPLIER 0.75
-/* The sensor: absolute to nominal metres. */
+/* Sensor: absolute to nominal metres. */
 #define SENSOR_OFFSET 2.5e-5
 
 #define N_CHANNELS 3
@@ -71,7 +69,7 @@ static double raw_limit(const jpk_writer_file *file)
     return file->encoding == JPK_WRITE_INT16 ? 32767 : 2147483647;
 }
 
-/* The encoder that uses the whole range of the integers. */
+/* Encoder that uses the whole range of the integers. */
 static encoder make_encoder(const jpk_writer_file *file, enum channel c)
 {
     double low = (double)INFINITY, high = -(double)INFINITY;
@@ -142,7 +140,8 @@ static void put_sample(const writer *w, enum channel c, double value, unsigned c
 
 /* ---- entries ------------------------------------------------------------------------------ */
 
-/* Takes the data. All entries get the same time, so that the file does not depend on the day. */
+/* Takes ownership of the data. All entries have the same time, so that the file does not depend on
+ * the date. */
 static int add_entry(const writer *w, const char *name, void *data, size_t size)
 {
     zip_source_t *source = zip_source_buffer(w->zip, data, size, 1);
@@ -314,7 +313,7 @@ static int add_root(const writer *w)
             file->map ? "spm-force-scan-map-file" : "spm-forcefile", type);
     fprintf(t.out, "%s.description.instrument=WT-TEST\n%s.description.source-software=writer\n",
             type, type);
-    /* The colon of the time is escaped, as the instrument does. */
+    /* The colon of the time is escaped, as in files of the instrument. */
     fprintf(t.out, "%s.start-time=2030-01-01 00\\:00\\:00.000 +0000\n", type);
     if (!file->map && file->miscounted == &file->curves[0])
         fprintf(t.out, "%s.force-segments.count=%zu\n", type, file->curves[0].n_segments + 1);

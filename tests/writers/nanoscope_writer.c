@@ -36,7 +36,7 @@ static void write_header(const nanoscope_writer_file *f, FILE *out)
             "(\\Data length V/LSB) %.10g V\r\n",
             f->rate, f->rate, f->trigger > 0 ? "Relative" : "Off", f->n_hold, f->side, f->trigger,
             f->ramp_volts);
-    /* An image of more pixels than there are curves. */
+    /* An image with more pixels than there are curves. */
     fprintf(out, "\\*Ciao image list\r\n\\Samps/line: 64\r\n\\Number of lines: 64\r\n");
 }
 

@@ -1,7 +1,5 @@
 /* Writer of Nanosurf .nid files for tests and fixtures.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "writers/nid_writer.h"
 
 #include <math.h>
@@ -20,7 +18,7 @@ static void put_main(const nid_writer_file *f, FILE *out)
     fprintf(out, "[DataSet]\r\nVersion=2\r\nGroupCount=%zu\r\n", f->n_groups);
     for (size_t g = 0; g < f->n_groups; g++) {
         const nid_writer_group *group = &f->groups[g];
-        /* The count is that of the slots, of which only some are filled. */
+        /* The count includes empty slots. */
         fprintf(out, "Gr%zu-Name=%s\r\nGr%zu-ID=%zu\r\nGr%zu-Count=%zu\r\n", g, group->name, g, g,
                 g, group->channels[group->n_channels - 1].slot + 5);
         for (size_t c = 0; c < group->n_channels; c++) {

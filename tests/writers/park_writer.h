@@ -1,8 +1,6 @@
-/* Writes TIFF files of Park Systems with force curves, the picture left out. Shares no code with
- * the reader.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Writes TIFF files of Park Systems with force curves, without the image. The writer shares no code
+ * with the reader.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef TESTS_WRITERS_PARK_WRITER_H
 #define TESTS_WRITERS_PARK_WRITER_H
 
@@ -19,11 +17,11 @@ typedef struct park_writer_file {
     const char *path;
     size_t n_curves, n_samples, n_channels;
     const park_writer_channel *channels;
-    bool picture; /* without force curves */
-    size_t strip; /* bytes of a small picture at the end; 0: none */
+    bool picture; /* no force curves */
+    size_t strip; /* bytes of a small image at the end; 0: none */
 } park_writer_file;
 
-/* 0, or -1 */
+/* Returns 0 or -1. */
 int park_write(const park_writer_file *file);
 
 #endif

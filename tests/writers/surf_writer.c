@@ -17,9 +17,9 @@ static unsigned char *put_head(unsigned char *to, const char *word, size_t n)
 {
     memset(to, 0, 512);
     memcpy(to, word, strlen(word));
-    put(to + 14, 1, 2);  /* object */
+    put(to + 14, 1, 2);  /* object type */
     put(to + 18, 2, 2);  /* a surface */
-    put(to + 98, 32, 2); /* bits */
+    put(to + 98, 32, 2); /* bits per point */
     put(to + 108, (uint32_t)n, 4);
     put(to + 112, 1, 4);
     put(to + 116, (uint32_t)n, 4);
@@ -35,7 +35,7 @@ static unsigned char *put_stream(unsigned char *to, const unsigned char *bytes, 
         a = (a + bytes[i]) % 65521;
         b = (b + a) % 65521;
     }
-    to = put(put(to, 0x0178, 2), 1, 1); /* the last block, stored */
+    to = put(put(to, 0x0178, 2), 1, 1); /* last block, not compressed */
     to = put(put(to, (uint32_t)n, 2), ~(uint32_t)n & 0xffff, 2);
     memcpy(to, bytes, n);
     to += n;
@@ -58,7 +58,7 @@ size_t surf_write_plain(unsigned char *to, const int *heights, size_t n)
 
 size_t surf_write(unsigned char *to, const int *heights, size_t n, size_t pieces)
 {
-    enum { AROUND = 11 }; /* what a stream has beside its bytes */
+    enum { AROUND = 11 }; /* bytes of a stream other than its data */
     unsigned char *at = put_head(to, "DSCOMPRESSED", n), piece[65536];
     const size_t each = n / pieces;
     at = put(at, (uint32_t)pieces, 4);

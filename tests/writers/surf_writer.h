@@ -4,11 +4,11 @@
 
 #include <stddef.h>
 
-/* Writes `n` heights of 32 bits, packed in so many pieces of zlib (of stored blocks, so below 64
- * KiB each), behind a comment of 5 bytes: at most 512 + 5 + 4 + pieces * 19 + 4 n bytes to `to`.
- * Their number. */
+/* Writes `n` heights of 32 bits after a comment of 5 bytes, packed in a number of zlib streams (of
+ * stored blocks, below 64 KiB each). Needs at most 512 + 5 + 4 + pieces * 19 + 4 n bytes and
+ * returns the number used. */
 size_t surf_write(unsigned char *to, const int *heights, size_t n, size_t pieces);
-/* The same, not compressed. */
+/* The same without compression. */
 size_t surf_write_plain(unsigned char *to, const int *heights, size_t n);
 
 #endif

@@ -63,7 +63,7 @@ cause 'delete <modulus-ratio>' run --plan w.xml
 case_file w.xml "<indentation>$stylus$soft$worn</indentation>$rubber<layer>$balance</layer>"
 helps run --plan w.xml
 
-# what a plan says is lacking, put into the case
+# missing inputs that a plan names, added to the case
 piece 'no bulk curves (<bulk> in <indentation>)' 'no wear-track curves (<track> in <indentation>)' 'no DMA files (<files> in <dma>)' \
   'no material (<prony>, <table> or <fractional-zener> in <dma>)' 'no counter surface (<roughness>)' \
   'no height maps of the counter surface (<files> in <roughness>)' 'no sliding conditions (<sliding>)' \
@@ -120,7 +120,7 @@ case_file w.xml "<dma><poisson-ratio>0.5</poisson-ratio><files>one.csv</files></
 cause '(in a case: the attribute temperature=' run --no-report w.xml -o a.h5
 case_file w.xml '<dma><poisson-ratio>0.5</poisson-ratio><files temperature="25degC">one.csv</files></dma>'
 helps run --no-report w.xml -o a.h5
-# each attribute that a message advises is one of the case
+# each attribute that a message advises exists in a case
 for attribute in 'sheet="first"' 'frequency="10Hz"' 'temperature-in-name="*_#C*"' 'temperature="20degC"' 'units="a=MPa"' \
   'deformation="tension"' 'strain="1%"' 'sample="all"' 'format="table-units"' 'sample-by="file"'; do
   case_file w.xml "<dma><poisson-ratio>0.5</poisson-ratio><files $attribute>three.csv</files></dma>"

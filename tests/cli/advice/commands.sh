@@ -1,4 +1,4 @@
-# What the command line itself says. SPDX-License-Identifier: GPL-3.0-or-later
+# Messages of the command line. SPDX-License-Identifier: GPL-3.0-or-later
 
 piece 'there is no subcommand' 'it is called %s, see weartrack %s --help' 'did you mean %s? See weartrack --help' 'weartrack %s: %s; see weartrack %s --help'
 cause 'it is called report, see weartrack report --help' plot a.h5

@@ -1,4 +1,4 @@
-# Force curves, images of spots and thermal noise. SPDX-License-Identifier: GPL-3.0-or-later
+# Force curves, images of positions and thermal noise. SPDX-License-Identifier: GPL-3.0-or-later
 
 volts=$fixtures/formats/table-force/volts.csv
 piece '--spring-constant 0.1N/m' '--sensitivity 60nm/V'

@@ -134,7 +134,7 @@ for i in 1 2 3 4 5 6 7 8; do echo '1e-9 2e-9 3e-9 1e-9 5e-9 2e-9 1e-9 4e-9'; don
 cause 'the size of the image is not known; --pixel-size gives it' psd --units z=m sizeless.txt
 leads psd --pixel-size 1um --units z=m sizeless.txt
 
-# Spreadsheets of two sheets, made with the module zipfile of Python.
+# Spreadsheets with two sheets, created with the Python module zipfile.
 piece 'choose one with --sheet NAME, or take all of them'
 cp "$here"/advice/*.xlsx .
 cause 'choose one with --sheet NAME' master sweeps.xlsx -o a.h5

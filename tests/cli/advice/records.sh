@@ -71,7 +71,7 @@ law=$("$weartrack" psd "$road" 2> err | tr '\t' '\n' | grep -o 'self-affine:q0[^
 advice='no such text'
 helps friction --material three.h5 --roughness "$law" --pressure 0.4MPa --velocity 0.1m/s
 
-# spots
+# indentation positions
 piece 'its coordinates in the image would decide (--at-x, --at-y)' 'a better known position would decide (--position-error)'
 cause '(--at-x, --at-y)' spot --tip sphere:radius=5um --depth 500nm --at-x 1m --at-y 1m "$road"
 helps spot --tip sphere:radius=5um --depth 500nm --at-x 0m --at-y 0m "$road"

@@ -1,5 +1,5 @@
-/* A small program that uses the installed library as a stranger would: some structures by their
- * defaults, some from zeros, one inside another.
+/* Small program that uses the installed library: some structures by their defaults, some zeroed,
+ * one inside another.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdio.h>
@@ -46,7 +46,8 @@ static wt_status friction(double *mu, wt_error *err)
     return status;
 }
 
-/* A curve that the library and this program look at alike, also behind what lies inside it. */
+/* A structure with the same layout in the library and in this program, also after a nested
+ * structure. */
 static bool curve(void)
 {
     wt_force_curve curve = {0};
@@ -63,7 +64,7 @@ static bool curve(void)
     return good;
 }
 
-/* Thickness at balance where one wavenumber brings all the energy. */
+/* Steady-state thickness if one wavenumber has all the energy. */
 static wt_status layer(double *thickness, wt_error *err)
 {
     double wavenumber = 1e6, power = 2e4;

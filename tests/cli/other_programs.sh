@@ -1,5 +1,5 @@
 #!/bin/sh
-# Programs of others read what weartrack writes. Usage: others.sh WEARTRACK FIXTURES WORK
+# Other programs read the output of weartrack. Usage: other_programs.sh WEARTRACK FIXTURES WORK
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 fixtures=$2 work=$3
@@ -14,7 +14,7 @@ expect() { [ "$2" = "$3" ] || fail "$1: '$2' instead of '$3'"; }
   -p 0.4MPa -v 1e-3:1m/s:log:4 --shear-stress 5MPa -o result.h5
 "$weartrack" table stream.txt friction -o t.tsv
 
-# The order of the files changes no bit.
+# The order of the input files does not change the result.
 c=$fixtures/case
 one="$c/bulk-1.jpk-force-map $c/bulk-2.jpk-force-map $c/bulk-3.jpk-force-map"
 other="$c/bulk-3.jpk-force-map $c/bulk-1.jpk-force-map $c/bulk-2.jpk-force-map"

@@ -1,11 +1,9 @@
-/* A file that a writer made, and what is read of it: what the tests of the readers share.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
-#ifndef TESTS_MADE_FILE_H
-#define TESTS_MADE_FILE_H
+/* A file of a writer and its reading, for the tests of the readers.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef TESTS_READER_FIXTURE_H
+#define TESTS_READER_FIXTURE_H
 
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/read.h"
 
@@ -15,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* One set serves all tests of a program: making it parses every description. */
+/* One set serves all tests of a program, because its creation parses every description. */
 static wt_formats *formats;
 static char path[] = "/tmp/weartrack-made-XXXXXX";
 
@@ -80,7 +78,7 @@ static inline void close_all(reading *r)
     wt_force_curve_clear(&r->curve);
 }
 
-static inline bool logged(const reading *r, const char *words)
+static inline bool has_logged(const reading *r, const char *words)
 {
     for (size_t i = 0; i < wt_log_count(r->log); i++)
         if (strstr(wt_log_get(r->log, i).text, words) != NULL)
@@ -102,8 +100,8 @@ static inline const double *channel(const wt_segment *segment, wt_quantity quant
     return c != NULL ? c->values : NULL;
 }
 
-/* The file cannot be read, and these words of message, expectation or finding say why. */
-static inline void refused(wt_status expected, const char *words)
+/* Tests that the file cannot be read and that message, expectation or value contain the words. */
+static inline void assert_refused(wt_status expected, const char *words)
 {
     reading r;
     char all[1000];

@@ -1,13 +1,10 @@
-/* Text files that were cut off, at places drawn by a seed: every one is refused, or read with a
- * warning that says so, and no number is read that the whole file does not have, but for the last
- * one of a row that was kept with a warning, and where a curve then begins. A cut behind a line end
- * cannot be known where the format has neither a count nor an end mark; how many there were is
- * printed.
+/* Text files truncated at positions that a seed draws. Each is refused, or read with a warning,
+ * and no number is read that the whole file lacks. Exceptions are the last number of a row that
+ * is kept with a warning, and the start of a curve. A truncation after a line end cannot be
+ * detected if the format has neither a count nor an end mark; the program prints their number.
  *
- *   cut_files SEED CUTS FILE...
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * truncated_files SEED CUTS FILE...
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read_numbers.h"
 
 static int by_value(const void *a, const void *b)
@@ -16,7 +13,7 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static bool says(const wt_log *log, const char *words)
+static bool has_warning(const wt_log *log, const char *words)
 {
     for (size_t i = 0; i < wt_log_count(log); i++) {
         const wt_log_entry e = wt_log_get(log, i);
@@ -42,7 +39,7 @@ static void load(const wt_formats *formats, const char *path, file *f)
         return;
     wt_log *const log = wt_log_new();
     f->read = read_any(formats, f->bytes, f->n, log, &f->whole) == WT_OK && f->n > 2;
-    if (f->read && says(log, "no line end")) {
+    if (f->read && has_warning(log, "no line end")) {
         fprintf(stderr, "%s: the whole file is said to be cut\n", path);
         exit(1);
     }
@@ -51,8 +48,8 @@ static void load(const wt_formats *formats, const char *path, file *f)
         qsort(f->whole.values, f->whole.n, sizeof(double), by_value);
 }
 
-/* Numbers that the whole file does not have. */
-static size_t count_strange(const file *f, const numbers *some)
+/* Returns the number of values that the whole file does not have. */
+static size_t count_new_numbers(const file *f, const numbers *some)
 {
     size_t strange = 0;
     for (size_t i = 0; i < some->n; i++)
@@ -61,7 +58,7 @@ static size_t count_strange(const file *f, const numbers *some)
     return strange;
 }
 
-static bool behind_line(const file *f, size_t cut)
+static bool is_after_line_end(const file *f, size_t cut)
 {
     const char *const end = f->bytes + cut;
     return end[-1] == '\n' || (end[-1] == '\r' && *end != '\n') ||
@@ -82,11 +79,12 @@ static void try_cut(const wt_formats *formats, const file *f, size_t cut, tally 
         abort();
     memcpy(bytes, f->bytes, cut);
     const wt_status status = read_any(formats, bytes, cut, log, &some);
-    const bool kept = says(log, "no line end: if") || says(log, "half a line end");
-    const bool dropped = says(log, "no whole row") || says(log, "fewer cells than all");
-    const bool counted =
-        says(log, "rows, but only") || says(log, "that ends a table") || says(log, "the ramp ends");
-    const size_t strange = status == WT_OK ? count_strange(f, &some) : 0;
+    const bool kept = has_warning(log, "no line end: if") || has_warning(log, "half a line end");
+    const bool dropped =
+        has_warning(log, "no whole row") || has_warning(log, "fewer cells than all");
+    const bool counted = has_warning(log, "rows, but only") ||
+                         has_warning(log, "that ends a table") || has_warning(log, "the ramp ends");
+    const size_t strange = status == WT_OK ? count_new_numbers(f, &some) : 0;
     if (status != WT_OK)
         t->refused++;
     else if (dropped)
@@ -95,14 +93,15 @@ static void try_cut(const wt_formats *formats, const file *f, size_t cut, tally 
         t->kept++;
     else if (counted)
         t->counted++;
-    else if (behind_line(f, cut))
+    else if (is_after_line_end(f, cut))
         t->at_line++;
     else
         t->failures++;
-    /* Of a row that was kept the last number may have lost decimals, and what follows from it. */
+    /* The last number of a kept row may have lost decimals, which changes the values derived
+     * from it. */
     const bool wrong = strange > 0 && !((kept || counted) && strange <= 2);
     t->failures += wrong;
-    if (wrong || (status == WT_OK && !dropped && !kept && !counted && !behind_line(f, cut)))
+    if (wrong || (status == WT_OK && !dropped && !kept && !counted && !is_after_line_end(f, cut)))
         fprintf(stderr, "%s: cut at byte %zu of %zu: %zu numbers that it does not have, %s\n",
                 f->path, cut, f->n, strange, wrong ? "wrong" : "no word of the cut");
     free(bytes);

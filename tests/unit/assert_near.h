@@ -1,9 +1,9 @@
-/* Comparison of floating-point numbers for cmocka, whose own assert_float_equal casts to float.
- * NaN and infinities are explicit; a failure prints 17 digits. */
-#ifndef WT_TESTS_NEAR_H
-#define WT_TESTS_NEAR_H
+/* Comparison of floating-point numbers, because assert_float_equal of cmocka casts to float. NaN
+ * and infinities match themselves only; a failure prints 17 digits. */
+#ifndef WT_TESTS_ASSERT_NEAR_H
+#define WT_TESTS_ASSERT_NEAR_H
 
-/* cmocka needs these before it. */
+/* cmocka.h needs these headers first. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

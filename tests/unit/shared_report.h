@@ -1,31 +1,30 @@
-/* One report of everything, for the tests that only look at it.
- *
+/* One complete report for tests that only read it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_TESTS_DRAWN_REPORT_H
-#define WT_TESTS_DRAWN_REPORT_H
+#ifndef WT_TESTS_SHARED_REPORT_H
+#define WT_TESTS_SHARED_REPORT_H
 
 #include "report_fixture.h"
-#include "report_place.h"
+#include "report_folder.h"
 
-enum { MOST = 64 }; /* sections of the data of one figure */
+enum { MOST = 64 }; /* sections in the data of one figure */
 
 static char place[] = "/tmp/weartrack-drawn-XXXXXX";
 static wt_result *everything;
-static bool drawn; /* as "out" in the place, if gnuplot is there */
+static bool drawn; /* written to "out", if gnuplot is installed */
 
-static inline int draw_everything(void **state)
+static inline int create_shared_report(void **state)
 {
     (void)state;
     if (mkdtemp(place) == NULL || chdir(place) != 0)
         return -1;
-    drawn = have_gnuplot();
+    drawn = gnuplot_is_installed();
     everything = fixture_result();
     if (drawn)
         write_report(everything, "out", NULL);
     return 0;
 }
 
-static inline int remove_everything(void **state)
+static inline int remove_shared_report(void **state)
 {
     (void)state;
     wt_result_free(everything);

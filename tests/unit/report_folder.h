@@ -1,10 +1,9 @@
-/* A folder of its own for each test that writes reports, and what is found there.
- *
+/* A separate folder for each test that writes reports, and functions that examine it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_TESTS_REPORT_PLACE_H
-#define WT_TESTS_REPORT_PLACE_H
+#ifndef WT_TESTS_REPORT_FOLDER_H
+#define WT_TESTS_REPORT_FOLDER_H
 
-#include "near.h"
+#include "assert_near.h"
 #include "weartrack/report.h"
 
 #include <dirent.h>
@@ -13,8 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Every test works in a folder of its own, so that nothing depends on another test. */
-static inline int make_workplace(void **state)
+/* Each test has its own folder, so that tests are independent. */
+static inline int create_work_folder(void **state)
 {
     char *folder = strdup("/tmp/weartrack-report-XXXXXX");
     if (folder == NULL || mkdtemp(folder) == NULL || chdir(folder) != 0)
@@ -39,7 +38,7 @@ static inline void remove_all(const char *path)
     (void)rmdir(path);
 }
 
-static inline int remove_workplace(void **state)
+static inline int remove_work_folder(void **state)
 {
     int status = chdir("/");
     remove_all(*state);
@@ -89,10 +88,10 @@ static inline size_t count_files(const char *path)
     return n;
 }
 
-/* Programs inherit this variable, by which they are found. */
+/* Programs inherit this variable, which identifies them. */
 #define PROGRAM_MARK "WEARTRACK_TEST_PROGRAM"
 
-static inline bool is_marked(const char *process)
+static inline bool has_program_mark(const char *process)
 {
     char path[300], line[64], bytes[1 << 16];
     (void)snprintf(path, sizeof path, "/proc/%.250s/environ", process);
@@ -110,7 +109,7 @@ static inline pid_t find_program(void)
     DIR *all = opendir("/proc");
     assert_non_null(all);
     for (const struct dirent *entry; found == 0 && (entry = readdir(all)) != NULL;)
-        if (entry->d_name[0] >= '1' && entry->d_name[0] <= '9' && is_marked(entry->d_name))
+        if (entry->d_name[0] >= '1' && entry->d_name[0] <= '9' && has_program_mark(entry->d_name))
             found = (pid_t)atol(entry->d_name);
     closedir(all);
     return found;
@@ -123,15 +122,16 @@ static inline void mark_programs(void)
     assert_int_equal(setenv(PROGRAM_MARK, number, 1), 0);
 }
 
-/* Whether every program and what it started ends within five seconds: a kill takes a moment. */
-static inline bool programs_end(void)
+/* Returns true if every program and its children end within five seconds, because a kill takes a
+ * moment. */
+static inline bool all_programs_end(void)
 {
     for (int i = 0; i < 500 && find_program() != 0; i++)
         (void)usleep(10000);
     return find_program() == 0;
 }
 
-static inline bool have_gnuplot(void)
+static inline bool gnuplot_is_installed(void)
 {
     const char *path = getenv("PATH");
     char *copy = strdup(path != NULL ? path : ""), *rest = NULL;
@@ -148,7 +148,7 @@ static inline bool have_gnuplot(void)
 
 #define NEED_GNUPLOT()                                                                             \
     do {                                                                                           \
-        if (!have_gnuplot())                                                                       \
+        if (!gnuplot_is_installed())                                                               \
             skip();                                                                                \
     } while (0)
 

@@ -1,7 +1,8 @@
-/* Random surfaces with a spectrum that is known, made mode by mode: phases by splitmix64, so that
- * any program can make the same. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef TESTS_MADE_SURFACE_H
-#define TESTS_MADE_SURFACE_H
+/* Random surfaces with a known spectrum, as a sum of modes. The phases are from splitmix64, so that
+ * any program can reproduce them.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef TESTS_SYNTHETIC_SURFACE_H
+#define TESTS_SYNTHETIC_SURFACE_H
 
 #include <complex.h>
 #include <math.h>
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static inline uint64_t made_random(uint64_t seed, uint64_t i)
+static inline uint64_t surface_random(uint64_t seed, uint64_t i)
 {
     uint64_t z = seed + (i + 1) * UINT64_C(0x9E3779B97F4A7C15);
     z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
@@ -18,13 +19,13 @@ static inline uint64_t made_random(uint64_t seed, uint64_t i)
     return z ^ (z >> 31);
 }
 
-static inline double made_uniform(uint64_t seed, uint64_t i)
+static inline double surface_uniform(uint64_t seed, uint64_t i)
 {
-    return (double)(made_random(seed, i) >> 11) * 0x1p-53;
+    return (double)(surface_random(seed, i) >> 11) * 0x1p-53;
 }
 
-/* Neither CMPLX nor I is the same for all compilers. */
-static inline double complex made_complex(double real, double imaginary)
+/* CMPLX and I differ between compilers. */
+static inline double complex surface_complex(double real, double imaginary)
 {
     const double parts[] = {real, imaginary};
     double complex z;
@@ -32,37 +33,37 @@ static inline double complex made_complex(double real, double imaginary)
     return z;
 }
 
-typedef struct made_surface {
-    size_t n;      /* points of a side */
-    double length; /* of it [m] */
+typedef struct synthetic_surface {
+    size_t n;      /* points per side */
+    double length; /* length of the side [m] */
     uint64_t seed;
-    int modes; /* up to here, in all directions */
+    int modes; /* number of modes, in all directions */
     double c0, roll_off, hurst;
     double stretch;   /* C(phi) = C (1 + stretch cos 2 (phi - texture)) */
-    bool exponential; /* squared amplitudes scatter, as those of a random surface do */
+    bool exponential; /* squared amplitudes are exponentially distributed, as on a random surface */
     double texture;   /* [rad] */
-} made_surface;
+} synthetic_surface;
 
-static inline double made_density(const made_surface *s, double q)
+static inline double surface_density(const synthetic_surface *s, double q)
 {
     return s->c0 * (q > s->roll_off ? pow(q / s->roll_off, -2 * (1 + s->hurst)) : 1);
 }
 
-static inline double complex made_amplitude(const made_surface *s, int mx, int my)
+static inline double complex surface_amplitude(const synthetic_surface *s, int mx, int my)
 {
     const double step = 2 * M_PI / s->length, q = step * sqrt((double)(mx * mx + my * my));
     const uint64_t i = (uint64_t)((mx + 32768) * 65536L + my + 32768);
-    const double phase = 2 * M_PI * made_uniform(s->seed, i);
+    const double phase = 2 * M_PI * surface_uniform(s->seed, i);
     const double c2 = s->texture == 0 ? (double)(mx * mx - my * my) / (double)(mx * mx + my * my)
                                       : cos(2 * (atan2((double)my, (double)mx) - s->texture));
-    double square = 4 * made_density(s, q) * step * step * (1 + s->stretch * c2);
+    double square = 4 * surface_density(s, q) * step * step * (1 + s->stretch * c2);
     if (s->exponential)
-        square *= -log1p(-made_uniform(s->seed + 1, i));
-    return sqrt(square) * made_complex(cos(phase), sin(phase));
+        square *= -log1p(-surface_uniform(s->seed + 1, i));
+    return sqrt(square) * surface_complex(cos(phase), sin(phase));
 }
 
-/* h(x_i, y_j) at z[j * n + i]: the sum over the modes of one line of them after the other. */
-static inline double *make_surface(const made_surface *s)
+/* h(x_i, y_j) at z[j * n + i], as a sum over lines of modes. */
+static inline double *surface_create(const synthetic_surface *s)
 {
     const size_t n = s->n;
     double *z = calloc(n * n, sizeof *z);
@@ -70,15 +71,15 @@ static inline double *make_surface(const made_surface *s)
     if (z == NULL || turn == NULL)
         abort();
     for (size_t k = 0; k < n; k++)
-        turn[k] = made_complex(cos(2 * M_PI * (double)k / (double)n),
-                               sin(2 * M_PI * (double)k / (double)n));
+        turn[k] = surface_complex(cos(2 * M_PI * (double)k / (double)n),
+                                  sin(2 * M_PI * (double)k / (double)n));
     for (int my = 0; my <= s->modes; my++) {
         for (size_t i = 0; i < n; i++)
             row[i] = 0;
         for (int mx = my == 0 ? 1 : -s->modes; mx <= s->modes; mx++) {
             if (mx * mx + my * my > s->modes * s->modes)
                 continue;
-            const double complex a = made_amplitude(s, mx, my);
+            const double complex a = surface_amplitude(s, mx, my);
             const size_t step = (size_t)((mx % (int)n + (int)n) % (int)n);
             for (size_t i = 0, at = 0; i < n; i++, at = (at + step) % n)
                 row[i] += a * turn[at];

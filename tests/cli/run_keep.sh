@@ -1,6 +1,6 @@
 #!/bin/sh
-# run --keep: what would give the same is kept, and each thing that a result is made of is noticed when
-# it changes. Usage: keep.sh WEARTRACK FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later
+# run --keep: an unchanged result is kept, and a change of any input is detected. Usage: run_keep.sh
+# WEARTRACK FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 fixtures=$2 work=$3
 rm -rf "$work"; mkdir -p "$work"; cd "$work"

@@ -1,7 +1,7 @@
-/* Leaks that are not ours: UDUNITS-2 loses the last name it read when a unit does not parse.
+/* Leak that other code causes: UDUNITS-2 loses the last name it read if a unit does not parse.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 
-/* The leak sanitizer calls it by this name. */
+/* The leak sanitizer calls this function by its name. */
 const char *__lsan_default_suppressions(void); // NOLINT(bugprone-reserved-identifier)
 const char *__lsan_default_suppressions(void)  // NOLINT(bugprone-reserved-identifier)
 {

@@ -1,5 +1,6 @@
-/* Any bytes as a file of reader_READER_ID whose check sums are made to agree, else they would stop
- * nearly every change. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzz target of reader_READER_ID, whose checksums are corrected first; otherwise they would
+ * stop nearly every changed input.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read_all.h"
 #include "writers/ardf_writer.h"
 #include "writers/ibw_writer.h"
@@ -18,7 +19,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     if (size > 0)
         memcpy(copy, data, size);
-    JOIN(READER_ID, _writer_mend)(copy, size);
+    JOIN(READER_ID, _writer_fix_checksums)(copy, size);
     read_all(&JOIN(reader_, READER_ID), copy, size);
     free(copy);
     return 0;

@@ -1,10 +1,10 @@
-/* For tests against known truth: cells of tables by name, which must be there, and force curves of
- * a sphere on an elastic solid, from the formula of Hertz alone.
+/* Fixtures with known truth: cells of tables by the name of a column, which must exist, and force
+ * curves of a sphere on an elastic solid by the formula of Hertz.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_TESTS_TRUTH_H
-#define WT_TESTS_TRUTH_H
+#ifndef WT_TESTS_TRUTH_FIXTURE_H
+#define WT_TESTS_TRUTH_FIXTURE_H
 
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/core.h"
 
@@ -40,7 +40,7 @@ static inline wt_estimate key_estimate(const wt_table *table, const char *key)
     return e;
 }
 
-/* Normal deviates from a counter: the same on every machine. */
+/* Normal deviates from a counter, the same on every machine. */
 static inline double truth_normal(uint64_t *state)
 {
     double u[2];
@@ -60,20 +60,20 @@ static inline double truth_normal(uint64_t *state)
 
 typedef struct hertz {
     double modulus, spring_constant; /* [Pa], [N/m] */
-    double depth;                    /* of the deepest point [m] */
-    double velocity;                 /* of the piezo [m/s] */
-    double snap;                     /* pull of the last samples before contact [N] */
+    double depth;                    /* depth of the deepest point [m] */
+    double velocity;                 /* rate of the piezo [m/s] */
+    double snap;                     /* attraction in the last samples before contact [N] */
     uint64_t seed;                   /* of the noise */
 } hertz;
 
-/* 3 MPa under a stiff lever, 1 um/s. */
+/* 3 MPa with a stiff cantilever, 1 um/s. */
 static inline hertz hertz_standard(void)
 {
     return (hertz){3e6, 10, 150e-9, 1e-6, 0, 7};
 }
 
 #define HERTZ_FREE 400e-9    /* travel before contact [m] */
-#define HERTZ_TOP 2e-6       /* height at the start, from where it falls [m] */
+#define HERTZ_TOP 2e-6       /* height at the start, from which it decreases [m] */
 #define HERTZ_OFFSET 3e-9    /* force of the baseline at contact [N] */
 #define HERTZ_TILT 2e-3      /* [N/m] */
 #define HERTZ_NOISE 0.5e-9   /* [N] */
@@ -128,7 +128,7 @@ static inline void hertz_write(FILE *out, const hertz *h, int index)
     fputs("##\n", out);
 }
 
-/* A new temporary file, open for writing; path: "...-XXXXXX". */
+/* Opens a new temporary file for writing; path: "...-XXXXXX". */
 static inline FILE *truth_file(char *path)
 {
     int file = mkstemp(path);

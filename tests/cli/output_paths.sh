@@ -1,6 +1,6 @@
 #!/bin/sh
-# Where outputs go: none of several is written if one of them cannot be, sheets go into a pipe, and a
-# database does not go to a terminal. Usage: places.sh PROGRAM FIXTURES WORK
+# Output paths: if one of several outputs cannot be written, none is. Curve sheets may go into a pipe, a
+# database not to a terminal. Usage: output_paths.sh PROGRAM FIXTURES WORK
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 program=$1 case=$2/case work=$3

@@ -1,13 +1,12 @@
 #!/bin/sh
-# Files of strangers that are no plain files of numbers: names that a terminal would obey, pipes,
-# folders with very many files, cells without a value, values beyond reason.
-# Usage: strangers.sh WEARTRACK FIXTURES WORK
+# Foreign files: names with terminal escape sequences, pipes, folders with very many files, cells without
+# a value, extreme values. Usage: foreign_files.sh WEARTRACK FIXTURES WORK
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 fixtures=$2 work=$3
 rm -rf "$work"; mkdir -p "$work"; cd "$work"
 fail() { echo "$*"; cat said 2>/dev/null; exit 1; }
-# refused STATUS WORDS ARGUMENT...: ends with the status, in time, and says the words
+# refused STATUS WORDS ARGUMENT...: exits with the status in time and prints the words
 refused() {
   status=$1 words=$2; shift 2
   got=0; timeout 20 "$weartrack" "$@" > out 2> said || got=$?
@@ -30,7 +29,7 @@ cp "$fixtures/case/dma.txt" "$name"
 "$weartrack" convert "$name" -o µ.tsv 2> said || fail "a name"; plain
 refused 1 "absent-µ" report -o r absent-µ.h5
 
-# names in a case: they are read back as they are, or the case does without them and says so
+# names in a case are read back unchanged, or the case omits them and reports it
 mkdir names other; cp "$fixtures/case/bulk-1.jpk-force-map" other/plain
 for name in 'a]]>b' 'a--b-->c' 'a&lt;"b' ' a' 'a[b]*?'; do
   cp other/plain "names/$name"
@@ -47,14 +46,14 @@ for name in "$(printf 'a\001b')" "$(printf 'a\rb')" "$(printf 'a\nb')" "$(printf
   rm "names/$name"
 done
 
-# cells that a spreadsheet would obey
+# cells that a spreadsheet would execute
 printf '## table: t\n# a[text]\tb[1]\n=1+2\t-1\n@x,y\t1\n-5\t1\n+\t1\n-x\t1\nplain\t1\n##\n' > cells.tsv
 "$weartrack" table cells.tsv --format csv > out 2> said || fail "table"
 printf "a,b\n'=1+2,-1\n\"'@x,y\",1\n-5,1\n+,1\n'-x,1\nplain,1\n" | cmp - out || fail "cells that begin with a sign"
 "$weartrack" table cells.tsv --format csv --formulas > out 2> said || fail "table --formulas"
 grep -q '^=1+2,' out || fail "--formulas"
 
-# an archive of one text is not that text
+# an archive with one text is not read as the text
 if command -v tar > /dev/null; then
   cp "$fixtures/case/dma.txt" one.txt; cp one.txt two.txt
   tar cf texts.tar one.txt two.txt; tar czf texts.tgz one.txt two.txt
@@ -78,7 +77,7 @@ cat > case.xml <<'EOF'
 EOF
 refused 1 'named pipe' run --no-report case.xml -o r.h5
 
-# what never ends, or is larger than its role lets: refused before memory or disk are full
+# endless or too large inputs are refused before memory or disk are full
 for subcommand in info convert run validate accuracy table collect summary; do
   refused 1 'is a device' "$subcommand" /dev/zero
 done
@@ -90,7 +89,7 @@ refused 1 'is larger than 64 MiB' run --no-report large.xml -o r.h5
 yes '<case>' | timeout 60 "$weartrack" run --no-report - -o r.h5 > said 2>&1 && fail "an endless case"
 grep -q 'is larger than 64 MiB' said || fail "an endless case: $(cat said)"
 
-# few descriptors, of which this shell may have left some open: it is not memory that is missing
+# few file descriptors; the error is not lack of memory
 if command -v prlimit > /dev/null; then
   told=no
   for most in 4 5 6 7 8 9; do
@@ -101,7 +100,7 @@ if command -v prlimit > /dev/null; then
   [ $told = yes ] || fail "few descriptors: nobody says so"
 fi
 
-# very many files: the time grows with their number, not with its square
+# the time is proportional to the number of files
 mkdir many
 (cd many && seq 40000 | xargs -n 2000 touch)
 refused 1 'found files: 40000' master many
@@ -113,7 +112,7 @@ grep -q 'line 4: "inf" in column 2 (E_stor) is no value' said || fail "inf"
 grep -q 'line 5: "NaN" in column 3 (E_loss) is no value' said || fail "nan"
 [ "$(grep -c '^[0-9]' out)" = 2 ] || fail "rows with a value"
 
-# values beyond reason
+# extreme values
 refused 2 'at most 1e+06 m' indent --tip sphere:radius=1e300m x
 refused 2 'at most 2000 K' master --reference-temperature 1e300K x
 refused 2 'at most 1e+15 Pa' friction -m x --roughness y -v 1m/s -p 1e300Pa

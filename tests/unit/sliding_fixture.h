@@ -1,7 +1,7 @@
-/* A sliding contact for tests to change: a series of three terms on a self-affine road.
+/* A sliding contact that tests change: a series of three terms on a self-affine road.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_TESTS_SLIDING_H
-#define WT_TESTS_SLIDING_H
+#ifndef WT_TESTS_SLIDING_FIXTURE_H
+#define WT_TESTS_SLIDING_FIXTURE_H
 
 #include "weartrack/friction.h"
 
@@ -35,7 +35,7 @@ static inline void sliding_set_up(const double *velocity, size_t n)
     work.threads = 1;
 }
 
-/* At one velocity, with errors of what is given. */
+/* The same at one velocity, with errors of the inputs. */
 static inline void sliding_set_up_uncertain(void)
 {
     static const double velocity = 0.1;

@@ -1,9 +1,9 @@
-/* Cells of a table by the name of their column, which must be there.
+/* Cells of a table by the name of a column, which must exist.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_TESTS_CELLS_H
-#define WT_TESTS_CELLS_H
+#ifndef WT_TESTS_TABLE_CELLS_H
+#define WT_TESTS_TABLE_CELLS_H
 
-#include "near.h"
+#include "assert_near.h"
 
 #include "weartrack/core.h"
 
@@ -27,7 +27,7 @@ static inline const char *text_cell(const wt_table *table, size_t row, const cha
     return wt_table_text(table, row, cell_column(table, name));
 }
 
-/* The first row whose cell has these words. */
+/* First row whose cell contains the words. */
 static inline size_t row_where(const wt_table *table, const char *name, const char *words)
 {
     for (size_t i = 0; i < wt_table_n_rows(table); i++)

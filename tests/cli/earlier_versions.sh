@@ -1,11 +1,11 @@
 #!/bin/sh
-# Results of an earlier version, whose tables had fewer columns, are read by what reads those of today.
-# Usage: earlier.sh WEARTRACK FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later
+# Results of earlier versions, whose tables had fewer columns, are still read. Usage: earlier_versions.sh
+# WEARTRACK FIXTURES WORK. SPDX-License-Identifier: GPL-3.0-or-later
 set -eu
 weartrack=$1 fixtures=$2 work=$3
 rm -rf "$work"; mkdir -p "$work"; cd "$work"
 
-# A text stream without these columns and keys, parted by blanks.
+# A text stream without these columns and keys, separated by blanks.
 strip() {
   awk -F '\t' -v OFS='\t' -v names=" $1 " '
     /^## column: / { name = $1; sub(/^## column: /, "", name); if (index(names, " " name " ")) next }
