@@ -17,9 +17,10 @@ cmd_common_options cmd_common_defaults(void)
 static const wt_param common_rows[] = {
     {PARAM_TEXT_OF("output", cmd_common_options, output), .value = "FILE", .letter = 'o',
      .unset = "", .flags = PARAM_WRITTEN,
-     .help = "write the output to this file instead of standard output: tables of results as HDF5 "
-             "if the name ends in .h5 or .hdf5, as JSON for .json, and the first of them as CSV "
-             "for .csv; - is standard output"},
+     .help = "write the output to this file instead of standard output. The end of the name is the "
+             "form: .h5 or .hdf5 (HDF5) and .json have all tables, .csv and .tsv the main table "
+             "under one header line, other names the text stream of all tables; - is standard "
+             "output"},
     {PARAM_TEXT_OF("formats", cmd_common_options, formats), .value = "FOLDER", .unset = "",
      .help = "also use the format descriptions (*.xml) of this folder; one with the id of a "
              "built-in description replaces it"},
@@ -295,6 +296,7 @@ static bool check_output_suffix(cmd_session *s, const cmd_usage *usage)
                   {".sqlite3", "database", of_database, true, false},
                   {".db", "database", of_database, true, false},
                   {".csv", "CSV file", of_sheet, false, true},
+                  {".tsv", "TSV file", "TABLE.tsv` gives a table of it", false, true},
                   {".json", "JSON file", "TABLE.json` gives a table in it", false, true}};
     const char *const output = s->common.output;
     const char *const dot = output != NULL ? strrchr(output, '.') : NULL;
@@ -308,7 +310,7 @@ static bool check_output_suffix(cmd_session *s, const cmd_usage *usage)
                                    "opens, -o TABLE.sqlite a database",
                                    output, others[i].what);
         return cmd_usage_error(s,
-                               "-o %s: no %s is written; write the result as .h5 or .tsv, then "
+                               "-o %s: no %s is written; write the result as .h5, then "
                                "`weartrack table RESULT NAME -o %s",
                                output, others[i].what, others[i].instead);
     }
