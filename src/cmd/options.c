@@ -445,15 +445,20 @@ static bool parse_options(cmd_session *s, const option_list *list, int argc, cha
     return true;
 }
 
+/* Names all required options that are missing. */
 static bool check_required(cmd_session *s, const option_list *list)
 {
-    for (size_t i = 0; i < list->n; i++) {
+    char names[TEXT_SIZE] = "";
+    size_t used = 0, n = 0;
+    for (size_t i = 0; i < list->n && used < sizeof names; i++) {
         const option_row *row = &list->rows[i];
-        if ((row->param->flags & PARAM_REQUIRED) != 0 &&
-            (row->part->given & UINT64_C(1) << row->number) == 0)
-            return cmd_usage_error(s, "--%s is missing", row->name);
+        if ((row->param->flags & PARAM_REQUIRED) == 0 ||
+            (row->part->given & UINT64_C(1) << row->number) != 0)
+            continue;
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s--%s", n++ > 0 ? ", " : "",
+                                 row->name);
     }
-    return true;
+    return n == 0 || cmd_usage_error(s, "%s %s missing", names, n == 1 ? "is" : "are");
 }
 
 bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_option_group *parts, size_t n_parts,
