@@ -17,10 +17,9 @@ cmd_common_options cmd_common_defaults(void)
 static const wt_param common_rows[] = {
     {PARAM_TEXT_OF("output", cmd_common_options, output), .value = "FILE", .letter = 'o',
      .unset = "", .flags = PARAM_WRITTEN,
-     .help = "write the output to this file instead of standard output. The end of the name is the "
-             "form: .h5 or .hdf5 (HDF5) and .json have all tables, .csv and .tsv the main table "
-             "under one header line, other names the text stream of all tables; - is standard "
-             "output"},
+     .help = "write the output to this file; the end of its name is the form: .h5 or .hdf5 (HDF5) "
+             "and .json have all tables, .csv and .tsv the main table under one header line, other "
+             "names the text stream of all tables; default and -: standard output"},
     {PARAM_TEXT_OF("formats", cmd_common_options, formats), .value = "FOLDER", .unset = "",
      .help = "also use the format descriptions (*.xml) of this folder; one with the id of a "
              "built-in description replaces it"},
