@@ -586,7 +586,6 @@ void calibration_errors_set_keys(const calibration_errors *of, table_writer *row
     }
     if (text[0] == '\0')
         return;
-    clocale_append(text, sizeof text,
-                   "; the errors are not stated: state them to narrow the interval");
+    clocale_append(text, sizeof text, "; state them to narrow the interval");
     indentation_set_text(rows, INDENTATION_KEY_ASSUMED, text);
 }
