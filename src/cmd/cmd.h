@@ -134,7 +134,7 @@ typedef struct cmd_session {
     wt_cost *cost; /* NULL: not requested */
     wt_job work;   /* for the job: lists failures, adds inputs to the provenance of the result */
     cmd_progress progress;
-    const char *main_table;  /* that a CSV or TSV file has; NULL: the first one */
+    const char *main_table;  /* that a CSV file has; NULL: the first one */
     wt_read_options *shared; /* options for files of several kinds: each of its units must match a
                                 column in one of them; NULL: none */
 } cmd_session;
@@ -272,8 +272,8 @@ bool cmd_shows_first_lines(const cmd_session *s);
 /* Makes an open sink show the first lines of its text if cmd_shows_first_lines. */
 void cmd_show_first_lines(cmd_session *s, cmd_sink *sink);
 
-/* Writes the result to -o: HDF5 for a name that ends in .h5 or .hdf5, its first table for .csv and
- * .tsv, all tables for .json, else a text stream; without -o or with "-" on standard output. */
+/* Writes the result to -o: HDF5 for a name that ends in .h5 or .hdf5, its main table for .csv,
+ * all tables for .json, else a text stream; without -o or with "-" on standard output. */
 wt_status cmd_write_result(cmd_session *s);
 /* True if the short table takes the place of the tables on standard output: it is a terminal, -o
  * was not given, and the result has rows for it. */

@@ -18,8 +18,8 @@ static const wt_param common_rows[] = {
     {PARAM_TEXT_OF("output", cmd_common_options, output), .value = "FILE", .letter = 'o',
      .unset = "", .flags = PARAM_WRITTEN,
      .help = "write the output to this file; the end of its name is the form: .h5 or .hdf5 (HDF5) "
-             "and .json have all tables, .csv and .tsv the main table under one header line, other "
-             "names the text stream of all tables; default and -: standard output"},
+             "and .json have all tables, .csv the main table under one header line, other names, "
+             "such as .tsv, the text stream of all tables; default and -: standard output"},
     {PARAM_TEXT_OF("formats", cmd_common_options, formats), .value = "FOLDER", .unset = "",
      .help = "also use the format descriptions (*.xml) of this folder; one with the id of a "
              "built-in description replaces it"},
@@ -295,7 +295,6 @@ static bool check_output_suffix(cmd_session *s, const cmd_usage *usage)
                   {".sqlite3", "database", of_database, true, false},
                   {".db", "database", of_database, true, false},
                   {".csv", "CSV file", of_sheet, false, true},
-                  {".tsv", "TSV file", "TABLE.tsv` gives a table of it", false, true},
                   {".json", "JSON file", "TABLE.json` gives a table in it", false, true}};
     const char *const output = s->common.output;
     const char *const dot = output != NULL ? strrchr(output, '.') : NULL;

@@ -133,8 +133,8 @@ static wt_status write_json_tables(FILE *out, const wt_result *result, wt_error 
     return status;
 }
 
-/* A CSV or TSV file has one table. A message says that there are others. */
-static wt_status write_first_table(cmd_session *s, FILE *out, wt_export_form form)
+/* A CSV file has one table. A message says that there are others. */
+static wt_status write_first_table(cmd_session *s, FILE *out)
 {
     const size_t n = wt_result_n_tables(s->result);
     if (n == 0)
@@ -146,7 +146,7 @@ static wt_status write_first_table(cmd_session *s, FILE *out, wt_export_form for
         cmd_message("weartrack %s: note: %s has the table %s only, of %zu; -o NAME.h5 or NAME.json "
                     "has all of them\n",
                     s->name, s->common.output, wt_table_name(first), n);
-    return wt_table_export(out, first, form, false, &s->err);
+    return wt_table_export(out, first, WT_EXPORT_CSV, false, &s->err);
 }
 
 wt_export_form export_form_of_suffix(const char *output, wt_export_form otherwise)
@@ -180,8 +180,8 @@ wt_status cmd_write_result(cmd_session *s)
         cmd_show_first_lines(s, &sink);
     if (status == WT_OK && form == WT_EXPORT_JSON)
         status = write_json_tables(sink.stream, s->result, &s->err);
-    else if (status == WT_OK && (form == WT_EXPORT_CSV || form == WT_EXPORT_TSV))
-        status = write_first_table(s, sink.stream, form);
+    else if (status == WT_OK && form == WT_EXPORT_CSV)
+        status = write_first_table(s, sink.stream);
     else if (status == WT_OK)
         status = write_stream(sink.stream, s->result, s->common.provenance, &s->err);
     return cmd_sink_close(&sink, status, &s->err);
