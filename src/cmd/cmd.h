@@ -134,6 +134,7 @@ typedef struct cmd_session {
     wt_cost *cost; /* NULL: not requested */
     wt_job work;   /* for the job: lists failures, adds inputs to the provenance of the result */
     cmd_progress progress;
+    const char *main_table;  /* that a CSV file has; NULL: the first one */
     wt_read_options *shared; /* options for files of several kinds: each of its units must match a
                                 column in one of them; NULL: none */
 } cmd_session;
@@ -271,8 +272,8 @@ bool cmd_shows_first_lines(const cmd_session *s);
 /* Makes an open sink show the first lines of its text if cmd_shows_first_lines. */
 void cmd_show_first_lines(cmd_session *s, cmd_sink *sink);
 
-/* Writes the result to -o: HDF5 for a name that ends in .h5 or .hdf5, its first table for .csv, all
- * tables for .json, else a text stream; without -o or with "-" on standard output. */
+/* Writes the result to -o: HDF5 for a name that ends in .h5 or .hdf5, its main table for .csv,
+ * all tables for .json, else a text stream; without -o or with "-" on standard output. */
 wt_status cmd_write_result(cmd_session *s);
 /* True if the short table takes the place of the tables on standard output: it is a terminal, -o
  * was not given, and the result has rows for it. */
@@ -288,8 +289,9 @@ bool cmd_is_hdf5_path(const char *path);
 bool cmd_is_standard_stream(const char *path);
 /* Returns the form that the end of a name asks for. */
 wt_export_form export_form_of_suffix(const char *output, wt_export_form otherwise);
-/* For subcommands that write only text: usage error if the name after -o requests HDF5. */
-bool cmd_require_text_output(cmd_session *s);
+/* For subcommands that write no result: usage error if the name after -o requests HDF5 or, unless
+ * `has_table`, another form of tables. */
+bool cmd_require_text_output(cmd_session *s, bool has_table);
 /* Checks before the computation that the file can be written. NULL and "-" are always possible. */
 wt_status cmd_check_output(const char *path, wt_error *err);
 /* Returns a default name: "case/road.xml" -> "road" + ending, in the current folder; NULL when out

@@ -31,16 +31,53 @@ static void list_format_names(const wt_formats *formats, FILE *out)
     fputs("\ndetails: --verbose, or weartrack formats show NAME\n", out);
 }
 
+enum { KINDS_SIZE = 120 };
+
+/* Joins the names of what a format holds by commas. */
+static void join_kinds(const wt_format_info *f, char holds[KINDS_SIZE])
+{
+    size_t used = 0;
+    holds[0] = '\0';
+    for (size_t k = 0; k < COUNT_OF(kinds); k++)
+        if (f->kinds & kinds[k].bit)
+            used += (size_t)snprintf(holds + used, KINDS_SIZE - used, "%s%s", used > 0 ? ", " : "",
+                                     kinds[k].word);
+}
+
+/* Writes the list as a table in the form that the name after -o asks for. */
+static wt_status export_formats(cmd_session *s, FILE *out, wt_export_form form)
+{
+    static const char *const columns[][2] = {{"format", "identifier of the format"},
+                                             {"holds", "kinds of data"},
+                                             {"verified", "yes: checked on a measured file"},
+                                             {"title", "description of the format"},
+                                             {"evidence", "source of the description"}};
+    wt_table *const table = wt_table_new("formats", "Formats that are read");
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < COUNT_OF(columns) && status == WT_OK; i++)
+        status = wt_table_add_text_column(table, columns[i][0], columns[i][1], &s->err);
+    for (size_t i = 0; i < wt_formats_count(s->formats) && status == WT_OK; i++) {
+        const wt_format_info *f = wt_formats_get(s->formats, i);
+        char holds[KINDS_SIZE];
+        join_kinds(f, holds);
+        const char *const cells[] = {f->id, holds, f->verified ? "yes" : "no", f->title,
+                                     f->evidence != NULL ? f->evidence : ""};
+        status = wt_table_add_row(table, &s->err);
+        for (size_t k = 0; k < COUNT_OF(cells) && status == WT_OK; k++)
+            wt_table_set_text(table, k, cells[k]);
+    }
+    if (status == WT_OK)
+        status = wt_table_export(out, table, form, false, &s->err);
+    wt_table_free(table);
+    return status;
+}
+
 static void list_formats(const wt_formats *formats, FILE *out)
 {
     for (size_t i = 0; i < wt_formats_count(formats); i++) {
         const wt_format_info *f = wt_formats_get(formats, i);
-        char holds[80] = "";
-        size_t used = 0;
-        for (size_t k = 0; k < COUNT_OF(kinds); k++)
-            if (f->kinds & kinds[k].bit)
-                used += (size_t)snprintf(holds + used, sizeof holds - used, "%s%s",
-                                         used > 0 ? ", " : "", kinds[k].word);
+        char holds[KINDS_SIZE];
+        join_kinds(f, holds);
         enum { INDENT = 6 };
         fprintf(out, "%s%-18s %-22s %s\n%*s", i > 0 ? "\n" : "", f->id, holds,
                 f->verified ? "verified" : "not verified on a measured file", INDENT, "");
@@ -73,10 +110,13 @@ static void write_formats(cmd_session *s, const char *id)
     }
     cmd_sink sink;
     wt_status status = cmd_sink_open(s->common.output, &sink, &s->err);
+    const wt_export_form form = export_form_of_suffix(s->common.output, WT_EXPORT_STREAM);
     if (status == WT_OK)
         cmd_show_first_lines(s, &sink);
     if (status == WT_OK && id != NULL)
         show_format(s->formats, id, sink.stream);
+    else if (status == WT_OK && form != WT_EXPORT_STREAM)
+        status = export_formats(s, sink.stream, form);
     else if (status == WT_OK && cmd_shows_first_lines(s))
         list_format_names(s->formats, sink.stream);
     else if (status == WT_OK)
@@ -109,7 +149,8 @@ int cmd_formats(int argc, char **argv)
         .name = "formats",
         .arguments = "list | show ID | check DESCRIPTION.xml [SAMPLE]",
         .description = "list prints the formats that can be read, and whether each was checked on "
-                       "a measured file.\nshow prints the description of one format; `show schema` "
+                       "a measured file; with -o NAME.csv, .tsv or .json it writes a table.\nshow "
+                       "prints the description of one format; `show schema` "
                        "prints the schema of descriptions.\ncheck checks a description; with a "
                        "sample file it also shows which columns it reads.",
         .common = "output formats columns provenance"};
@@ -128,7 +169,7 @@ int cmd_formats(int argc, char **argv)
         check_description(&s, &read);
     else if (!check && !list && !show)
         cmd_usage_error(&s, "expected list, show ID or check DESCRIPTION.xml [SAMPLE]");
-    else if (!check && cmd_require_text_output(&s) && cmd_begin_reading(&s, NULL)) {
+    else if (!check && cmd_require_text_output(&s, list) && cmd_begin_reading(&s, NULL)) {
         cmd_print_log(&s, s.log, true);
         write_formats(&s, show ? s.files[1] : NULL);
     }

@@ -135,6 +135,7 @@ static bool is_taken_by(const char *subcommand, const char *word)
          " columns conditioning format formats sensitivity sheet spring-constant units "},
         {"master", OF_SWEEPS " strain temperature temperature-in-name "},
         {"new-case", " formats "},
+        {"psd", " columns conditioning format formats height-unit pixel-size sheet units "},
         {"payne", OF_SWEEPS " temperature temperature-in-name "},
         {"ramp", OF_SWEEPS " strain temperature-in-name "},
         {"record", " columns conditioning format formats sheet units "},
@@ -175,10 +176,13 @@ static void print_next_command(const cmd_session *s, int argc, char **argv, cons
         fputs(" -o case.xml\n", stdout);
         return;
     }
+    const bool is_map = found->kind == WT_KIND_IMAGE && !found->one_row &&
+                        (found->has_y || !found->has_x); /* a profile may be across a track */
     const char *const next = found->is_result               ? "table --list"
                              : found->kind == WT_KIND_FORCE ? "indent --tip"
                              : found->next != NULL          ? found->next
                              : found->kind == WT_KIND_SWEEP ? "master"
+                             : is_map                       ? "psd"
                                                             : "convert";
     printf("\nnext: weartrack %s", next);
     if (!found->is_result && found->kind == WT_KIND_FORCE)

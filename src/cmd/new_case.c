@@ -330,7 +330,7 @@ int cmd_new_case(int argc, char **argv)
     cmd_session s = cmd_session_defaults();
     new_case c = {.s = &s};
     cmd_option_group part = {new_case_params(), &c, NULL, 0};
-    if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_require_text_output(&s) ||
+    if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_require_text_output(&s, false) ||
         !cmd_begin_reading(&s, NULL))
         return cmd_session_free(&s);
     wt_status status = WT_OK;

@@ -17,9 +17,9 @@ cmd_common_options cmd_common_defaults(void)
 static const wt_param common_rows[] = {
     {PARAM_TEXT_OF("output", cmd_common_options, output), .value = "FILE", .letter = 'o',
      .unset = "", .flags = PARAM_WRITTEN,
-     .help = "write the output to this file instead of standard output: tables of results as HDF5 "
-             "if the name ends in .h5 or .hdf5, as JSON for .json, and the first of them as CSV "
-             "for .csv; - is standard output"},
+     .help = "write the output to this file; the end of its name is the form: .h5 or .hdf5 (HDF5) "
+             "and .json have all tables, .csv the main table under one header line, other names, "
+             "such as .tsv, the text stream of all tables; default and -: standard output"},
     {PARAM_TEXT_OF("formats", cmd_common_options, formats), .value = "FOLDER", .unset = "",
      .help = "also use the format descriptions (*.xml) of this folder; one with the id of a "
              "built-in description replaces it"},
@@ -308,7 +308,7 @@ static bool check_output_suffix(cmd_session *s, const cmd_usage *usage)
                                    "opens, -o TABLE.sqlite a database",
                                    output, others[i].what);
         return cmd_usage_error(s,
-                               "-o %s: no %s is written; write the result as .h5 or .tsv, then "
+                               "-o %s: no %s is written; write the result as .h5, then "
                                "`weartrack table RESULT NAME -o %s",
                                output, others[i].what, others[i].instead);
     }
@@ -443,15 +443,20 @@ static bool parse_options(cmd_session *s, const option_list *list, int argc, cha
     return true;
 }
 
+/* Names all required options that are missing. */
 static bool check_required(cmd_session *s, const option_list *list)
 {
-    for (size_t i = 0; i < list->n; i++) {
+    char names[TEXT_SIZE] = "";
+    size_t used = 0, n = 0;
+    for (size_t i = 0; i < list->n && used < sizeof names; i++) {
         const option_row *row = &list->rows[i];
-        if ((row->param->flags & PARAM_REQUIRED) != 0 &&
-            (row->part->given & UINT64_C(1) << row->number) == 0)
-            return cmd_usage_error(s, "--%s is missing", row->name);
+        if ((row->param->flags & PARAM_REQUIRED) == 0 ||
+            (row->part->given & UINT64_C(1) << row->number) != 0)
+            continue;
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s--%s", n++ > 0 ? ", " : "",
+                                 row->name);
     }
-    return true;
+    return n == 0 || cmd_usage_error(s, "%s %s missing", names, n == 1 ? "is" : "are");
 }
 
 bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_option_group *parts, size_t n_parts,

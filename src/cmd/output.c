@@ -21,11 +21,14 @@ bool cmd_is_standard_stream(const char *path)
     return path == NULL || strcmp(path, "-") == 0;
 }
 
-bool cmd_require_text_output(cmd_session *s)
+bool cmd_require_text_output(cmd_session *s, bool has_table)
 {
-    return !cmd_is_hdf5_path(s->common.output) ||
-           cmd_usage_error(s, "-o %s: weartrack %s writes text and no HDF5; give another name",
-                           s->common.output, s->name);
+    const char *const output = s->common.output;
+    if (cmd_is_hdf5_path(output))
+        return cmd_usage_error(s, "-o %s: weartrack %s writes text and no HDF5; give another name",
+                               output, s->name);
+    return has_table || export_form_of_suffix(output, WT_EXPORT_STREAM) == WT_EXPORT_STREAM ||
+           cmd_usage_error(s, "-o %s: this is no table; give another name", output);
 }
 
 wt_status cmd_check_output(const char *path, wt_error *err)
@@ -130,13 +133,15 @@ static wt_status write_json_tables(FILE *out, const wt_result *result, wt_error 
     return status;
 }
 
-/* A CSV file has one table. The first one is the main one; a message names the others. */
+/* A CSV file has one table. A message says that there are others. */
 static wt_status write_first_table(cmd_session *s, FILE *out)
 {
     const size_t n = wt_result_n_tables(s->result);
     if (n == 0)
         return wt_fail(&s->err, WT_E_EMPTY, "the result has no table");
-    const wt_table *first = wt_result_table(s->result, 0);
+    const wt_table *first = s->main_table != NULL ? wt_result_find(s->result, s->main_table) : NULL;
+    if (first == NULL)
+        first = wt_result_table(s->result, 0);
     if (n > 1 && !s->common.quiet)
         cmd_message("weartrack %s: note: %s has the table %s only, of %zu; -o NAME.h5 or NAME.json "
                     "has all of them\n",
@@ -149,11 +154,9 @@ wt_export_form export_form_of_suffix(const char *output, wt_export_form otherwis
     static const struct {
         const char *ending;
         wt_export_form form;
-    } known[] = {{".csv", WT_EXPORT_CSV},
-                 {".json", WT_EXPORT_JSON},
-                 {".sqlite", WT_EXPORT_SQLITE},
-                 {".sqlite3", WT_EXPORT_SQLITE},
-                 {".db", WT_EXPORT_SQLITE}};
+    } known[] = {{".csv", WT_EXPORT_CSV},        {".tsv", WT_EXPORT_TSV},
+                 {".json", WT_EXPORT_JSON},      {".sqlite", WT_EXPORT_SQLITE},
+                 {".sqlite3", WT_EXPORT_SQLITE}, {".db", WT_EXPORT_SQLITE}};
     const char *dot = output != NULL ? strrchr(output, '.') : NULL;
     for (size_t i = 0; dot != NULL && i < COUNT_OF(known); i++)
         if (strcasecmp(dot, known[i].ending) == 0)

@@ -200,6 +200,8 @@ static bool check_page_name(cmd_session *s, const report_outputs *own, const cha
                                    "-o %s: a page or a folder is written; -o FOLDER --figures %s "
                                    "puts the pictures there, --figure NAME one of them",
                                    output, pictures[i] + 1);
+    if (!cmd_require_text_output(s, false))
+        return false;
     if (figure != NULL && (output == NULL || own->methods))
         return cmd_usage_error(s, "--figure is of the page: -o NAME.html or a folder");
     return true;

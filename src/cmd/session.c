@@ -203,6 +203,7 @@ wt_status cmd_run_case_tables(cmd_session *s, const cmd_case_tables *requested, 
     const cmd_option_group *job = requested->records;
     wt_case *c = NULL;
     size_t n_failed = 0;
+    s->main_table = requested->main;
     wt_status status =
         s->common.output != NULL ? wt_check_overwrite(s->common.output, &s->err) : WT_OK;
     if (status == WT_OK)

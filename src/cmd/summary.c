@@ -120,7 +120,8 @@ int cmd_summary(int argc, char **argv)
     cmd_option_group parts[] = {{export_params(), &form, NULL, 0},
                                 {wt_job_params(), &s.work, "threads", 0}};
     wt_table *summary = NULL;
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_require_text_output(&s))
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) ||
+        !cmd_require_text_output(&s, true))
         return cmd_session_free(&s);
     if (print_one_result(&s, &parts[0]))
         return cmd_session_free(&s);

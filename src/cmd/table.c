@@ -66,7 +66,8 @@ int cmd_table(int argc, char **argv)
     cmd_session s = cmd_session_defaults();
     wt_table *made = NULL;
     const wt_table *table = NULL;
-    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_require_text_output(&s))
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) ||
+        !cmd_require_text_output(&s, true))
         return cmd_session_free(&s);
     if (s.n_files < 1 || s.n_files > (own.list ? 1 : 2)) {
         cmd_usage_error(&s, "a result and the name of a table are needed");

@@ -562,9 +562,8 @@ static void append_assumed_error(const calibration_errors *of, wt_systematic_sou
                                  double gain, char *text, size_t size)
 {
     const double error = of->assumed[source];
-    clocale_append(text, size, "%s%s: not stated, %.2g %% assumed (%.2g %% of E)",
-                   *text != '\0' ? "; " : "", calibration_source_text(source), 100 * error,
-                   100 * fabs(gain) * error);
+    clocale_append(text, size, "%s%.2g %% of the %s (%.2g %% of E)", *text != '\0' ? ", " : "",
+                   100 * error, calibration_source_text(source), 100 * fabs(gain) * error);
 }
 
 void calibration_errors_set_keys(const calibration_errors *of, table_writer *rows)

@@ -318,8 +318,12 @@ wt_status images_add_metadata(const file_reader *reader, wt_input *input,
         wt_format_si(images[i].height, "m", 4, height, sizeof height);
         snprintf(item, sizeof item, "%s %zu",
                  images[i].n_rows == 1 ? fact_item_text(FACT_PROFILE) : "image", i);
-        metadata_add(metadata, item, images[i].unit, "", "%s, %zu x %zu pixels, %s x %s",
-                     images[i].name, images[i].n_columns, images[i].n_rows, width, height);
+        if (isnan(images[i].width) || isnan(images[i].height))
+            metadata_add(metadata, item, images[i].unit, "", "%s, %zu x %zu pixels, size unknown",
+                         images[i].name, images[i].n_columns, images[i].n_rows);
+        else
+            metadata_add(metadata, item, images[i].unit, "", "%s, %zu x %zu pixels, %s x %s",
+                         images[i].name, images[i].n_columns, images[i].n_rows, width, height);
         wt_image_clear(&images[i]);
     }
     free(images);

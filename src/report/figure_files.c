@@ -8,6 +8,7 @@
 #include "report/gnuplot.h"
 #include "report/report_files.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -287,11 +288,82 @@ static size_t read_rgb(const char *s, size_t n, unsigned colour[3])
     return used;
 }
 
+/* Rounds a coordinate such as "137.33" to a tenth of a unit. Numbers below 10, such as widths of
+ * lines and opacities, stay. Returns its length, 0 if there is none at s. */
+static size_t append_rounded(text_buffer *page, const char *s, size_t n)
+{
+    static const char digits[] = "0123456789";
+    const size_t whole = strspn(s, digits);
+    if (whole < 2 || whole > 6 || n < whole + 4 || s[whole] != '.' ||
+        strspn(s + whole + 1, digits) != 2)
+        return 0;
+    const unsigned long hundredths = 100 * strtoul(s, NULL, 10) + strtoul(s + whole + 1, NULL, 10),
+                        tenths = (hundredths + 5) / 10;
+    text_format(page, tenths % 10 == 0 ? "%lu" : "%lu.%lu", tenths / 10, tenths % 10);
+    return whole + 3;
+}
+
+/* A symbol of a plot, and its colour. */
+typedef struct svg_use {
+    size_t length; /* of the tag with the space after it; 0: no symbol with a colour */
+    const char *colour;
+    size_t n_colour;
+} svg_use;
+
+static svg_use read_use(const char *s, size_t n)
+{
+    static const char attribute[] = " color='";
+    svg_use use = {0};
+    const size_t tag = prefix_length(s, n, "<use ") > 0 ? length_through(s, n, ">") : 0;
+    const char *const colour = memmem(s, tag, attribute, sizeof attribute - 1);
+    if (colour == NULL)
+        return use;
+    use.colour = colour;
+    use.n_colour = sizeof attribute + strcspn(colour + sizeof attribute - 1, "'");
+    for (use.length = tag; use.length < n && strchr(" \t\n", s[use.length]) != NULL;)
+        use.length++;
+    return use;
+}
+
+static bool has_same_colour(const svg_use *a, const svg_use *b)
+{
+    return a->length > 0 && a->n_colour == b->n_colour &&
+           memcmp(a->colour, b->colour, a->n_colour) == 0;
+}
+
+/* Puts symbols of one colour that follow one another into a group that states it once. `*run` is
+ * the colour of the open group. Returns the length of a colour that is thus left out. */
+static size_t group_symbols(text_buffer *page, const char *s, size_t n, svg_use *run)
+{
+    if (run->length > 0 && s >= run->colour && prefix_length(s, n, " color='") > 0)
+        return run->n_colour;
+    if (*s != '<')
+        return 0;
+    const svg_use use = read_use(s, n);
+    if (run->length > 0 && !has_same_colour(run, &use)) {
+        text_add(page, "</g>");
+        *run = (svg_use){0};
+    }
+    if (run->length > 0 || use.length == 0)
+        return 0;
+    const svg_use next = read_use(s + use.length, n - use.length);
+    if (!has_same_colour(&next, &use))
+        return 0;
+    *run = use;
+    unsigned colour[3];
+    if (read_rgb(use.colour + strlen(" color='"), use.n_colour, colour) > 0)
+        text_format(page, "<g color='#%02x%02x%02x'>", colour[0], colour[1], colour[2]);
+    else
+        text_format(page, "<g%.*s>", (int)use.n_colour, use.colour);
+    return 0;
+}
+
 /* Writes in a shorter form what gnuplot repeats in some thousand elements. Returns the length of
  * what it replaces at the start of s, 0 if nothing. */
 static size_t append_shortened(text_buffer *page, const char *s, size_t n, bool in_tag)
 {
-    static const char default_attributes[] = " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"";
+    static const char default_attributes[] = " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"",
+                      group[] = " fill=\"none\" color=\"black\" stroke=\"currentColor\"";
     unsigned colour[3];
     const size_t empty = empty_group_length(s, n), title = prefix_length(s, n, "<title>"),
                  description = prefix_length(s, n, "<desc>");
@@ -305,10 +377,14 @@ static size_t append_shortened(text_buffer *page, const char *s, size_t n, bool 
         return 0;
     if (prefix_length(s, n, "xlink:href=") > 0)
         return strlen("xlink:");
+    if (prefix_length(s, n, group) > 0) {
+        text_add(page, " class=\"g\""); /* the style sheet of the page states it */
+        return sizeof group - 1;
+    }
     const size_t rgb = read_rgb(s, n, colour),
                  font = prefix_length(s, n, " font-family=\"Helvetica\"");
     if (font > 0)
-        return font; /* the style sheet of the page states it */
+        return font; /* the style sheet, too */
     if (rgb > 0) {
         text_format(page, "#%02x%02x%02x", colour[0], colour[1], colour[2]);
         return rgb;
@@ -347,10 +423,15 @@ bool svg_append_inline(text_buffer *page, const char *svg, size_t length, const 
                            memcmp(symbols->text, own, symbols_length) == 0;
     if (own != NULL && is_first)
         *symbols = (svg_symbols){own, symbols_length};
+    svg_use run = {0};
     for (const char *s = begin + 4; s < end;) {
-        const size_t left = (size_t)(end - s),
-                     shortened = is_shared && s == own ? symbols_length
-                                                       : append_shortened(page, s, left, in_tag);
+        const size_t left = (size_t)(end - s);
+        size_t shortened =
+            is_shared && s == own ? symbols_length : group_symbols(page, s, left, &run);
+        if (shortened == 0)
+            shortened = append_shortened(page, s, left, in_tag);
+        if (shortened == 0 && in_tag && !isdigit((unsigned char)s[-1]) && s[-1] != '.')
+            shortened = append_rounded(page, s, left);
         if (shortened > 0) {
             s += shortened;
             continue;

@@ -158,7 +158,13 @@ static void write_card(page_writer *page, const finding *f)
     text_add(&page->out, "<p>");
     text_typographic(&page->out,
                      stated ? answer_text(answer, f->question, ANSWER_ANSWER) : f->sentence);
-    if (f->as_if_layer && !isnan(value->number.value))
+    const bool is_given = f->basis == FINDING_GIVEN;
+    if (is_given && isfinite(value->number.value)) {
+        const display_unit lab = select_finding_unit(value);
+        text_format(&page->out, " It is %s %s.",
+                    NUMBER(to_display_value(&lab, value->number.value), 3), lab.label);
+    }
+    if (f->as_if_layer && !is_given && !isnan(value->number.value))
         text_add(&page->out,
                  " The track is not shown to differ: the number is as if there were a layer.");
     text_add(&page->out, "</p>\n");

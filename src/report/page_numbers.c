@@ -37,10 +37,11 @@ static void write_group_rows(page_writer *page, const result_value_tables *found
         text_format(&name, "%s, %s", f.words,
                     modulus_groups_text(table, row, MODULUS_GROUPS_GROUP));
         const double n_spots = modulus_groups_get(table, row, MODULUS_GROUPS_N_SPOTS);
-        text_format(&remark, "geometric mean; %.0f curves on %.0f %s, %.0f rejected; by %s",
+        text_format(&remark, "geometric mean; %.0f curves on %.0f %s, %.0f rejected%s%s",
                     modulus_groups_get(table, row, MODULUS_GROUPS_N), n_spots,
                     n_spots == 1 ? "spot" : "spots",
-                    modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED), f.includes);
+                    modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED),
+                    isnan(f.low) ? "" : "; by ", isnan(f.low) ? "" : f.includes);
         f.number.numerical_error = 0;
         page_number(page, text_string(&name), &f, text_string(&remark));
         text_free(&name);

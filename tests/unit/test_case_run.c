@@ -149,7 +149,7 @@ static void test_layer(void **state)
     assert_true(wt_table_estimate(layer, "balance_thickness", &e));
     assert_near(e.value, 2e-6, 1e-6);
     assert_true(e.standard_error > 0.1e-6 && e.standard_error < 0.7e-6);
-    check_answer(&r, THICKNESS, "not computed", "calibrated to this stated thickness");
+    check_answer(&r, THICKNESS, "not computed", "calibrated to the stated thickness");
     check_limit(&r, "calibrated to the stated thickness");
     assert_true(wt_table_estimate(friction, "relative_change_at_reference", &e));
     assert_true(e.value > -0.6 && e.value < 0.5 && e.standard_error > 0);

@@ -110,8 +110,8 @@ static void test_stated(void **state)
     assert_near(key_estimate(t, "spring_constant_error_assumed").value, 0.1, 1e-12);
     assert_near(key_estimate(t, "spring_constant_gain").value, 1, 1e-12);
     assert_near(key_estimate(t, "radius_gain").value, -0.5, 0.01);
-    assert_non_null(strstr(wt_table_key(t, "assumed_errors"),
-                           "radius of the tip: not stated, 10 % assumed (5 % of E)"));
+    assert_non_null(
+        strstr(wt_table_key(t, "assumed_errors"), "10 % of the radius of the tip (5 % of E)"));
     wt_table_free(t);
     job = settings_of(HERTZ_TIP "+-1%");
     job.lever_error = job.sensitivity_error = 0.01;

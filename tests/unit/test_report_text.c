@@ -206,6 +206,28 @@ static void test_svg_symbols_are_shared(void **state)
 
 /* ---- axes ------------------------------------------------------------------------------------ */
 
+/* Symbols of one colour that follow one another are a group; coordinates have one decimal. */
+static void test_svg_runs_of_symbols_are_grouped(void **state)
+{
+    (void)state;
+    static const char svg[] =
+        "<svg viewBox=\"0 0 600 1\"><g fill=\"none\" color=\"black\" stroke=\"currentColor\" "
+        "stroke-width=\"1.10\"><use xlink:href='#a' transform='translate(10.26,99.96) scale(3.38)' "
+        "color='rgb(  1,  2,  3)'/>\n<use xlink:href='#a' x='9.99' color='rgb(  1,  2,  3)'/>\n"
+        "<use xlink:href='#a' color='red'/><path fill-opacity='0.15' d='M100.04,7.25 "
+        "'/>100.04</g></svg>";
+    text_buffer text = {0};
+    svg_symbols symbols = {0};
+    assert_true(svg_append_inline(&text, svg, sizeof svg - 1, "f", "x", &symbols));
+    assert_non_null(strstr(text_string(&text),
+                           "<g class=\"g\" stroke-width=\"1.10\"><g color='#010203'>"
+                           "<use href='#f-a' transform='translate(10.3,100) scale(3.38)'/>\n<use "
+                           "href='#f-a' x='9.99'/>\n"
+                           "</g><use href='#f-a' color='red'/><path fill-opacity='0.15' "
+                           "d='M100,7.25 '/>100.04</g></svg>"));
+    text_free(&text);
+}
+
 static void test_data_links(void **state)
 {
     (void)state;
@@ -301,6 +323,7 @@ int main(void)
         cmocka_unit_test(test_lab_units),
         cmocka_unit_test(test_svg_is_made_fit_for_a_page),
         cmocka_unit_test(test_svg_symbols_are_shared),
+        cmocka_unit_test(test_svg_runs_of_symbols_are_grouped),
         cmocka_unit_test(test_data_links),
         cmocka_unit_test(test_wide_labels_have_a_margin),
         cmocka_unit_test(test_logarithmic_tics_are_at_whole_decades),

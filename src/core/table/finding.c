@@ -71,7 +71,7 @@ static const char *general_sentence(const finding *f)
     if (f->question == FINDING_FRICTION_CHANGE && f->verdict == FINDING_PREDICTED)
         return "There is no layer that could change the friction.";
     if (f->basis == FINDING_GIVEN)
-        return "The critical energy is calibrated to this stated thickness.";
+        return "The critical energy is calibrated to the stated thickness.";
     const double neutral = f->value.neutral;
     if (f->verdict == FINDING_INCONCLUSIVE && (f->value.low > neutral || f->value.high < neutral))
         return "The 95 % interval shows a difference, but other choices of the model do not.";

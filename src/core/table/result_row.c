@@ -10,9 +10,10 @@
 
 void result_rows_compute(const wt_result *result, result_rows *rows)
 {
-    static void (*const parts[])(rows_source *) = {rows_of_curves,  rows_of_material,
-                                                   rows_of_surface, rows_of_records,
-                                                   rows_of_sliding, rows_of_collection};
+    static void (*const parts[])(rows_source *) = {
+        /* the answers of validate and accuracy, before the numbers that they are made of */
+        rows_of_records, rows_of_errors,  rows_of_curves,    rows_of_material,
+        rows_of_surface, rows_of_sliding, rows_of_collection};
     rows_source s = {.result = result, .rows = rows};
     *rows = (result_rows){.n = 0};
     if (result_values_bind(result, &s.values, NULL) != WT_OK) {

@@ -95,10 +95,14 @@ static void add_ratio(rows_source *s, const table_view *v)
         const sign_verdict sign = result_value_sign(&ratio);
         const stated_verdict differs =
             (stated_verdict)comparison_key_enum(v, COMPARISON_KEY_DIFFERS);
-        rows_note(row, "%.*s%s", (int)length_without_reason(verdict), verdict,
-                  differs != VERDICT_YES || sign == SIGN_UNDECIDED ? ""
-                  : sign == SIGN_BELOW                             ? ", softer"
-                                                                   : ", stiffer");
+        if (isnan(ratio.low) || isnan(ratio.high))
+            rows_note(row, "%s%s", finding_verdict_text(FINDING_NOT_ENOUGH_DATA),
+                      verdict + length_without_reason(verdict));
+        else
+            rows_note(row, "%.*s%s", (int)length_without_reason(verdict), verdict,
+                      differs != VERDICT_YES || sign == SIGN_UNDECIDED ? ""
+                      : sign == SIGN_BELOW                             ? ", softer"
+                                                                       : ", stiffer");
     }
     rows_reason(row, "is the track different", verdict);
     rows_reason(row, "how to decide it", ratio.remedy);

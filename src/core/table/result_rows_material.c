@@ -42,7 +42,8 @@ static void add_prony(rows_source *s)
     if (modulus.value == 0)
         rows_note(row, "not determined by the data");
     else if (deformation != NULL)
-        rows_note(row, "%s", deformation);
+        rows_note(row, "%s%s", deformation,
+                  isnan(modulus.standard_error) ? "; error not known: no interval" : "");
     char text[64];
     snprintf(text, sizeof text, "%zu terms", prony.n_rows);
     row = rows_add_text(s, 0, text, "Prony series");

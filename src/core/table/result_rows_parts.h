@@ -41,6 +41,7 @@ void rows_of_curves(rows_source *s);
 void rows_of_material(rows_source *s);
 void rows_of_surface(rows_source *s);
 void rows_of_sliding(rows_source *s);
+void rows_of_errors(rows_source *s);
 void rows_of_records(rows_source *s);
 void rows_of_collection(rows_source *s);
 

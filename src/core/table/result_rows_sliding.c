@@ -114,7 +114,7 @@ static void add_error_budget(rows_source *s, const table_view *v)
         }
         const double none = (double)NAN;
         result_row *row =
-            rows_add_number(s, 0, rows_number(together, none, none, "%"), "%s", number);
+            rows_add_number(s, 0, rows_number(together, none, none, "%"), "error of %s", number);
         if (largest != SIZE_MAX)
             rows_note(row, "most by %s", error_budget_text(v, largest, ERROR_BUDGET_SOURCE));
     }
@@ -136,8 +136,9 @@ static void add_contact_area(rows_source *s, const table_view *v)
     }
 }
 
-/* Numbers of the model as used, with their range over its choices. */
-static void add_what_if(rows_source *s, const table_view *v)
+/* Numbers of the model as used, with their range over its choices; the row of a layer has that of
+ * the thickness. */
+static void add_what_if(rows_source *s, const table_view *v, bool has_layer)
 {
     static const struct {
         what_if_column column;
@@ -154,7 +155,7 @@ static void add_what_if(rows_source *s, const table_view *v)
             high = fmax(high, what_if_get(v, i, numbers[k].column));
         }
         const double used = what_if_get(v, 0, numbers[k].column);
-        if (isnan(used))
+        if (isnan(used) || (has_layer && numbers[k].column == WHAT_IF_THICKNESS))
             continue;
         result_row *row = rows_add_number(s, 0, rows_number(used, none, none, numbers[k].unit),
                                           "%s", numbers[k].name);
@@ -166,18 +167,23 @@ static void add_what_if(rows_source *s, const table_view *v)
 void rows_of_sliding(rows_source *s)
 {
     table_view view;
-    if (rows_bind(s, &friction_schema, &view)) {
+    const bool has_friction = rows_bind(s, &friction_schema, &view);
+    if (has_friction)
         add_friction(s, &view);
-    } else {
-        if (rows_bind(s, &what_if_schema, &view))
-            add_what_if(s, &view);
-        if (rows_bind(s, &contact_area_schema, &view))
-            add_contact_area(s, &view);
-    }
-    if (rows_bind(s, &layer_schema, &view))
+    const bool has_layer = rows_bind(s, &layer_schema, &view);
+    if (has_layer)
         add_layer(s, &view);
+    if (!has_friction && rows_bind(s, &what_if_schema, &view))
+        add_what_if(s, &view, has_layer);
+    if (!has_friction && rows_bind(s, &contact_area_schema, &view))
+        add_contact_area(s, &view);
     if (rows_bind(s, &identification_schema, &view))
         add_identification(s, &view);
+}
+
+void rows_of_errors(rows_source *s)
+{
+    table_view view;
     if (rows_bind(s, &error_budget_schema, &view))
         add_error_budget(s, &view);
 }
@@ -360,6 +366,8 @@ static bool add_collection(rows_source *s, const table_view *v)
                             "%s%s%s", collection_text(v, i, COLLECTION_SAMPLE),
                             condition[0] != '\0' ? ", " : "", condition);
         const char *differs = collection_text(v, i, COLLECTION_DIFFERS);
+        if (isnan(row->number.low) || isnan(row->number.high))
+            differs = finding_verdict_text(FINDING_NOT_ENOUGH_DATA);
         rows_note(row, "track / bulk%s%.*s", *differs != '\0' ? "; differs: " : "",
                   (int)length_without_reason(differs), differs);
     }

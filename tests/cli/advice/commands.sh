@@ -40,7 +40,7 @@ helps table three.h5 prony
 cause '`weartrack table --list three.h5` shows them' table three.h5
 helps table --list three.h5
 
-piece 'no %s is written; write the result as .h5 or .tsv, then `weartrack table RESULT NAME -o %s'
+piece 'no %s is written; write the result as .h5, then `weartrack table RESULT NAME -o %s'
 cause 'then `weartrack table RESULT NAME -o TABLE.csv`' master --poisson-ratio 0.5 three.csv -o a.xlsx
 helps master --poisson-ratio 0.5 three.csv -o a.h5
 helps table a.h5 prony -o a.csv
