@@ -156,13 +156,6 @@ case_file w.xml "<sample>s</sample><condition>d</condition>$rubber$rough$slides"
 helps collect one.h5 two.h5
 no_input 'no digest distinguishes them (--no-provenance)' 'a reason in a table'
 
-piece 'make it by weartrack indent --curves all, or <curves>all</curves> in the <indentation> of a case' 'none rejected, so that --curves rejected keeps none'
-cause 'weartrack indent --curves all' report --browse b.html bulk.h5
-helps indent --tip "$tip" --curves all --spring-constant 0.3N/m "$curve" -o all.h5
-helps report --browse b.html all.h5
-case_file w.xml "<indentation>$stylus<curves>all</curves>$soft</indentation>"
-helps run --no-report w.xml -o a.h5
-helps report --browse b.html a.h5
 piece 'a style of your own is a file that ends in .gp, given with --style'
 cause 'given with --style' report --style mine three.h5 -o p.html
 cp "$source/src/report/styles/paper.gp" mine.gp 2> err || :

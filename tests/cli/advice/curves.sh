@@ -17,11 +17,10 @@ piece "Poisson's ratio of %g or more, or --unbonded"
 cause '--unbonded' indent --tip sphere:radius=5um --poisson-ratio 0.3 --sample-thickness 2um --spring-constant 0.3N/m "$curve"
 helps indent --tip sphere:radius=5um --poisson-ratio 0.3 --sample-thickness 2um --unbonded --spring-constant 0.3N/m "$curve" -o a.h5
 
-piece 'a table of choices, as report --browse writes it'
-piece 'a table of choices, as report --browse writes it'
-cause 'as report --browse writes it' indent --tip "$tip" --overrides empty.txt --spring-constant 0.3N/m "$curve"
-"$weartrack" indent -q --tip "$tip" --curves all --spring-constant 0.3N/m "$curve" -o curves.h5 2> err
-helps report --browse browse.html curves.h5
+piece 'a table of choices, as weartrack view writes it'
+piece 'a table of choices, as weartrack view writes it'
+cause 'as weartrack view writes it' indent --tip "$tip" --overrides empty.txt --spring-constant 0.3N/m "$curve"
+helps view --help
 
 piece 'a force without a spring constant: give --spring-constant 0.1N/m'
 cause '--spring-constant 0.1N/m' sensitivity "$fixtures/formats/table-force/turning.txt"
