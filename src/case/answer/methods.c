@@ -84,15 +84,6 @@ static void describe_indentation(text_builder *t, const table_view *table)
                 ratio != NULL ? ratio : "");
 }
 
-static void describe_thermal(text_builder *t, const table_view *table)
-{
-    const wt_estimate constant = thermal_value(table, THERMAL_KEY_SPRING_CONSTANT);
-    text_append(t,
-                "The spring constant of the cantilever%s%s was determined from its thermal noise.",
-                isfinite(constant.value) ? ", " : "",
-                isfinite(constant.value) ? format_estimate(constant).text : "");
-}
-
 /* ---- comparison ------------------------------------------------------------------------------ */
 
 static void describe_welch(text_builder *t, const table_view *table)
@@ -317,8 +308,6 @@ static void describe_track_layer(text_builder *t, const table_view *table)
 /* ---- the list -------------------------------------------------------------------------------- */
 
 static const method methods[] = {
-    {"spring constant by thermal noise", &thermal_schema, NULL, describe_thermal,
-     "H.-J. Butt and M. Jaschke, Nanotechnology 6 (1995) 1", "10.1088/0957-4484/6/1/001"},
     {"contact law of a blunted pyramid", &indentation_schema, is_blunted, describe_indentation,
      "F. Rico et al., Phys. Rev. E 72 (2005) 021914", "10.1103/PhysRevE.72.021914"},
     {"contact law of the tip", &indentation_schema, is_general_tip, describe_indentation,

@@ -86,7 +86,6 @@
     X(sensitivity, SENSITIVITY, "sensitivity", "Deflection sensitivity", "sensitivity")            \
     X(sensitivity_curves, SENSITIVITY_CURVES, "sensitivity_curves",                                \
       "Deflection sensitivity of every curve", "sensitivity")                                      \
-    X(thermal, THERMAL, "thermal", "Spring constant by thermal noise", "thermal")                  \
     X(spot, SPOT, "spot", "Roughness of a spot", "spot")                                           \
     X(modulus_groups, MODULUS_GROUPS, "modulus_groups", "Modulus of the groups", "compare")        \
     X(modulus_budget, MODULUS_BUDGET, "modulus_budget",                                            \

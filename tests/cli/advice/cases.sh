@@ -45,12 +45,10 @@ helps new-case --tip "$tip" on_the_track -o new.xml
 cause 'in <roughness> by a guess' new-case b.gsf -o new.xml
 mv b.gsf road-b.gsf
 helps new-case road-b.gsf -o new.xml
-piece '; an image: of the counter surface it goes into roughness' '; noise of a cantilever: see weartrack thermal'
+piece '; an image: of the counter surface it goes into roughness'
 cp "$fixtures/surface/place-1.gsf" on_the_track
 cause 'see weartrack spot' new-case --tip "$tip" three.csv on_the_track
 helps spot --tip "$tip" --depth 70nm on_the_track/place-1.gsf -o a.h5
-cause 'see weartrack thermal' new-case --tip "$tip" three.csv "$fixtures/formats/jpk-thermal/noise.tnd"
-helps thermal "$fixtures/formats/jpk-thermal/noise.tnd" -o a.h5
 piece '<reference-temperature> in <dma>' 'delete <modulus-ratio>, or the curves of bulk or track'
 wlf='<wlf><c1>8.86</c1><c2>101.6K</c2></wlf>'
 prony='<prony deformation="tension"><equilibrium>5MPa</equilibrium><term time="1s" modulus="10MPa"/></prony>'

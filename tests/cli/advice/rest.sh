@@ -13,7 +13,6 @@ not_advice 'Compare with a friction record (weartrack validate).' 'a remark of a
 no_input 'a Poisson' 'an obstacle in a table: tests/unit/test_study_track_layer.c'
 no_input 'the same curves once more through this version of weartrack indent' 'a result of an older version'
 no_input 'a sample on something hard (thinner than' 'a list of possible causes in a warning'
-no_input 'the spectrum departs from an oscillator on a white floor' 'a list of possible causes in a warning'
 no_input 'that of --pixel-size is taken' 'says what was done'
 not_advice 'a result of weartrack run, beside which those of curves stand' 'what is expected: taken with collect'
 no_input '--anisotropy %.4g --texture-angle' 'key of psd, taken by tests/unit/test_surface_job.c'
