@@ -706,8 +706,6 @@ typedef struct wt_spot_job {
     double depth; /* indentation depth [m] */
     double x, y;  /* position in the coordinates of the image [m]; NaN (default) = its middle */
     double position_error; /* [m]; NaN (default) = one contact radius */
-    double largest_effect; /* largest acceptable effect of roughness on the contact area; default
-                              0.1 */
     const char *image;     /* part of the name of the image; NULL = first height image */
     wt_read_options read;  /* initialise with wt_read_defaults() */
 } wt_spot_job;

@@ -6,8 +6,10 @@
 static const struct {
     unsigned bit;
     const char *word;
-} kinds[] = {{WT_KIND_FORCE, "force curves"},  {WT_KIND_SWEEP, "DMA sweeps"},
-             {WT_KIND_IMAGE, "images"},        {WT_KIND_SPECTRUM, "spectra"},
+} kinds[] = {{WT_KIND_FORCE, "force curves"},
+             {WT_KIND_SWEEP, "DMA sweeps"},
+             {WT_KIND_IMAGE, "images"},
+             {WT_KIND_SPECTRUM, "spectra"},
              {WT_KIND_RECORD, "records of friction"}};
 
 /* Lists the names of the formats by what they hold. */

@@ -101,8 +101,8 @@ static inline wt_status read_rest(const wt_formats *formats, wt_input *input, un
 static inline wt_status read_any(const wt_formats *formats, const void *bytes, size_t n,
                                  wt_log *log, numbers *all)
 {
-    static const unsigned kinds[] = {WT_KIND_FORCE,    WT_KIND_SWEEP, WT_KIND_IMAGE,
-                                     WT_KIND_SPECTRUM, WT_KIND_RECORD};
+    static const unsigned kinds[] = {WT_KIND_FORCE, WT_KIND_SWEEP, WT_KIND_IMAGE, WT_KIND_SPECTRUM,
+                                     WT_KIND_RECORD};
     wt_status status = WT_E_FORMAT;
     all->n = all->n_failed = 0;
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {

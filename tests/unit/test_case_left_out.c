@@ -233,8 +233,8 @@ COUNTED(wt_status, wt_master_zener, LAWS,
         (const wt_master *master, const wt_prony *series, wt_zener_fit *fit, wt_error *err),
         (master, series, fit, err))
 COUNTED(wt_status, wt_peak_find, PEAKS,
-        (const double *x, const double *y, size_t n, size_t points, wt_peak *peak, wt_error *err),
-        (x, y, n, points, peak, err))
+        (const double *x, const double *y, size_t n, wt_peak *peak, wt_error *err),
+        (x, y, n, peak, err))
 COUNTED(wt_status, wt_smooth_interpolate, BETWEEN,
         (const double *x, const double *y, size_t n, double at, wt_interval *value, wt_error *err),
         (x, y, n, at, value, err))

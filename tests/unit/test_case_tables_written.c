@@ -1048,7 +1048,7 @@ static void see_surfaces(const char *const *files, size_t n)
     common.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
-    job.scans = job.heights = true;
+    job.heights = true;
     job.end_slope = n > 1 ? 1.3 : (double)NAN;
     if (wt_topography_compute(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
@@ -1061,7 +1061,6 @@ static void see_surfaces(const char *const *files, size_t n)
         see(tables.height_map);
     see(tables.height_profile);
     see(tables.surfaces);
-    see(tables.scan_spectra);
     wt_tables_clear(&tables, sizeof tables);
 }
 

@@ -141,7 +141,6 @@
     X(height_map, HEIGHT_MAP, "height_map", "Heights of a surface", "psd")                         \
     X(height_profile, HEIGHT_PROFILE, "height_profile", "Heights along a line of a surface",       \
       "psd")                                                                                       \
-    X(scan_spectra, SCAN_SPECTRA, "scan_spectra", "Power spectrum of every scan", "psd")           \
     X(roughness, ROUGHNESS, "roughness", "Power spectrum of the counter surface", "run")           \
     X(friction, FRICTION, "friction", "Friction against velocity", "friction")                     \
     X(contact_area, CONTACT_AREA, "contact_area", "Contact area against magnification",            \
