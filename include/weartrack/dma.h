@@ -341,19 +341,6 @@ WT_API wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *optio
  * `from`. */
 WT_API void wt_prony_deviation(const wt_prony *from, const wt_prony *to, double deviation[2]);
 
-/* Fit of a fractional Zener law to the points of a master curve that were not excluded, by least
- * squares of the logarithms. It is compared with a series: root mean squares in ln, and Akaike's
- * criterion with small-sample correction (Hurvich and Tsai, Biometrika 76 (1989) 297), smaller is
- * better. There are no errors, because the lack of fit is not noise. */
-typedef struct wt_zener_fit {
-    double e0, eg, tau, alpha; /* (E0 + Eg z)/(1 + z), z = (i w tau)^alpha; moduli as measured */
-    bool determined;           /* the points determine its glass modulus and time */
-    double rms_storage, rms_loss, aicc;
-    double series_rms_storage, series_rms_loss, series_aicc;
-} wt_zener_fit;
-WT_API wt_status wt_master_zener(const wt_master *master, const wt_prony *series, wt_zener_fit *fit,
-                                 wt_error *err) WT_NODISCARD;
-
 /* ---- rubber: moduli at one temperature, and their shift to others -----------------------------
  */
 

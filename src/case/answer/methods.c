@@ -188,19 +188,6 @@ static void describe_arrhenius(text_builder *t, const table_view *table)
                 has_wlf_constants(table) ? " in the cold" : "", format_estimate(energy).text);
 }
 
-static bool has_zener_comparison(const table_view *table)
-{
-    return prony_reduced_key_text(table, PRONY_REDUCED_KEY_BETTER) != NULL;
-}
-
-static void describe_zener(text_builder *t, const table_view *table)
-{
-    text_append(t,
-                "A Prony series of %zu term%s and a fractional Zener law were compared by Akaike's "
-                "criterion with the correction for few points.",
-                table->n_rows, table->n_rows == 1 ? "" : "s");
-}
-
 static void describe_payne(text_builder *t, const table_view *table)
 {
     text_append(
@@ -326,8 +313,6 @@ static const method methods[] = {
      "M. L. Williams, R. F. Landel and J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701",
      "10.1021/ja01619a008"},
     {"Arrhenius' law", &shift_factors_schema, has_activation_energy, describe_arrhenius, "", ""},
-    {"corrected criterion of Akaike", &prony_reduced_schema, has_zener_comparison, describe_zener,
-     "C. M. Hurvich and C.-L. Tsai, Biometrika 76 (1989) 297", "10.1093/biomet/76.2.297"},
     {"law of Kraus", &payne_schema, NULL, describe_payne,
      "G. Kraus, J. Appl. Polym. Sci., Appl. Polym. Symp. 39 (1984) 75, as in Rutherford et al., "
      "Polymers 15 (2023) 1675",
