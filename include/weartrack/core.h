@@ -231,7 +231,6 @@ WT_API wt_log_entry wt_log_get(const wt_log *log, size_t i);
     X(WT_Q_LATERAL_DEFLECTION, "lateral_deflection", "V", "lateral deflection signal")             \
     X(WT_Q_AMPLITUDE, "amplitude", "V", "oscillation amplitude")                                   \
     X(WT_Q_PHASE, "phase", "rad", "phase")                                                         \
-    X(WT_Q_SPECTRAL_DENSITY, "spectral_density", "m.Hz^-0.5", "amplitude spectral density")        \
     X(WT_Q_POSITION_X, "position_x", "m", "lateral position x")                                    \
     X(WT_Q_POSITION_Y, "position_y", "m", "lateral position y")                                    \
     X(WT_Q_FREQUENCY, "frequency", "Hz", "frequency")                                              \
@@ -264,10 +263,6 @@ WT_API wt_log_entry wt_log_get(const wt_log *log, size_t i);
     X(WT_Q_DATA_SIZE, "data_size", "byte", "size of a file")                                       \
     X(WT_Q_SHEAR_COMPLEX_MODULUS, "shear_complex_modulus", "Pa",                                   \
       "absolute value of the complex shear modulus")                                               \
-    X(WT_Q_DEFLECTION_NOISE, "deflection_noise", "m^2/Hz", "power spectral density of deflection") \
-    X(WT_Q_VOLTAGE_NOISE, "voltage_noise", "V^2/Hz", "power spectral density of the detector")     \
-    X(WT_Q_VOLTAGE_DENSITY, "voltage_density", "V.Hz^-0.5",                                        \
-      "amplitude spectral density of the detector")                                                \
     X(WT_Q_MASS_DENSITY, "mass_density", "kg/m^3", "mass per volume")                              \
     X(WT_Q_THERMAL_EXPANSION, "thermal_expansion", "1/K", "coefficient of linear expansion")       \
     X(WT_Q_SURFACE_HEIGHT, "surface_height", "m", "height of a surface")                           \
@@ -683,24 +678,6 @@ typedef struct wt_power_spectrum {
     double *density;    /* [n] C(q): m^4 (2D: h_rms^2 = 2 pi int q C dq) or m^3 (1D) */
 } wt_power_spectrum;
 WT_API void wt_power_spectrum_clear(wt_power_spectrum *spectrum);
-
-/* ---- thermal noise -------------------------------------------------------------------------- */
-
-/* One-sided power spectrum of the deflection of a free cantilever with the instrument's metadata.
- * NaN = not stated. */
-typedef struct wt_noise_spectrum {
-    bool volts; /* true: detector signal [V]; false: deflection [m] */
-    size_t n;
-    double *frequency;         /* [n] Hz, rising */
-    double *density;           /* [n] m^2/Hz or V^2/Hz; NaN: not measured */
-    double averages;           /* number of averaged spectra */
-    double temperature;        /* [K] */
-    double spring_constant;    /* [N/m] */
-    double resonance, quality; /* [Hz], 1 */
-    double sensitivity;        /* [m/V] */
-    bool amplitudes; /* the file contains amplitude densities; `density` has their squares */
-} wt_noise_spectrum;
-WT_API void wt_noise_spectrum_clear(wt_noise_spectrum *spectrum);
 
 /* ---- friction record ------------------------------------------------------------------------ */
 

@@ -341,19 +341,6 @@ WT_API wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *optio
  * `from`. */
 WT_API void wt_prony_deviation(const wt_prony *from, const wt_prony *to, double deviation[2]);
 
-/* Fit of a fractional Zener law to the points of a master curve that were not excluded, by least
- * squares of the logarithms. It is compared with a series: root mean squares in ln, and Akaike's
- * criterion with small-sample correction (Hurvich and Tsai, Biometrika 76 (1989) 297), smaller is
- * better. There are no errors, because the lack of fit is not noise. */
-typedef struct wt_zener_fit {
-    double e0, eg, tau, alpha; /* (E0 + Eg z)/(1 + z), z = (i w tau)^alpha; moduli as measured */
-    bool determined;           /* the points determine its glass modulus and time */
-    double rms_storage, rms_loss, aicc;
-    double series_rms_storage, series_rms_loss, series_aicc;
-} wt_zener_fit;
-WT_API wt_status wt_master_zener(const wt_master *master, const wt_prony *series, wt_zener_fit *fit,
-                                 wt_error *err) WT_NODISCARD;
-
 /* ---- rubber: moduli at one temperature, and their shift to others -----------------------------
  */
 
@@ -491,17 +478,15 @@ WT_API wt_status wt_master_compute(const wt_master_job *job, const wt_job *work,
  * the thermometer. */
 typedef struct wt_peak {
     bool found;
-    wt_interval at,
-        height;         /* NaN if not found; bounds that too few points determine are NaN, too */
-    size_t n;           /* points used */
-    double misfit;      /* root mean square deviation from the curve, relative to the height */
-    const char *reason; /* "" or the reason why it is not found or not bounded; static */
+    wt_interval at, height; /* NaN if not found */
+    size_t n;               /* points used */
+    double misfit;          /* root mean square deviation from the curve, relative to the height */
+    const char *reason;     /* "" or the reason why it is not found; static */
 } wt_peak;
 /* Finds the peak; x increasing, y > 0. The curve is a parabola of ln y plus a Gaussian process,
- * down to half the height. With `points` > 0 it is a plain parabola of y through so many points
- * about the largest. A largest point that is one of the outer two on a side is no peak. */
-WT_API wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points,
-                              wt_peak *peak, wt_error *err) WT_NODISCARD;
+ * down to half the height. A largest point that is one of the outer two on a side is no peak. */
+WT_API wt_status wt_peak_find(const double *x, const double *y, size_t n, wt_peak *peak,
+                              wt_error *err) WT_NODISCARD;
 /* Finds further maxima in order of x: each in its range between adjacent minima, above which it
  * rises by a tenth at least, fitted as in wt_peak_find. Stores at most `most`; *n_peaks is their
  * number. */
@@ -533,7 +518,6 @@ typedef struct wt_ramp_job {
     size_t n_sets;
     const double *temperature; /* increasing [K]; owned by the caller */
     size_t n_temperatures;
-    size_t peak_points; /* points of a plain parabola; 0 (default): as wt_peak_find chooses */
 } wt_ramp_job;
 WT_API wt_ramp_job wt_ramp_job_defaults(void);
 WT_API const wt_params *wt_ramp_job_params(void);

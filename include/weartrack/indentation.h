@@ -706,8 +706,6 @@ typedef struct wt_spot_job {
     double depth; /* indentation depth [m] */
     double x, y;  /* position in the coordinates of the image [m]; NaN (default) = its middle */
     double position_error; /* [m]; NaN (default) = one contact radius */
-    double largest_effect; /* largest acceptable effect of roughness on the contact area; default
-                              0.1 */
     const char *image;     /* part of the name of the image; NULL = first height image */
     wt_read_options read;  /* initialise with wt_read_defaults() */
 } wt_spot_job;
@@ -779,74 +777,6 @@ typedef struct wt_sensitivity_tables {
  * there is no sensitivity; the verdict has the reason. */
 WT_API wt_status wt_sensitivity_compute(const wt_sensitivity_job *job, const wt_job *work,
                                         wt_sensitivity_tables *tables, wt_error *err) WT_NODISCARD;
-
-/* ---- thermal noise of a cantilever ----------------------------------------------------------- */
-
-/* Thermal tune: a simple harmonic oscillator (cantilever: Butt and Jaschke, Nanotechnology 6 (1995)
- * 1) on a white floor, one-sided: S(f) = floor + 2 mean_square f0^3 / (pi Q) / ((f0^2 - f^2)^2 + (f
- * f0 / Q)^2). 95 % intervals, normal in the logarithm. */
-typedef struct wt_thermal {
-    bool found;
-    wt_interval mean_square; /* mean square of the oscillator over all frequencies [density Hz] */
-    wt_interval resonance;   /* f0 [Hz] */
-    wt_interval quality;     /* Q */
-    double floor;            /* [density] */
-    double from, to;         /* fitted range [Hz] */
-    size_t n;                /* points in it */
-    double averages;         /* number of averaged spectra according to the scatter about the fit */
-    double misfit_p;         /* p value of the lack of fit to the oscillator for scatter alone */
-    const char *reason;      /* "" or the reason why there is none; static */
-} wt_thermal;
-/* Fits an averaged periodogram by maximum likelihood: frequencies [Hz] increasing, densities
- * [unit^2/Hz]. Points without a positive density are excluded. from and to [Hz]: NaN = about the
- * peak. */
-WT_API wt_status wt_thermal_fit(const double *frequency, const double *density, size_t n,
-                                double from, double to, wt_thermal *thermal,
-                                wt_error *err) WT_NODISCARD;
-
-/* ---- Sader's method ------------------------------------------------------------------------- */
-
-typedef enum wt_medium { WT_MEDIUM_AIR, WT_MEDIUM_WATER } wt_medium;
-typedef struct wt_fluid {
-    double density, viscosity; /* [kg/m^3], [Pa s] */
-} wt_fluid;
-/* Returns the properties of dry air at 1013.25 hPa (Sutherland's law) or of water (density: Tanaka
- * et al., Metrologia 38 (2001) 301; viscosity: IAPWS) at a temperature [K]; NaN for water that is
- * not liquid. */
-WT_API wt_fluid wt_medium_properties(wt_medium medium, double temperature);
-/* Computes the hydrodynamic function of a rectangular cantilever at the Reynolds number density
- * omega width^2 / (4 viscosity) > 0 (Sader, J. Appl. Phys. 84 (1998) 64). */
-WT_API void wt_hydrodynamic_function(double reynolds, double *real, double *imaginary);
-/* Returns k = 0.1906 density width^2 length Q Im Gamma omega^2 of a rectangular cantilever much
- * longer than wide (Sader, Chon and Mulvaney, Rev. Sci. Instrum. 70 (1999) 3967). All values are SI
- * and > 0; their errors are propagated. */
-WT_API wt_estimate wt_sader_spring_constant(wt_estimate length, wt_estimate width,
-                                            wt_estimate resonance, wt_estimate quality,
-                                            wt_fluid fluid);
-
-/* ---- spring constant of a cantilever --------------------------------------------------------- */
-
-/* Spring constant of a cantilever from its thermal noise: k = mode_shape / chi^2 k_B T / <d^2>,
- * with the deflection d from the sensitivity on a hard surface. If the plan view or the coefficient
- * of the cantilever type are stated, Sader's method is also used. */
-typedef struct wt_thermal_job {
-    const wt_file_set *sets; /* read.sensitivity [m/V] for spectra in volts without their own */
-    size_t n_sets;
-    wt_estimate
-        temperature; /* of the cantilever [K]; NaN: that of the file, else 25 degC with a warning */
-    double sensitivity_error;  /* relative */
-    double mode_shape;         /* share of the first mode in the thermal energy of the deflection */
-    double chi;                /* sensitivity of the free cantilever over that on a surface */
-    double from, to;           /* range of the fit [Hz]; NaN: about the peak */
-    wt_estimate length, width; /* of a rectangular cantilever [m]; NaN: unknown */
-    wt_medium medium;          /* medium around the cantilever */
-    wt_estimate sader_coefficient; /* A of k = A Q f^1.3 [N/m per kHz^1.3]; NaN: unknown */
-} wt_thermal_job;
-WT_API wt_thermal_job wt_thermal_job_defaults(void);
-WT_API const wt_params *wt_thermal_job_params(void);
-/* Creates the table "thermal". WT_E_EMPTY if no file has a spectrum. */
-WT_API wt_status wt_thermal_compute(const wt_thermal_job *job, const wt_job *work, wt_table **table,
-                                    wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

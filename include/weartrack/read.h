@@ -54,8 +54,7 @@ WT_API wt_status wt_input_peek(wt_input *input, size_t n_min, const unsigned cha
 #define WT_KIND_SWEEP 2u    /* DMA sweeps */
 #define WT_KIND_IMAGE 4u    /* topography and other images */
 #define WT_KIND_SPECTRUM 8u /* power spectra of surfaces */
-#define WT_KIND_NOISE 16u   /* thermal noise spectra of a cantilever */
-#define WT_KIND_RECORD 32u  /* friction records */
+#define WT_KIND_RECORD 16u  /* friction records */
 
 typedef struct wt_format_info {
     const char *id;       /* "jpk", "trios-lims" */
@@ -197,10 +196,6 @@ WT_API wt_status wt_images_read(const wt_formats *formats, wt_input *input,
 WT_API wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
                                         const wt_read_options *options, wt_log *log,
                                         wt_power_spectrum *spectrum, wt_error *err) WT_NODISCARD;
-/* Reads the thermal noise spectrum of a cantilever; amplitude densities are squared. */
-WT_API wt_status wt_noise_read(const wt_formats *formats, wt_input *input,
-                               const wt_read_options *options, wt_log *log,
-                               wt_noise_spectrum *spectrum, wt_error *err) WT_NODISCARD;
 /* Reads a friction record. The sign of a load that is negative under pressure is inverted. */
 WT_API wt_status wt_record_read(const wt_formats *formats, wt_input *input,
                                 const wt_read_options *options, wt_log *log, wt_record *record,

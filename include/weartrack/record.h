@@ -168,11 +168,9 @@ typedef struct wt_validation_job {
     const wt_layer_observation *layer_observation; /* NULL as in wt_model_sensitivity_compute; its
                                           thickness is the one used for the layer */
     const wt_table *record;                        /* table "record" */
-    const wt_table *cycles; /* table "record_cycles", for the running-in only */
-    const wt_table *wear;   /* table "wear", or NULL */
-    double margin;          /* irrelevant deviation of measured over predicted; default 0.2 */
-    double plausible_low,
-        plausible_high;       /* plausible range of the shear stress [Pa]; default 1 MPa, 10 MPa */
+    const wt_table *cycles;   /* table "record_cycles", for the running-in only */
+    const wt_table *wear;     /* table "wear", or NULL */
+    double margin;            /* irrelevant deviation of measured over predicted; default 0.2 */
     double running_in_margin; /* margin of times and changes of a running-in; default 1 */
     bool wanted;              /* in a case: validates its records; default true */
 } wt_validation_job;

@@ -57,24 +57,6 @@ WT_API wt_status wt_report_write(const wt_result *result, const char *folder,
                                  const wt_report_options *options, const wt_progress *progress,
                                  wt_error *err) WT_NODISCARD;
 
-/* Checks that a result has curves for the next two functions. WT_E_EMPTY explains how to produce
- * them. */
-WT_API wt_status wt_report_check_curves(const wt_result *result, wt_error *err) WT_NODISCARD;
-
-/* Writes one self-contained page `path` for browsing the curves of all groups with their fits. The
- * page exports manual choices for wt_indent_job.choices. WT_E_EMPTY if the result has no table
- * "curves"; WT_E_TOOL if the library was built without dygraphs, its plotting script. */
-WT_API wt_status wt_curve_browser_write(const wt_result *result, const char *path,
-                                        bool with_provenance, wt_error *err) WT_NODISCARD;
-
-/* Writes the force curves of all groups as a PDF of A4 sheets, twelve on each, with fit, verdict
- * and reason: rejected ones first, then doubtful and wide ones. Only the drawing options are used;
- * NULL = defaults. WT_E_EMPTY if the result has no table "curves", WT_E_TOOL as in wt_report_write.
- * `progress` counts sheets. */
-WT_API wt_status wt_curve_sheets_write(const wt_result *result, const char *path,
-                                       const wt_report_options *options,
-                                       const wt_progress *progress, wt_error *err) WT_NODISCARD;
-
 /* Information on the figures of the library, in the order of the page. */
 typedef struct wt_figure_info {
     const char *name; /* "force_displacement" */

@@ -76,9 +76,7 @@ typedef enum wt_surface_form { WT_FORM_MEAN, WT_FORM_PLANE, WT_FORM_QUADRATIC } 
 typedef struct wt_surface_options {
     wt_surface_form form; /* polynomial that is subtracted by least squares */
     wt_surface_window window;
-    double largest_missing; /* largest share of missing heights; more is an error */
-    double points_per_wave; /* smallest reliable number; 2 is the Nyquist wavenumber */
-    double tip_radius;      /* [m]; NaN: unknown */
+    double tip_radius; /* [m]; NaN: unknown */
 } wt_surface_options;
 WT_API wt_surface_options wt_surface_options_defaults(void);
 
@@ -141,9 +139,9 @@ WT_API void wt_surface_spectrum_clear(wt_surface_spectrum *spectrum);
 /* Computes height parameters and spectrum: form removal, missing heights filled as a membrane,
  * window, discrete Fourier transform, means over bins. Conventions: Jacobs, Junge, Pastewka, Surf.
  * Topogr. 5 (2017) 013001, but C = C2D / (2 pi)^2 and C1 = C1D / (2 pi). A map of one row gives C1.
- * The range ends at points_per_wave, or where the curvature of peaks reaches half that of the tip
- * (Sanner et al., Appl. Surf. Sci. Adv. 7 (2022) 100190). WT_E_RANGE: too many heights are missing;
- * WT_E_EMPTY: too few points, or all heights are equal. */
+ * The range ends at four points per wave, or where the curvature of peaks reaches half that of the
+ * tip (Sanner et al., Appl. Surf. Sci. Adv. 7 (2022) 100190). WT_E_RANGE: too many heights are
+ * missing; WT_E_EMPTY: too few points, or all heights are equal. */
 WT_API wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options *options,
                                     wt_surface_heights *heights, wt_surface_spectrum *spectrum,
                                     wt_error *err) WT_NODISCARD;
@@ -210,7 +208,6 @@ typedef struct wt_topography_job {
         WT_SCAN_LINES_MEND, /* offsets of rows and scars are found and removed */
         WT_SCAN_LINES_KEEP  /* they are found and named */
     } scan_lines;
-    bool scans;   /* also computes the table scan_spectra */
     bool heights; /* also computes the tables height_map and height_profile */
 } wt_topography_job;
 WT_API wt_topography_job wt_topography_job_defaults(void);
@@ -219,7 +216,7 @@ typedef struct wt_topography_tables {
     wt_table *power_spectrum, *surfaces;
     wt_table *place_errors;     /* NULL for scans of one size */
     wt_table *angular_spectrum; /* NULL for profiles */
-    wt_table *scan_spectra, *height_map,
+    wt_table *height_map,
         *height_profile; /* NULL unless requested; height_map NULL also for profiles */
 } wt_topography_tables;
 /* Computes the power spectrum of a surface. Scans of several sizes are stitched, several positions

@@ -168,7 +168,6 @@
     X(FACT_FORMAT, "format")                                                                       \
     X(FACT_INSTRUMENT, "instrument")                                                               \
     X(FACT_CURVES, "curves")                                                                       \
-    X(FACT_NOISE, "thermal noise")                                                                 \
     X(FACT_RECORD, "record of friction")                                                           \
     X(FACT_SPRING_CONSTANT, "spring constant")                                                     \
     X(FACT_SENSITIVITY, "deflection sensitivity")                                                  \

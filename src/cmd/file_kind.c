@@ -42,7 +42,6 @@ static const struct {
     unsigned kind;    /* WT_KIND_* of a file with this item; 0: any */
     const char *next; /* subcommand for the file if the item is the first; NULL: by its kind */
 } shown_items[] = {{FACT_CURVES, WT_KIND_FORCE, NULL},
-                   {FACT_NOISE, WT_KIND_NOISE, "thermal"},
                    {FACT_RECORD, WT_KIND_RECORD, "record"},
                    {FACT_SPRING_CONSTANT, 0, NULL},
                    {FACT_SENSITIVITY, 0, NULL},

@@ -6,9 +6,11 @@
 static const struct {
     unsigned bit;
     const char *word;
-} kinds[] = {{WT_KIND_FORCE, "force curves"},  {WT_KIND_SWEEP, "DMA sweeps"},
-             {WT_KIND_IMAGE, "images"},        {WT_KIND_SPECTRUM, "spectra"},
-             {WT_KIND_NOISE, "thermal noise"}, {WT_KIND_RECORD, "records of friction"}};
+} kinds[] = {{WT_KIND_FORCE, "force curves"},
+             {WT_KIND_SWEEP, "DMA sweeps"},
+             {WT_KIND_IMAGE, "images"},
+             {WT_KIND_SPECTRUM, "spectra"},
+             {WT_KIND_RECORD, "records of friction"}};
 
 /* Lists the names of the formats by what they hold. */
 static void list_format_names(const wt_formats *formats, FILE *out)

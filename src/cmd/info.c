@@ -139,7 +139,6 @@ static bool is_taken_by(const char *subcommand, const char *word)
         {"payne", OF_SWEEPS " temperature temperature-in-name "},
         {"ramp", OF_SWEEPS " strain temperature-in-name "},
         {"record", " columns conditioning format formats sheet units "},
-        {"thermal", " columns conditioning format formats sensitivity sheet units "},
     };
 #undef OF_SWEEPS
     char name[64];

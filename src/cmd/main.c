@@ -18,7 +18,6 @@ const cmd_command cmd_commands[] = {
     {"dwell", cmd_dwell, "relaxation and creep in the dwells of force curves"},
     {"spot", cmd_spot, "roughness of a spot against the depth; what stayed of an indentation"},
     {"sensitivity", cmd_sensitivity, "deflection sensitivity from curves on a hard surface"},
-    {"thermal", cmd_thermal, "spring constant from the thermal noise of the cantilever"},
     {"compare", cmd_compare, "wear track against bulk"},
     {"Material and sliding", NULL, NULL},
     {"master", cmd_master, "shift factors, master curve, WLF and Prony series of DMA sweeps"},

@@ -240,12 +240,11 @@ static void write_unused(FILE *out, const case_entry *e)
     write_comment(out, e->path);
     fputs(": ", out);
     write_comment(out, e->found.description);
-    fputs(e->found.kind == WT_KIND_IMAGE   ? "; an image: of the counter surface it goes into "
-                                             "roughness as files, across a track into record as "
-                                             "profile, of a spot see weartrack spot"
-          : e->found.kind == WT_KIND_NOISE ? "; noise of a cantilever: see weartrack thermal"
-          : e->found.is_result             ? "; a result of weartrack"
-                                           : "",
+    fputs(e->found.kind == WT_KIND_IMAGE ? "; an image: of the counter surface it goes into "
+                                           "roughness as files, across a track into record as "
+                                           "profile, of a spot see weartrack spot"
+          : e->found.is_result           ? "; a result of weartrack"
+                                         : "",
           out);
     fputs(" -->\n", out);
 }

@@ -15,8 +15,8 @@ int cmd_psd(int argc, char **argv)
             "are stitched, several places averaged. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
         .notes = "The tables power_spectrum, place_errors (of scans of several sizes), "
-                 "angular_spectrum (of height maps), surfaces, "
-                 "scan_spectra (with --scans), height_map (of height maps) and height_profile "
+                 "angular_spectrum (of height maps), surfaces, height_map (of height maps) and "
+                 "height_profile "
                  "(both with --heights) follow one another.",
         .n_files = CMD_ONE_OR_MORE};
     wt_topography_job job = wt_topography_job_defaults();
@@ -27,8 +27,7 @@ int cmd_psd(int argc, char **argv)
     cmd_session s = cmd_session_defaults();
     wt_topography_tables made = {0};
     wt_table **const tables[] = {&made.power_spectrum, &made.place_errors, &made.angular_spectrum,
-                                 &made.surfaces,       &made.scan_spectra, &made.height_map,
-                                 &made.height_profile};
+                                 &made.surfaces,       &made.height_map,   &made.height_profile};
     job.sets = &set;
     job.n_sets = 1;
     if (cmd_begin_job(&s, &usage, parts, COUNT_OF(parts), &set, argc, argv))

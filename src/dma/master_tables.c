@@ -1,10 +1,9 @@
 /* Tables of the DMA job: shift factors, master curve, series, draws, relaxation spectrum and
- * reduced series with the fractional Zener law.
+ * reduced series.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/master.h"
 
 #include "core/base/array.h"
-#include "core/base/clocale.h"
 #include "core/table/table_rows.h"
 #include "dma/sweep_input.h"
 
@@ -327,35 +326,10 @@ static double widest_interval(const wt_interval *fitted, size_t n)
     return most;
 }
 
-/* Sets the keys of the fractional Zener law with tensile moduli, in the syntax of the friction
- * option, and its comparison with the series. */
-static void set_zener_keys(const wt_master *m, const wt_prony *p, double poisson_ratio,
-                           table_writer *t)
-{
-    const double to_young = m->deformation == WT_SHEAR ? 2 * (1 + poisson_ratio) : 1;
-    char words[256];
-    wt_zener_fit z;
-    if (wt_master_zener(m, p, &z, NULL) != WT_OK)
-        return; /* without a fitted law the keys stay unset */
-    clocale_print(words, sizeof words, "fractional-zener:e0=%.4gPa,eg=%.4gPa,tau=%.4gs,alpha=%.4g",
-                  to_young * z.e0, to_young * z.eg, z.tau, z.alpha);
-    prony_reduced_set_text(t, PRONY_REDUCED_KEY_ZENER,
-                           z.determined ? words : "none: the points do not reach its glass");
-    clocale_print(
-        words, sizeof words,
-        "%s by AICc, lower by %.3g; rms deviation from the points (E', E'') %.2g %% and %.2g "
-        "%%, of the fractional Zener law %.3g %% and %.3g %%",
-        z.series_aicc < z.aicc ? "the Prony series" : "the fractional Zener law",
-        fabs(z.aicc - z.series_aicc), 100 * z.series_rms_storage, 100 * z.series_rms_loss,
-        100 * z.rms_storage, 100 * z.rms_loss);
-    if (!isnan(z.aicc) && !isnan(z.series_aicc))
-        prony_reduced_set_text(t, PRONY_REDUCED_KEY_BETTER, words);
-}
-
 TABLE_ROW(prony_reduced, PRONY_REDUCED, double relaxation_time, modulus, share;)
 
-static wt_status build_reduced_table(const wt_master *m, const wt_prony *p, double poisson_ratio,
-                                     wt_table **table, wt_error *err)
+static wt_status build_reduced_table(const wt_master *m, const wt_prony *p, wt_table **table,
+                                     wt_error *err)
 {
     double sum = p->equilibrium_modulus, deviation[2];
     table_writer t = table_begin(&prony_reduced_schema, err);
@@ -382,7 +356,6 @@ static wt_status build_reduced_table(const wt_master *m, const wt_prony *p, doub
         prony_reduced_set_print(&t, plain[i].key, "%.3g", plain[i].value);
     prony_reduced_set_text(&t, PRONY_REDUCED_KEY_DEFORMATION,
                            flow_deformation_name(p->deformation));
-    set_zener_keys(m, p, poisson_ratio, &t);
     return table_end(&t, table);
 }
 
@@ -395,7 +368,7 @@ wt_status flow_reduced_table(const wt_master *m, const wt_master_job *job, const
     double deviation[2];
     wt_status status = wt_prony_reduce(&m->prony, options, &p, err);
     if (status == WT_OK)
-        status = build_reduced_table(m, &p, job->poisson_ratio, table, err);
+        status = build_reduced_table(m, &p, table, err);
     if (status == WT_OK) {
         wt_prony_deviation(&m->prony, &p, deviation);
         const double most = fmax(deviation[0], deviation[1]);

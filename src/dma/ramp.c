@@ -23,24 +23,10 @@ wt_ramp_job wt_ramp_job_defaults(void)
     return (wt_ramp_job){.n_temperatures = 0};
 }
 
-static wt_status check_peak_points(const void *member, wt_error *err)
-{
-    const size_t points = *(const size_t *)member;
-    if (points == 0 || points >= MIN_POINTS)
-        return WT_OK;
-    wt_fail(err, WT_E_RANGE, "a parabola through so few points has no error");
-    wt_error_expected(err, "%d or more, or 0", MIN_POINTS);
-    return WT_E_RANGE;
-}
-
 static const wt_param rows[] = {
     {PARAM_LIST_OF("at", wt_ramp_job, temperature, n_temperatures, WT_Q_TEMPERATURE, ABOVE(0)),
      .value = "T", .unset = "",
      .help = "temperatures at which the moduli are reported, such as 0degC,25degC,60degC"},
-    {PARAM("peak-points", wt_ramp_job, peak_points, WT_Q_NONE, FROM_TO(0, 10000)), .value = "N",
-     .check = check_peak_points,
-     .help = "place peaks by a plain parabola through so many points; 0: by a smooth curve through "
-             "all that are higher than 60 % of the peak"},
 };
 PARAM_TABLE(wt_ramp_job_params, wt_ramp_job, rows, wt_ramp_job_defaults, NO_PARTS)
 
@@ -184,11 +170,11 @@ typedef struct peak_set {
     wt_onset onset;
 } peak_set;
 
-static wt_status find_quantity_peak(const wt_ramp_job *job, const usable_points *u,
-                                    sweep_quantity q, wt_peak *peak, wt_error *err)
+static wt_status find_quantity_peak(const usable_points *u, sweep_quantity q, wt_peak *peak,
+                                    wt_error *err)
 {
     if (u->has[q])
-        return wt_peak_find(u->temperature, u->value[q], u->n, job->peak_points, peak, err);
+        return wt_peak_find(u->temperature, u->value[q], u->n, peak, err);
     *peak = (wt_peak){.found = false, .reason = "not measured"};
     return WT_OK;
 }
@@ -216,12 +202,12 @@ static wt_status add_secondary_peak_rows(table_writer *t, const wt_ramp *ramp,
     return status;
 }
 
-static wt_status add_transition_row(table_writer *t, const wt_ramp_job *job, const wt_ramp *ramp,
-                                    const usable_points *u, peak_set *found, wt_error *err)
+static wt_status add_transition_row(table_writer *t, const wt_ramp *ramp, const usable_points *u,
+                                    peak_set *found, wt_error *err)
 {
-    wt_status status = find_quantity_peak(job, u, FACTOR, &found->factor, err);
+    wt_status status = find_quantity_peak(u, FACTOR, &found->factor, err);
     if (status == WT_OK)
-        status = find_quantity_peak(job, u, LOSS, &found->loss, err);
+        status = find_quantity_peak(u, LOSS, &found->loss, err);
     found->onset = (wt_onset){.at = unknown_interval, .reason = "not measured"};
     if (status == WT_OK && u->has[STORAGE])
         status = wt_onset_find(u->temperature, u->value[STORAGE], u->n, &found->onset, err);
@@ -230,7 +216,7 @@ static wt_status add_transition_row(table_writer *t, const wt_ramp_job *job, con
     TABLE_ADD(glass_transition, t, peak_to_columns(&found->factor), peak_to_columns(&found->loss),
               found->onset.at, found->onset.reason, ramp->angular_frequency, ramp->temperature[0],
               ramp->temperature[ramp->n - 1], ramp->source, false);
-    for (sweep_quantity q = LOSS; q <= FACTOR && status == WT_OK && job->peak_points == 0; q++)
+    for (sweep_quantity q = LOSS; q <= FACTOR && status == WT_OK; q++)
         status = u->has[q] ? add_secondary_peak_rows(t, ramp, u, q, err) : WT_OK;
     return status;
 }
@@ -334,7 +320,7 @@ static wt_status add_sweep_rows(const wt_ramp_job *job, const wt_job *work, cons
         peak_set found = {0};
         add_ramp_rows(&w->ramp, ramp);
         if ((work->left_out & WT_EXTRA_TRANSITION) == 0)
-            status = add_transition_row(&w->transition, job, ramp, &u, &found, err);
+            status = add_transition_row(&w->transition, ramp, &u, &found, err);
         if (status == WT_OK)
             status = add_moduli_rows(&w->moduli, job, ramp, &u, err);
         arena_free(&memory);

@@ -267,11 +267,7 @@
       LABEL("Lowest angular frequency it holds for"))                                              \
     X(PRONY_REDUCED_KEY_FREQUENCY_MAX, "frequency_max", SI(ANGULAR_FREQUENCY),                     \
       LABEL("Highest angular frequency it holds for"))                                             \
-    X(PRONY_REDUCED_KEY_DEFORMATION, "deformation", ENUM(deformation), LABEL("Deformation"))       \
-    X(PRONY_REDUCED_KEY_ZENER, "fractional_zener", TEXT,                                           \
-      LABEL("Fractional Zener law through the same points"), OPTIONAL)                             \
-    X(PRONY_REDUCED_KEY_BETTER, "preferred_model", TEXT,                                           \
-      LABEL("Model that describes the points better"), OPTIONAL)
+    X(PRONY_REDUCED_KEY_DEFORMATION, "deformation", ENUM(deformation), LABEL("Deformation"))
 
 #define MATERIAL_DRAWS_COLUMNS(X)                                                                  \
     X(MATERIAL_DRAWS_DRAW, AS(draw), "number of the draw, from 1", NUMBER)                         \

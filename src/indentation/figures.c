@@ -353,7 +353,7 @@ static void draw_modulus_map(figure_drawing *d)
 
 /* ---- force curves ---------------------------------------------------------------------------- */
 
-/* Largest number of curves on one sheet; separate sheets and the page show the rest. */
+/* Largest number of curves on one sheet; weartrack view shows the rest. */
 enum { SHEET_CURVES = 12, STACKED_CURVES = 4, SHEET_COLUMNS = 3 };
 
 /* Returns the largest number of title lines in one row of panels. */
@@ -383,7 +383,7 @@ static void draw_sheet(figure_drawing *d, const curve_list *list)
     text_add(&d->script, "unset multiplot\n");
     text_format(&d->caption, " %s %zu of %zu curves.", curve_panel_legend, n, list->n_rows);
     if (n < list->n)
-        text_add(&d->caption, " weartrack report --sheets draws the others.");
+        text_add(&d->caption, " weartrack view shows the others, too.");
 }
 
 static void draw_curves(figure_drawing *d)

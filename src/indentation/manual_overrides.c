@@ -153,7 +153,7 @@ wt_status manual_overrides_read(const wt_indent_job *job, const wt_job *work,
 {
     static const wt_tables_role role = {.curve_role = "overrides",
                                         .other_role = "overrides",
-                                        .instead = "a table of choices, as report --browse writes "
+                                        .instead = "a table of choices, as weartrack view writes "
                                                    "it: weartrack-indent(1)"};
     *choices = (manual_overrides){.path = job->choices, .group = job->group};
     if (job->choices == NULL)

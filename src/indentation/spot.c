@@ -48,6 +48,10 @@ static spot_positions spot_positions_create(const wt_height_map *f, double radiu
                             (size_t)fmax(0, floor(height / (2 * radius))), radius};
 }
 
+/* Relative error of the contact area by the roughness that is still acceptable. The value is
+ * chosen. */
+static const double largest_effect = 0.1;
+
 /* ---- parameters ------------------------------------------------------------------------------ */
 
 /* Steps of the position within its error to each side. The function reports the range over 81
@@ -60,7 +64,6 @@ wt_spot_job wt_spot_job_defaults(void)
                          .x = (double)NAN,
                          .y = (double)NAN,
                          .position_error = (double)NAN,
-                         .largest_effect = 0.1,
                          .read = wt_read_defaults()};
 }
 
@@ -77,9 +80,6 @@ static const wt_param rows[] = {
     {PARAM("position-error", wt_spot_job, position_error, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",
      .unset = "one contact radius", .flags = PARAM_NO_CASE,
      .help = "how far from there it may have gone in, such as 50nm"},
-    {PARAM("largest-effect", wt_spot_job, largest_effect, WT_Q_NONE, FROM_BELOW(0, 1)),
-     .value = "X", .flags = PARAM_NO_CASE,
-     .help = "relative error of the contact area by the roughness that is still fine"},
     {PARAM_TEXT_OF("image", wt_spot_job, image), .value = "NAME",
      .unset = "the first image of heights", .flags = PARAM_NO_CASE,
      .help = "which image of a file: a part of its name, such as backward"},
@@ -131,16 +131,15 @@ static void find_median_roughness(const wt_height_map *f, spot *s)
     free(rms);
 }
 
-static double roughness_limit(const wt_spot_job *job, const spot *s)
+static double roughness_limit(const spot *s)
 {
-    return s->power > 0 ? job->largest_effect / (2 * s->power) : (double)NAN;
+    return s->power > 0 ? largest_effect / (2 * s->power) : (double)NAN;
 }
 
 /* Tests the roughness against its limit. The text "inconclusive" also states how to decide. */
 static void assess_roughness(const wt_spot_job *job, const wt_height_map *f, bool covered, spot *s)
 {
-    const double limit = roughness_limit(job, s), low = s->low / job->depth,
-                 high = s->high / job->depth;
+    const double limit = roughness_limit(s), low = s->low / job->depth, high = s->high / job->depth;
     char pixel[32], contact[32], required_pixel[32], search_radius[32];
     wt_format_si(fmax(f->dx, f->dy), "m", 3, pixel, sizeof pixel);
     wt_format_si(s->contact, "m", 3, contact, sizeof contact);
@@ -175,7 +174,7 @@ static void assess_roughness(const wt_spot_job *job, const wt_height_map *f, boo
             s->verdict, sizeof s->verdict,
             "too rough: %.2g of the depth, above the limit of %.2g, where one rms height of "
             "depth makes %.2g %% of the contact area",
-            s->plane.rms / job->depth, limit, 100 * job->largest_effect);
+            s->plane.rms / job->depth, limit, 100 * largest_effect);
     else if (high <= limit)
         clocale_print(s->verdict, sizeof s->verdict,
                       "smooth enough: %.2g of the depth, the limit is %.2g",
@@ -229,9 +228,9 @@ static wt_status add_spot_row(const wt_spot_job *job, const wt_image *image, con
                            : none,
               .x = s->x + image->x_min, .y = s->y + image->y_min, .depth = depth,
               .tilt = has_roughness ? hypot(s->plane.slope_x, s->plane.slope_y) : nan,
-              .limit = roughness_limit(job, s));
+              .limit = roughness_limit(s));
     wt_tip_describe(&job->tip, tip, sizeof tip);
-    TABLE_SET(spot, &t, tip, image->name, s->verdict, {job->largest_effect, 0, 0, NULL});
+    TABLE_SET(spot, &t, tip, image->name, s->verdict, {largest_effect, 0, 0, NULL});
     return table_end(&t, table);
 }
 

@@ -54,13 +54,13 @@ typedef struct base_table {
 static const base_table *select_base_table(const column_option *columns, size_t n)
 {
     static const char usual[] = "score=\"30\"";
-    static const base_table bases[] = {
-        {WT_KIND_FORCE, "table-force", usual},   {WT_KIND_SPECTRUM, "table-spectrum", usual},
-        {WT_KIND_NOISE, "table-noise", usual},   {WT_KIND_IMAGE, "table-surface", "score=\"20\""},
-        {WT_KIND_RECORD, "table-record", usual}, {WT_KIND_SWEEP, "table-units", usual}};
+    static const base_table bases[] = {{WT_KIND_FORCE, "table-force", usual},
+                                       {WT_KIND_SPECTRUM, "table-spectrum", usual},
+                                       {WT_KIND_IMAGE, "table-surface", "score=\"20\""},
+                                       {WT_KIND_RECORD, "table-record", usual},
+                                       {WT_KIND_SWEEP, "table-units", usual}};
     const size_t last = sizeof bases / sizeof *bases - 1;
-    const wt_quantity_set sweep_quantities =
-        kind_quantities(bases[last].kind); /* a frequency belongs to sweeps and to noise */
+    const wt_quantity_set sweep_quantities = kind_quantities(bases[last].kind);
     for (size_t i = 0; i < n; i++)
         for (size_t b = 0; b < last; b++)
             if ((kind_quantities(bases[b].kind) & ~sweep_quantities &

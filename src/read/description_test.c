@@ -54,11 +54,6 @@ static wt_status read_all_kinds(const file_reader *reader, const text_file *file
         status = reader->read_spectrum(reader, sample, options, log, &spectrum, err);
         wt_power_spectrum_clear(&spectrum);
     }
-    if (status == WT_OK && text_has_kind(file, WT_KIND_NOISE)) {
-        wt_noise_spectrum noise = {.n = 0};
-        status = reader->read_noise(reader, sample, options, log, &noise, err);
-        wt_noise_spectrum_clear(&noise);
-    }
     if (status == WT_OK && text_has_kind(file, WT_KIND_RECORD)) {
         wt_record record = {.n = 0};
         status = reader->read_record(reader, sample, options, log, &record, err);

@@ -211,8 +211,6 @@ static const char *data_kind_name(unsigned kinds)
         return "images";
     case WT_KIND_SPECTRUM:
         return "power spectra";
-    case WT_KIND_NOISE:
-        return "spectra of thermal noise";
     case WT_KIND_RECORD:
         return "records of friction";
     default:
@@ -228,7 +226,6 @@ static wt_status fail_wrong_kind(const file_reader *reader, unsigned kinds, wt_e
     const char *const fits = (reader_kinds & WT_KIND_FORCE) != 0    ? "weartrack indent"
                              : (reader_kinds & WT_KIND_SWEEP) != 0  ? "weartrack master"
                              : (reader_kinds & WT_KIND_IMAGE) != 0  ? "weartrack spot"
-                             : (reader_kinds & WT_KIND_NOISE) != 0  ? "weartrack thermal"
                              : (reader_kinds & WT_KIND_RECORD) != 0 ? "weartrack record"
                              : (reader_kinds & WT_KIND_SPECTRUM) != 0
                                  ? "weartrack friction --roughness"

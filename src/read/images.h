@@ -61,4 +61,9 @@ wt_status images_add_metadata(const struct file_reader *reader, wt_input *input,
 wt_status images_describe(const struct file_reader *reader, wt_input *input,
                           const wt_read_options *options, wt_log *log, table_writer *metadata);
 
+/* Reads the images like wt_images_read. With `masks_are_missing` the file is a conversion, and
+ * masked points were not measured and become NaN. Otherwise a mask may mark anything. */
+wt_status gwy_read(wt_input *input, bool masks_are_missing, wt_log *log, wt_image **images,
+                   size_t *n_images, wt_error *err) WT_NODISCARD;
+
 #endif

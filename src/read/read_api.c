@@ -139,22 +139,6 @@ wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
     return status;
 }
 
-wt_status wt_noise_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
-                        wt_log *log, wt_noise_spectrum *spectrum, wt_error *err)
-{
-    read_request r;
-    wt_noise_spectrum result = {.n = 0};
-    wt_status status = read_start(formats, input, options, WT_KIND_NOISE, &r, err);
-    if (status == WT_OK)
-        status = r.reader->read_noise(r.reader, r.content, &r.options, log, &result, err);
-    status = read_end(input, status, err);
-    if (status == WT_OK)
-        *spectrum = result;
-    else
-        wt_noise_spectrum_clear(&result);
-    return status;
-}
-
 wt_status wt_record_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                          wt_log *log, wt_record *record, wt_error *err)
 {

@@ -58,9 +58,6 @@ typedef struct file_reader {
     wt_status (*read_spectrum)(const struct file_reader *self, wt_input *input,
                                const wt_read_options *options, wt_log *log,
                                wt_power_spectrum *spectrum, wt_error *err);
-    wt_status (*read_noise)(const struct file_reader *self, wt_input *input,
-                            const wt_read_options *options, wt_log *log,
-                            wt_noise_spectrum *spectrum, wt_error *err);
     wt_status (*read_record)(const struct file_reader *self, wt_input *input,
                              const wt_read_options *options, wt_log *log, wt_record *record,
                              wt_error *err);

@@ -60,32 +60,35 @@ static wt_status required_shear_compute(validation *v, wt_error *err)
     return status;
 }
 
+/* Plausible shear stresses of the real contact [Pa]. Tread compounds on road and concrete: Lorenz
+ * et al., J. Chem. Phys. 142 (2015) 194701; Tolpekina and Persson, Lubricants 7 (2019) 20. Soft and
+ * contaminated contacts have less. */
+static const double shear_low = 1e6, shear_high = 10e6;
 /* Source of the range, so that a reader can disagree. */
 static const char literature[] = "the range of the literature for rubber on rough counter surfaces";
 
 static stated_verdict plausibility(const validation *v)
 {
-    const double low = v->job->plausible_low, high = v->job->plausible_high;
     const wt_interval *const n = &v->needed;
-    return n->high < low || n->low > high   ? VERDICT_NO
-           : n->low > low && n->high < high ? VERDICT_YES
-                                            : VERDICT_INCONCLUSIVE;
+    return n->high < shear_low || n->low > shear_high   ? VERDICT_NO
+           : n->low > shear_low && n->high < shear_high ? VERDICT_YES
+                                                        : VERDICT_INCONCLUSIVE;
 }
 
 static void set_plausibility(const validation *v, table_writer *t)
 {
-    const double low = v->job->plausible_low, high = v->job->plausible_high;
     const stated_verdict verdict = plausibility(v);
     const char *const words = verdict == VERDICT_YES            ? "all of its interval is in"
                               : verdict == VERDICT_INCONCLUSIVE ? "it may be in or out of"
-                              : v->needed.high < low            ? "it is below"
+                              : v->needed.high < shear_low      ? "it is below"
                                                                 : "it is above";
     char text[320];
     if (v->needed.high < 0)
         clocale_print(text, sizeof text, "no: the hysteresis part alone is more than was measured");
     else
         clocale_print(text, sizeof text, "%s: %s %.3g MPa to %.3g MPa, %s",
-                      stated_verdict_text(verdict), words, 1e-6 * low, 1e-6 * high, literature);
+                      stated_verdict_text(verdict), words, 1e-6 * shear_low, 1e-6 * shear_high,
+                      literature);
     validation_set_text(t, VALIDATION_KEY_PLAUSIBLE, text);
 }
 
@@ -153,34 +156,20 @@ static void required_shear_set_keys(const validation *v, table_writer *t)
 /* Friction of one pair of materials on a pin-on-disc tribometer differs by about 20 % between
  * laboratories (ASTM G99, interlaboratory test). A theory within this margin explains it. */
 static const double reproducibility = 0.2;
-/* [Pa] Tread compounds on road and concrete: Lorenz et al., J. Chem. Phys. 142 (2015) 194701;
- * Tolpekina and Persson, Lubricants 7 (2019) 20. Soft and contaminated contacts have less. */
-static const double shear_low = 1e6, shear_high = 10e6;
-
 /* Running-in times are inverse to the wear rate, which is hardly known to better than a factor of
  * two. */
 static const double time_reproducibility = 1;
 
 wt_validation_job wt_validation_job_defaults(void)
 {
-    return (wt_validation_job){.margin = reproducibility,
-                               .plausible_low = shear_low,
-                               .plausible_high = shear_high,
-                               .running_in_margin = time_reproducibility,
-                               .wanted = true};
+    return (wt_validation_job){
+        .margin = reproducibility, .running_in_margin = time_reproducibility, .wanted = true};
 }
 
 static const wt_param rows[] = {
     {PARAM("margin", wt_validation_job, margin, WT_Q_NONE, FROM_TO(0.01, 1)), .value = "X",
      .help = "measured over predicted friction that is treated as agreement: 0.2 is from 1/1.2 to "
              "1.2, about what laboratories differ by (ASTM G99)"},
-    {PARAM("plausible-shear-from", wt_validation_job, plausible_low, WT_Q_STRESS, AT_LEAST(0)),
-     .value = "TAU",
-     .help = "least shear stress of the real contact that is plausible, here and above by rubber "
-             "on rough surfaces (Lorenz et al. 2015, J. Chem. Phys. 142, 194701; Tolpekina and "
-             "Persson 2019, Lubricants 7, 20)"},
-    {PARAM("plausible-shear-to", wt_validation_job, plausible_high, WT_Q_STRESS, ABOVE(0)),
-     .value = "TAU", .help = "largest that is plausible"},
     {PARAM("running-in-margin", wt_validation_job, running_in_margin, WT_Q_NONE, FROM_TO(0.05, 20)),
      .value = "X",
      .help = "time and change of a running-in over those predicted with the layer that are treated "
@@ -467,18 +456,6 @@ static void validation_clear(validation *v)
     measured_steps_clear(&v->steps);
 }
 
-static wt_status check_validation_job(const wt_validation_job *job, wt_error *err)
-{
-    const wt_status status = param_check(wt_validation_job_params(), job, err);
-    if (status != WT_OK || job->plausible_low < job->plausible_high)
-        return status;
-    wt_fail(err, WT_E_RANGE, "no shear stress is plausible");
-    wt_error_place(err, "plausible-shear-from, plausible-shear-to");
-    wt_error_expected(err, "the first below the second");
-    wt_error_found(err, "%g Pa and %g Pa", job->plausible_low, job->plausible_high);
-    return WT_E_RANGE;
-}
-
 wt_status wt_validation_compute(const wt_validation_job *job, const wt_job *work,
                                 wt_validation_tables *tables, wt_error *err)
 {
@@ -486,7 +463,7 @@ wt_status wt_validation_compute(const wt_validation_job *job, const wt_job *work
         return wt_fail(err, WT_E_ARG, "no validation job");
     validation v = {.job = job, .work = work};
     wt_validation_tables made = {0};
-    wt_status status = check_validation_job(job, err);
+    wt_status status = param_check(wt_validation_job_params(), job, err);
     if (status == WT_OK)
         status = begin_validation(&v, err);
     if (status == WT_OK && v.has_shear)

@@ -18,6 +18,64 @@ enum { LINE_LENGTH = 40, VERDICT_LINES = 2, REASON_LINES = 6 };
 const char curve_panel_legend[] =
     "Points: approach; black line: fit; grey line: retract; vertical line: contact point.";
 
+/* ---- samples by row -------------------------------------------------------------------------- */
+
+typedef struct curve_finder {
+    const table_view *view; /* view of the table "curves"; borrowed */
+    curve_block *blocks;    /* [n] */
+    size_t n,
+        next; /* next: index after the last match, as both tables usually have the same order */
+} curve_finder;
+
+static curve_kind row_curve_kind(const table_view *rows, size_t row)
+{
+    const wt_curve_verdict verdict =
+        (wt_curve_verdict)indentation_enum(rows, row, INDENTATION_VERDICT);
+    return verdict == WT_CURVE_ACCEPTED   ? CURVE_ACCEPTED
+           : verdict == WT_CURVE_WIDE     ? CURVE_WIDE
+           : verdict == WT_CURVE_DOUBTFUL ? CURVE_DOUBTFUL
+                                          : CURVE_REFUSED;
+}
+
+static void find_blocks(curve_finder *finder)
+{
+    const table_view *view = finder->view;
+    size_t last = 0;
+    finder->n = finder->next = 0;
+    finder->blocks = wt_alloc(view->n_rows, sizeof *finder->blocks);
+    for (size_t i = 0; i < view->n_rows; i++) {
+        const size_t number = wt_table_block(view->table, i);
+        if (finder->n == 0 || number != last)
+            finder->blocks[finder->n++].from = i;
+        finder->blocks[finder->n - 1].to = i + 1;
+        last = number;
+    }
+}
+
+static bool block_matches_row(const table_view *curves, curve_block b, const table_view *rows,
+                              size_t row)
+{
+    const double a = curves_get(curves, b.from, CURVES_CURVE),
+                 other = indentation_get(rows, row, INDENTATION_CURVE);
+    return !(a < other) && !(a > other) &&
+           strcmp(curves_text(curves, b.from, CURVES_FILE),
+                  indentation_text(rows, row, INDENTATION_FILE)) == 0 &&
+           strcmp(curves_text(curves, b.from, CURVES_GROUP), rows->suffix) == 0;
+}
+
+/* Returns the samples of the curve of a row, NULL if it has none. */
+static const curve_block *find_curve(curve_finder *finder, const table_view *rows, size_t row)
+{
+    for (size_t tried = 0; tried < finder->n; tried++) {
+        const size_t k = (finder->next + tried) % finder->n;
+        if (!block_matches_row(finder->view, finder->blocks[k], rows, row))
+            continue;
+        finder->next = k + 1;
+        return &finder->blocks[k];
+    }
+    return NULL;
+}
+
 /* ---- list ------------------------------------------------------------------------------------ */
 
 static bool has_finite_samples(const table_view *curves, curve_block b)
@@ -43,7 +101,7 @@ void curve_list_init(const figure_tables *tables, curve_list *list)
 {
     curve_finder finder = {.view = &tables->curves};
     *list = (curve_list){.n = 0};
-    curve_finder_init(&finder);
+    find_blocks(&finder);
     listed_curve *found = wt_alloc(finder.n, sizeof *found);
     listed_curve *sorted = wt_alloc(finder.n, sizeof *sorted);
     list->curves = found;
@@ -51,7 +109,7 @@ void curve_list_init(const figure_tables *tables, curve_list *list)
         const table_view *rows = &tables->indentation[i];
         list->n_rows += rows->n_rows;
         for (size_t row = 0; row < rows->n_rows && list->n < finder.n; row++) {
-            const curve_block *b = curve_finder_next(&finder, rows, row);
+            const curve_block *b = find_curve(&finder, rows, row);
             if (b == NULL || !has_finite_samples(&tables->curves, *b))
                 continue;
             const curve_kind kind = row_curve_kind(rows, row);
@@ -62,7 +120,7 @@ void curve_list_init(const figure_tables *tables, curve_list *list)
     sort_by_kind(sorted, list);
     list->curves = sorted;
     free(found);
-    curve_finder_clear(&finder);
+    free(finder.blocks);
 }
 
 void curve_list_clear(curve_list *list)

@@ -4,8 +4,21 @@
 #ifndef WT_REPORT_CURVE_PANEL_H
 #define WT_REPORT_CURVE_PANEL_H
 
-#include "report/curve_finder.h"
 #include "report/drawing.h"
+
+/* Range of rows of one curve in the table "curves". */
+typedef struct curve_block {
+    size_t from, to;
+} curve_block;
+
+/* Kinds of curves in their order on the figure. */
+typedef enum curve_kind {
+    CURVE_REFUSED,
+    CURVE_DOUBTFUL,
+    CURVE_WIDE,
+    CURVE_ACCEPTED,
+    CURVE_KINDS
+} curve_kind;
 
 /* A curve with samples and its row. */
 typedef struct listed_curve {

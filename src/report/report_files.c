@@ -63,20 +63,6 @@ wt_status write_temporary_file(const char *path, const char *bytes, size_t lengt
     return status;
 }
 
-wt_status write_user_file(const char *path, const text_buffer *text, wt_error *err)
-{
-    wt_atomic_file *out = NULL;
-    wt_status status = wt_outfile_open(path, &out, err);
-    if (status != WT_OK)
-        return status;
-    if (fwrite(text_string(text), 1, text->length, wt_outfile_stream(out)) == text->length)
-        return wt_outfile_commit(out, err);
-    wt_outfile_discard(out);
-    status = wt_fail(err, WT_E_IO, "cannot be written");
-    wt_error_file(err, path);
-    return status;
-}
-
 /* Adds the names of the built-in styles: "paper, screen". */
 static void add_style_names(text_buffer *names)
 {

@@ -17,19 +17,12 @@ wt_status read_whole_file(const char *path, size_t limit, text_buffer *text,
 /* Writes a file in a temporary folder. */
 wt_status write_temporary_file(const char *path, const char *bytes, size_t length,
                                wt_error *err) WT_NODISCARD;
-/* Writes a file that the user named: complete or not at all. It does not overwrite a file that was
- * read. */
-wt_status write_user_file(const char *path, const text_buffer *text, wt_error *err) WT_NODISCARD;
 /* Finds a built-in plot style by name. A case may only use these, as a style can run any command.
  */
 wt_status find_built_in_style(const char *name, const char **text, wt_error *err) WT_NODISCARD;
 /* Appends a plot style: a built-in one by name, NULL = "paper". A name with a slash or ending in
  * .gp is a file. */
 wt_status read_style(const char *style, text_buffer *text, wt_error *err) WT_NODISCARD;
-
-/* Appends the curves of all groups, their samples and the earlier manual choices as JSON that is
- * safe inside a script element. */
-void append_browse_data(const figure_tables *tables, text_buffer *to);
 
 /* Mark of weartrack in index.html; the version may follow. */
 #define REPORT_MARK "<meta name=\"generator\" content=\"weartrack"

@@ -9,7 +9,7 @@
 
 /* clang-format off */
 #define FIGURE_TABLES(X)                                                                            \
-    X(answer) X(methods) X(inputs) X(notes) X(limits) X(data_quality) X(failures) X(cost) X(force_displacement) X(force_indentation) X(curves) X(overrides)    \
+    X(answer) X(methods) X(inputs) X(notes) X(limits) X(data_quality) X(failures) X(cost) X(force_displacement) X(force_indentation) X(curves)    \
     X(modulus_groups) X(modulus_budget) X(modulus_depth) X(modulus_rate) X(comparison) X(track_layer) X(dma_comparison) X(shift_factors)             \
     X(ramp) X(glass_transition) X(moduli_at) X(payne) X(payne_sweep) X(master_curve) X(prony) X(prony_reduced) X(influences) X(relaxation_spectrum) X(material_draws) X(series_draws) X(roughness) X(friction)            \
     X(contact_area) X(layer) X(energy_density) X(identification) X(what_if) X(error_budget)      \

@@ -128,7 +128,6 @@ TABLE_ROW(angular_spectrum, ANGULAR_SPECTRUM, double direction; wt_interval rati
 TABLE_KEYS(angular_spectrum, ANGULAR_SPECTRUM, double chance, p_value_fourth;)
 TABLE_ROW_OF(surfaces, SURFACES, surface_scan)
 TABLE_KEYS(surfaces, SURFACES, const char *form, *window;)
-TABLE_ROW(scan_spectra, SCAN_SPECTRA, wt_spectrum_bin bin; double scatter;)
 
 static wt_estimate plain_estimate(double value, double standard_error)
 {
@@ -352,23 +351,6 @@ static wt_status build_surface_table(const wt_params *params, const wt_topograph
     return table_end(&t, table);
 }
 
-static wt_status build_scan_table(const surface_scan *scans, size_t n, wt_table **table,
-                                  wt_error *err)
-{
-    table_writer t = table_begin(&scan_spectra_schema, err);
-    for (size_t i = 0; i < n; i++) {
-        const wt_surface_spectrum *s = &scans[i].spectrum;
-        for (size_t k = 0; k < s->n; k++) {
-            TABLE_ADD(scan_spectra, &t, s->bins[k], s->bins[k].deviation / s->bins[k].density);
-            scan_spectra_put_text(&t, SCAN_SPECTRA_FILE, scans[i].name);
-            scan_spectra_put(&t,
-                             s->kind == WT_SPECTRUM_2D ? SCAN_SPECTRA_SURFACE : SCAN_SPECTRA_LINE,
-                             s->bins[k].density);
-        }
-    }
-    return table_end(&t, table);
-}
-
 wt_status surface_tables_make(const wt_params *params, const wt_topography_job *job,
                               const surface_scan *scans, size_t n, const surface_result *whole,
                               wt_topography_tables *tables, wt_error *err)
@@ -384,8 +366,6 @@ wt_status surface_tables_make(const wt_params *params, const wt_topography_job *
         status = build_angular_table(whole, &made.angular_spectrum, err);
     if (status == WT_OK)
         status = build_surface_table(params, job, scans, n, &made.surfaces, err);
-    if (status == WT_OK && job->scans)
-        status = build_scan_table(scans, n, &made.scan_spectra, err);
     if (status == WT_OK && job->heights)
         status = build_profile_table(scans, n, &made.height_profile, err);
     if (status == WT_OK && job->heights && maps)

@@ -164,18 +164,4 @@
     X(SURFACES_KEY_FORM, AS(form), TEXT)                                                           \
     X(SURFACES_KEY_WINDOW, AS(window), TEXT)
 
-/* Distinct column names prevent confusion with the spectrum of the surface. */
-#define SCAN_SPECTRA_COLUMNS(X)                                                                    \
-    X(SCAN_SPECTRA_FILE, "file", "file of the scan", TEXT)                                         \
-    X(SCAN_SPECTRA_WAVENUMBER, "bin_wavenumber", "geometric mean of the wavenumbers of its modes", \
-      SI(WAVENUMBER), SHOWS(bin.wavenumber))                                                       \
-    X(SCAN_SPECTRA_SURFACE, "surface_density", "C(q) of an area", SI(POWER_SPECTRUM_2D), SPARSE)   \
-    X(SCAN_SPECTRA_LINE, "line_density", "two-sided C1(q) of a profile", SI(POWER_SPECTRUM_1D),    \
-      SPARSE)                                                                                      \
-    X(SCAN_SPECTRA_SCATTER, AS(scatter), "standard deviation of a mode, of the mean", NUMBER)      \
-    X(SCAN_SPECTRA_MODES, "modes", "modes in the bin", NUMBER, SHOWS(bin.n))                       \
-    X(SCAN_SPECTRA_RELIABLE, "reliable", "is it in the reliable range?", YES_NO,                   \
-      SHOWS(bin.reliable))
-#define SCAN_SPECTRA_KEYS(X)
-
 #endif

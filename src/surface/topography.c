@@ -31,14 +31,9 @@ static const wt_param rows[] = {
              "variable"},
     {PARAM_CHOICE_OF("window", wt_topography_job, options.window, "hann|welch|none"),
      .help = "window before the transform; none is for surfaces that go on beyond their edges"},
-    {PARAM("max-missing", wt_topography_job, options.largest_missing, WT_Q_NONE, FROM_BELOW(0, 1)),
-     .former = "largest-missing", .value = "X", .flags = PARAM_NO_CASE,
-     .help = "share of missing heights up to which they are filled; a scan with more is refused"},
     {PARAM_CHOICE_OF("scan-lines", wt_topography_job, scan_lines, "mend|keep"),
      .help = "what happens to offsets of scan lines and to scars: mend removes them, keep only "
              "names them"},
-    {PARAM("points-per-wave", wt_topography_job, options.points_per_wave, WT_Q_NONE, AT_LEAST(2)),
-     .value = "N", .help = "fewest points of a wave that is reliable"},
     {PARAM("tip-radius", wt_topography_job, options.tip_radius, WT_Q_LENGTH, ABOVE(0)),
      .value = "R", .unset = "",
      .help =
@@ -54,8 +49,6 @@ static const wt_param rows[] = {
     {PARAM("end-slope", wt_topography_job, end_slope, WT_Q_NONE, ABOVE(0)), .value = "X",
      .unset = "",
      .help = "end it where the rms slope reaches this, such as 1.3, by its law if it must be"},
-    {PARAM_FLAG_OF("scans", wt_topography_job, scans), .flags = PARAM_NO_CASE,
-     .help = "the table scan_spectra, too: every scan by itself, unreliable wavenumbers included"},
     {PARAM_FLAG_OF("heights", wt_topography_job, heights), .flags = PARAM_NO_CASE,
      .help = "the tables height_map and height_profile, too: heights less their form, thinned, of "
              "which weartrack report makes figures"},

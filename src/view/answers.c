@@ -5,6 +5,7 @@
 #include "core/base/memory.h"
 #include "view/view_embedded.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -142,9 +143,63 @@ static wt_status answer_trial(view_call *call, wt_error *err)
     return status;
 }
 
+/* Copies the rows of a curve from a table of the result; the copy has none if the table is NULL. */
+static wt_table *rows_of_curve(const view_call *call, const wt_table *from, const char *name)
+{
+    const char *group = call_text(call, "group"), *file = call_text(call, "file");
+    const long of_group = from != NULL ? wt_table_find(from, "group") : -1,
+               of_file = from != NULL ? wt_table_find(from, "file") : -1,
+               of_curve = from != NULL ? wt_table_find(from, "curve") : -1;
+    const double curve = (double)call_number(call, "number", SIZE_MAX);
+    wt_table *to = wt_table_new(name, "");
+    wt_status status = WT_OK;
+    if (of_file < 0 || of_curve < 0)
+        return to;
+    for (size_t c = 0; status == WT_OK && c < wt_table_n_columns(from); c++)
+        status = wt_table_column_kind(from, c) == WT_COLUMN_TEXT
+                     ? wt_table_add_text_column(to, wt_table_column_name(from, c), "", NULL)
+                     : wt_table_add_column(to, wt_table_column_name(from, c),
+                                           wt_table_column_unit(from, c), "", NULL);
+    for (size_t row = 0; row < wt_table_n_rows(from) && status == WT_OK; row++) {
+        const double number = wt_table_number(from, row, (size_t)of_curve);
+        if (number < curve || number > curve || isnan(number) ||
+            strcmp(wt_table_text(from, row, (size_t)of_file), file) != 0 ||
+            (of_group >= 0 && strcmp(wt_table_text(from, row, (size_t)of_group), group) != 0))
+            continue;
+        status = wt_table_add_row(to, NULL);
+        for (size_t c = 0; c < wt_table_n_columns(from); c++)
+            if (wt_table_column_kind(from, c) == WT_COLUMN_TEXT)
+                wt_table_set_text(to, c, wt_table_text(from, row, c));
+            else
+                wt_table_set_number(to, c, wt_table_number(from, row, c));
+    }
+    return to;
+}
+
+/* Answers with a curve as the result has it, which has no case. */
+static wt_status answer_stored_curve(view_call *call, wt_error *err)
+{
+    char *name = format_text("indentation/%s", call_text(call, "group"));
+    const wt_result *result = call->view->result;
+    wt_table *tables[] = {rows_of_curve(call, wt_result_find(result, name), name),
+                          rows_of_curve(call, wt_result_find(result, "curves"), "curves")};
+    wt_status status = WT_OK;
+    if (wt_table_n_rows(tables[0]) == 0 || wt_table_n_rows(tables[1]) == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "the result has no samples of this curve");
+        wt_error_advice(err, "make it by weartrack indent --curves all");
+    } else
+        status = answer_tables(call, (const wt_table *const *)tables, COUNT_OF(tables), 0, err);
+    for (size_t i = 0; i < COUNT_OF(tables); i++)
+        wt_table_free(tables[i]);
+    free(name);
+    return status;
+}
+
 /* Fits one curve as the text of a case requests, and with another value of an option. */
 static wt_status answer_curve(view_call *call, wt_error *err)
 {
+    if (call->body.length == 0 && call->view->result != NULL)
+        return answer_stored_curve(call, err);
     wt_indent_tables tables = {0};
     const double start = wt_time_wall();
     const refit_curve which = {call_text(call, "group"), call_text(call, "file"),

@@ -53,8 +53,6 @@ copy()
 
 copy "$fixtures/dwell/modulation.tsv.gz"
 compare "dwell dwell_moduli" dwell --tip sphere:radius=5um
-copy "$fixtures/formats/table-noise/deflection.csv"
-compare thermal thermal
 copy "$curve"
 compare "sensitivity sensitivity_curves" sensitivity --direction approach --max-slope-change 5
 

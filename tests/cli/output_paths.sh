@@ -26,29 +26,8 @@ touch before after said
 
 fit="--tip pyramid:half-angle=20deg,radius=20nm --spring-constant 0.3N/m"
 # shellcheck disable=SC2086 # a list of words
-"$program" indent -q $fit "$case"/bulk-1.jpk-force-map -o plain.h5
-# shellcheck disable=SC2086
-"$program" indent -q $fit --curves all "$case"/bulk-1.jpk-force-map -o all.h5
-for option in --sheets --browse -o; do
-  refuses 2 "$option -: .*give it a name" $option - all.h5
-done
-refuses 2 '--sheets x: --browse has that name' --browse x --sheets x all.h5
-refuses 2 '--sheets made/../x: --browse has that name' --browse x --sheets made/../x all.h5
-refuses 2 '--browse ./x.html: -o has that name' -o x.html --browse ./x.html all.h5
-for option in --sheets --browse; do
-  refuses 1 'none/x' -o page.html $option none/x all.h5
-  refuses 1 'indent --curves all' -o page.html $option x plain.h5
-done
-
-# Into the folder that is made for the page, and into a pipe, which has no place beside it.
-"$program" report -q -o folder --sheets folder/sheets.pdf all.h5 2>said || fail "sheets in the folder of the page"
-[ -s folder/sheets.pdf ] && [ -s folder/index.html ] || fail "both are there"
-"$program" report -q --sheets /dev/stdout all.h5 2>said | cat >piped.pdf
-head -c 5 piped.pdf | grep -q '%PDF-' || fail "sheets into a pipe"
-[ "$(tail -n 1 piped.pdf)" = "%weartrack sheets" ] || fail "whole sheets into a pipe"
-if TMPDIR=$work/none "$program" report -q --sheets /dev/stdout all.h5 2>said | cat >none.pdf; then :; fi
-grep -q 'set TMPDIR' said || fail "that TMPDIR is no folder is said"
-[ ! -s none.pdf ] || fail "nothing goes into the pipe"
+"$program" indent -q $fit "$case"/bulk-1.jpk-force-map -o all.h5
+refuses 2 '-o -: .*give it a name' -o - all.h5
 
 # A terminal, where there is a program that makes one.
 command -v script >/dev/null || exit 0

@@ -235,9 +235,10 @@ static void open_page(const char *address)
     member("sessionId", session, sizeof session);
 }
 
-static void start_server(const char *program, char *address, size_t size)
+static void start_server(const char *program, const char *path, char *address, size_t size)
 {
-    char *const words[] = {(char *)(size_t)program, "view", "--no-open", NULL};
+    char *const words[] = {(char *)(size_t)program, "view", "--no-open", (char *)(size_t)path,
+                           NULL};
     int out[2];
     check(pipe2(out, O_CLOEXEC) == 0, "pipe");
     const int moves[][2] = {{out[1], STDOUT_FILENO}};
@@ -505,7 +506,7 @@ static void test_new_case(const char *program)
     shell("mkdir new && cp bulk-1.jpk-force-map dma.txt new && mkdir outside && "
           "cp track-1.jpk-force-map outside");
     check(chdir("new") == 0, "new");
-    start_server(program, address, sizeof address);
+    start_server(program, ".", address, sizeof address);
     open_page(address);
     wait_for("document.documentElement.dataset.shown", "start");
     wait_for("document.querySelectorAll('#start details').length", "2");
@@ -536,6 +537,36 @@ static void test_new_case(const char *program)
     (void)kill(server, SIGTERM);
     (void)end_of(server);
     check(chdir("..") == 0, "..");
+}
+
+/* A result without a case: its curves are shown, and what is excluded is for indent. */
+static void test_result_without_case(const char *program)
+{
+    char address[256];
+    char command[4096];
+    (void)snprintf(command, sizeof command,
+                   "mkdir alone && '%s' indent -q --tip pyramid:half-angle=20deg,radius=20nm "
+                   "--spring-constant 0.3N/m --curves all bulk-1.jpk-force-map -o alone/curves.h5",
+                   program);
+    shell(command);
+    start_server(program, "alone/curves.h5", address, sizeof address);
+    open_page(address);
+    wait_for("document.documentElement.dataset.shown", "start");
+    open_panel("curves");
+    wait_for("document.documentElement.dataset.curves", "12");
+    wait_for("document.documentElement.dataset.modulus > 1e6", "true");
+    wait_for("document.querySelector('#curves').textContent.includes('as in the result')", "true");
+    click("#curves input[type=checkbox]");
+    wait_for("document.documentElement.dataset.overrides", "1");
+    check(strcmp(data("error"), "undefined") == 0, "an error of the page");
+    (void)snprintf(command, sizeof command,
+                   "'%s' indent --tip pyramid:half-angle=20deg,radius=20nm --spring-constant "
+                   "0.3N/m --overrides alone/overrides.tsv bulk-1.jpk-force-map -o alone/again.h5 "
+                   "2>&1 | grep -q 'left out by hand'",
+                   program);
+    shell(command);
+    (void)kill(server, SIGTERM);
+    (void)end_of(server);
 }
 
 /* A page of another origin is refused and changes nothing. */
@@ -576,7 +607,7 @@ int main(int argc, char **argv)
         argv[3], argv[3], argv[2], argv[3], argv[3]);
     shell(command);
     check(chdir(argv[3]) == 0, argv[3]);
-    start_server(argv[1], address, sizeof address);
+    start_server(argv[1], ".", address, sizeof address);
     start_browser();
     open_page(address);
     wait_for("document.documentElement.dataset.opened > 0", "true");
@@ -601,6 +632,7 @@ int main(int argc, char **argv)
     (void)kill(server, SIGTERM);
     (void)end_of(server);
     test_new_case(argv[1]);
+    test_result_without_case(argv[1]);
     (void)kill(browser, SIGTERM);
     (void)end_of(browser);
     free(message);

@@ -378,6 +378,36 @@ static void test_result(void)
     check(kill(server, SIGINT) == 0 && end_of(server, 20) == 128 + SIGINT, "Ctrl-C of a result");
 }
 
+/* A result of indent has no case: its curves are shown with the digits that it has. */
+static void test_result_without_case(void)
+{
+    char of_result[64], *const words[] = {(char *)(size_t)program,
+                                          "indent",
+                                          "-q",
+                                          "--tip",
+                                          "pyramid:half-angle=20deg,radius=20nm",
+                                          "--group",
+                                          "other",
+                                          "--curves",
+                                          "bulk-1.jpk-force-map:3",
+                                          "bulk-1.jpk-force-map",
+                                          "-o",
+                                          "alone/curves.h5",
+                                          NULL};
+    check(mkdir("alone", 0777) == 0 && run(words) == 0, "indent");
+    server = start_server("alone/curves.h5");
+    expect(200, "GET", "state", "", "indentation/other");
+    expect(200, "GET", "table?name=indentation/other", "", "\"curve\": 3");
+    expect(200, "POST", "curve?group=other&file=bulk-1.jpk-force-map&number=3", "",
+           "\"fitted_force\"");
+    member("\"rows\"", "modulus", of_result, sizeof of_result);
+    check(atof(of_result) > 0, "the modulus of the row");
+    check(strstr(answer, "\"curve\": 4") == NULL, "one curve");
+    expect(422, "POST", "curve?group=other&file=bulk-1.jpk-force-map&number=4", "",
+           "indent --curves all");
+    check(kill(server, SIGINT) == 0 && end_of(server, 20) == 128 + SIGINT, "Ctrl-C of a result");
+}
+
 /* Latencies depend on the machine. They are printed; only an extreme value is a failure. */
 static void test_latency(const char *case_text)
 {
@@ -435,6 +465,7 @@ int main(int argc, char **argv)
     /* Ctrl-C ends the server at once; after the last page closes it ends within a few seconds. */
     check(kill(server, SIGINT) == 0 && end_of(server, 20) == 128 + SIGINT, "Ctrl-C");
     test_result();
+    test_result_without_case();
     server = start_server(".");
     expect(200, "POST", "page?name=open", "", "{}");
     expect(200, "POST", "page?name=leave", "", "{}");

@@ -48,7 +48,7 @@ foreach(pair IN LISTS pairs)
     endif()
   endforeach()
 endforeach()
-if(n_told LESS 5)
+if(n_told LESS 4)
   message(SEND_ERROR "of ${n_told} DOIs alone a rule tells volume and page")
 endif()
 

@@ -298,32 +298,6 @@ static void check_force(reading *r, const wt_formats *formats, wt_input *input)
     wt_force_curve_clear(&curve);
 }
 
-static void check_noise(reading *r, const wt_formats *formats, wt_input *input)
-{
-    wt_noise_spectrum p = {.n = 0};
-    wt_error err = WT_ERROR_INIT;
-    if (wt_noise_read(formats, input, &r->options, NULL, &p, &err) != WT_OK) {
-        fail(r, "%s; %s", err.message, err.found);
-        return;
-    }
-    for (size_t i = 0; i < r->n; i++) {
-        const char *key = r->keys[i], *value = r->values[i];
-        if (strcmp(key, "points") == 0)
-            is(r, key, (double)p.n, value);
-        else if (strcmp(key, "volts") == 0)
-            is(r, key, p.volts, value);
-        else if (strcmp(key, "f_last") == 0)
-            is(r, key, p.frequency[p.n - 1], value);
-        else if (strcmp(key, "density") == 0)
-            is(r, key, p.density[0], value);
-        else if (strcmp(key, "sensitivity_of_file") == 0)
-            is(r, key, p.sensitivity, value);
-        else if (strcmp(key, "temperature_of_file") == 0)
-            is(r, key, p.temperature, value);
-    }
-    wt_noise_spectrum_clear(&p);
-}
-
 static void check_record(reading *r, const wt_formats *formats, wt_input *input)
 {
     static const char *const names[WT_RECORD_CHANNELS] = {
@@ -464,8 +438,6 @@ static void check(reading *r, const wt_formats *formats, const char *fixtures)
         check_sweep(r, formats, input);
     else if (strcmp(r->kind, "force") == 0)
         check_force(r, formats, input);
-    else if (strcmp(r->kind, "noise") == 0)
-        check_noise(r, formats, input);
     else if (strcmp(r->kind, "record") == 0)
         check_record(r, formats, input);
     else if (strcmp(r->kind, "spectrum") == 0)

@@ -74,21 +74,16 @@ static inline wt_status read_rest(const wt_formats *formats, wt_input *input, un
 {
     const wt_read_options options = wt_read_defaults();
     wt_power_spectrum spectrum = {.n = 0};
-    wt_noise_spectrum noise = {.n = 0};
     wt_record record = {.n = 0};
     wt_image *images = NULL;
     size_t n_images = 0;
     wt_status status = WT_OK;
     if (kind == WT_KIND_RECORD)
         status = wt_record_read(formats, input, &options, log, &record, NULL);
-    else if (kind == WT_KIND_NOISE)
-        status = wt_noise_read(formats, input, &options, log, &noise, NULL);
     else if (kind == WT_KIND_IMAGE)
         status = wt_images_read(formats, input, &options, log, &images, &n_images, NULL);
     else
         status = wt_power_spectrum_read(formats, input, &options, log, &spectrum, NULL);
-    keep(all, noise.frequency, noise.n);
-    keep(all, noise.density, noise.n);
     keep(all, spectrum.wavenumber, spectrum.n);
     for (size_t i = 0; status == WT_OK && i < n_images; i++) {
         keep(all, images[i].values, images[i].n_columns * images[i].n_rows);
@@ -99,7 +94,6 @@ static inline wt_status read_rest(const wt_formats *formats, wt_input *input, un
         keep(all, record.channel[c], record.n);
     wt_record_clear(&record);
     wt_power_spectrum_clear(&spectrum);
-    wt_noise_spectrum_clear(&noise);
     return status;
 }
 
@@ -107,8 +101,8 @@ static inline wt_status read_rest(const wt_formats *formats, wt_input *input, un
 static inline wt_status read_any(const wt_formats *formats, const void *bytes, size_t n,
                                  wt_log *log, numbers *all)
 {
-    static const unsigned kinds[] = {WT_KIND_FORCE,    WT_KIND_SWEEP, WT_KIND_IMAGE,
-                                     WT_KIND_SPECTRUM, WT_KIND_NOISE, WT_KIND_RECORD};
+    static const unsigned kinds[] = {WT_KIND_FORCE, WT_KIND_SWEEP, WT_KIND_IMAGE, WT_KIND_SPECTRUM,
+                                     WT_KIND_RECORD};
     wt_status status = WT_E_FORMAT;
     all->n = all->n_failed = 0;
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {

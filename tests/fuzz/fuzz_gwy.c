@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read_all.h"
 
-#include "read/gwy/gwy.h"
+#include "read/images.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

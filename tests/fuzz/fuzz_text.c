@@ -77,16 +77,6 @@ static void read_as(const file_reader *reader, wt_input *input, const wt_read_op
                 abort();
         wt_power_spectrum_clear(&spectrum);
     }
-    if (reader->read_noise != NULL) {
-        wt_noise_spectrum noise = {.n = 0};
-        const bool read = reader->read_noise(reader, input, options, NULL, &noise, &err) == WT_OK;
-        all_finite(noise.frequency, read ? noise.n : 0);
-        for (size_t i = 1; read && i < noise.n; i++)
-            if (!(noise.frequency[i] > noise.frequency[i - 1]) || noise.density[i] < 0 ||
-                isinf(noise.density[i]))
-                abort();
-        wt_noise_spectrum_clear(&noise);
-    }
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -99,7 +99,6 @@ static int make_nid(const char *folder)
     static const size_t lengths[] = {6, 4};
     const nid_writer_channel both[] = {{0, "Deflection", "V", -1e-5, 2e-5, 32, force},
                                        {7, "Z-Axis Sensor", "m", -1e-5, 2e-5, 16, height}};
-    const nid_writer_channel tune = {0, "ASD", "m/sqrt(Hz)", -1e-5, 2e-5, 32, force};
     nid_writer_group groups[2];
     for (size_t i = 0; i < 2; i++)
         groups[i] = (nid_writer_group){.name = i == 0 ? "Spec forward" : "Spec backward",
@@ -113,7 +112,7 @@ static int make_nid(const char *folder)
                                        .x_range = 1e-6,
                                        .n_channels = 2,
                                        .channels = both};
-    for (int kind = 0; kind < 4; kind++) {
+    for (int kind = 0; kind < 3; kind++) {
         char path[512], name[32];
         nid_writer_file f = nid_writer_defaults();
         snprintf(name, sizeof name, "seed%d.nid", kind);
@@ -136,14 +135,6 @@ static int make_nid(const char *folder)
             groups[0].name = "Scan forward";
             groups[1].name = "Scan backward";
             groups[0].line_points = groups[1].line_points = NULL;
-        }
-        if (kind == 3) { /* a thermal tune */
-            groups[0].name = "Spectrum FFT";
-            groups[0].lines = groups[0].n_channels = f.n_groups = 1;
-            groups[0].x_unit = "Hz";
-            groups[0].channels = &tune;
-            f.info = "Cantilever temperature=40 \302\260C\r\nAverages=10\r\n"
-                     "Frequency:=1.8kHz\r\nSpring Constant:=0.1 N/m\r\n";
         }
         if (nid_write(&f) != 0)
             return -1;

@@ -99,22 +99,6 @@ static inline void read_images(const file_reader *reader, const uint8_t *data, s
     wt_input_close(input);
 }
 
-static inline void read_noise(const file_reader *reader, const uint8_t *data, size_t size,
-                              const wt_read_options *options)
-{
-    wt_input *input = NULL;
-    wt_noise_spectrum noise = {.n = 0};
-    if (wt_input_open_memory(data, size, "fuzz", &input, NULL) != WT_OK)
-        abort();
-    if (reader->read_noise(reader, input, options, NULL, &noise, NULL) == WT_OK)
-        for (size_t i = 0; i < noise.n; i++)
-            if (!(noise.frequency[i] >= 0) || isinf(noise.frequency[i]) || noise.density[i] < 0 ||
-                isinf(noise.density[i]))
-                abort();
-    wt_noise_spectrum_clear(&noise);
-    wt_input_close(input);
-}
-
 /* Reads twice: with the calibration of the file, and with all values that a user may state. */
 static inline void read_all(const file_reader *reader, const uint8_t *data, size_t size)
 {
@@ -123,8 +107,6 @@ static inline void read_all(const file_reader *reader, const uint8_t *data, size
     for (int given = 0; given < 2; given++) {
         if (reader->read_images != NULL)
             read_images(reader, data, size, &options);
-        if (reader->read_noise != NULL)
-            read_noise(reader, data, size, &options);
         if (reader->force != NULL)
             read_curves(reader, data, size, &options);
         options.want = WT_Q_BIT(WT_Q_FORCE);

@@ -103,7 +103,6 @@ static const struct {
     {"plane-poisson", "0.45", NULL, NULL},
     {"axial-poisson", "0.45", NULL, NULL},
     {"at", "25degC", NULL, NULL},
-    {"peak-points", "5", NULL, NULL},
     {"tip-radius", "5um", NULL, NULL},
     {"end", "1e6rad/m", NULL, NULL},
     {"end-slope", "0.3", NULL, NULL},
@@ -539,8 +538,6 @@ static void make_case(size_t s, const char *name, const char *text, const char *
     /* tables that a case gives only on request */
     if (strcmp(name, "at") == 0)
         strncat(xml, "<report><result>moduli_at</result></report>", size - strlen(xml) - 1);
-    if (strcmp(name, "peak-points") == 0)
-        strncat(xml, "<report><result>glass_transition</result></report>", size - strlen(xml) - 1);
     if (strncmp(name, "prony-", 6) == 0)
         strncat(xml, "<report><result>prony_reduced</result></report>", size - strlen(xml) - 1);
     strncat(xml, "</case>", size - strlen(xml) - 1);

@@ -115,7 +115,6 @@ typedef enum work {
     AGAIN,    /* curves fitted, those drawn anew among them */
     SPECTRA,  /* relaxation spectra with their intervals */
     FEW,      /* reductions to few terms */
-    LAWS,     /* fractional Zener laws of the same curve */
     PEAKS,    /* of temperature sweeps */
     BETWEEN,  /* moduli at a temperature */
     SOFTENED, /* laws of strain sweeps */
@@ -143,7 +142,6 @@ static const char *const work_names[N_WORK] = {"channels decoded",
                                                "fits of curves",
                                                "relaxation spectra",
                                                "reduced series",
-                                               "fractional Zener laws",
                                                "peaks",
                                                "moduli at temperatures",
                                                "laws of softening",
@@ -229,12 +227,9 @@ COUNTED(wt_status, flow_spectrum_table, SPECTRA,
 COUNTED(wt_status, wt_prony_reduce, FEW,
         (const wt_prony *from, const wt_reduction *how, wt_prony *prony, wt_error *err),
         (from, how, prony, err))
-COUNTED(wt_status, wt_master_zener, LAWS,
-        (const wt_master *master, const wt_prony *series, wt_zener_fit *fit, wt_error *err),
-        (master, series, fit, err))
 COUNTED(wt_status, wt_peak_find, PEAKS,
-        (const double *x, const double *y, size_t n, size_t points, wt_peak *peak, wt_error *err),
-        (x, y, n, points, peak, err))
+        (const double *x, const double *y, size_t n, wt_peak *peak, wt_error *err),
+        (x, y, n, peak, err))
 COUNTED(wt_status, wt_smooth_interpolate, BETWEEN,
         (const double *x, const double *y, size_t n, double at, wt_interval *value, wt_error *err),
         (x, y, n, at, value, err))
@@ -484,7 +479,6 @@ static void check_dma(const char *asks, const ran *r)
 {
     check(asks, SPECTRA, shown(r, FLOW_RELAXATION_SPECTRUM));
     check(asks, FEW, shown(r, FLOW_PRONY_REDUCED));
-    check(asks, LAWS, shown(r, FLOW_PRONY_REDUCED));
     check_some(asks, PEAKS, shown(r, FLOW_GLASS_TRANSITION));
     check_some(asks, BETWEEN, shown(r, FLOW_MODULI_AT));
     check_some(asks, SOFTENED, runs(r, FLOW_PAYNE));

@@ -844,61 +844,6 @@ static void test_calibration(void **state)
     (void)remove(path);
 }
 
-/* Spectra of a table and of a thermal tune; three of one kind scatter. */
-static void test_thermal(void **state)
-{
-    (void)state;
-    enum { N = 400 };
-    static double density[N];
-    static const char path[] = "test_tables_put_tune.nid";
-    const nid_writer_channel channel = {
-        0, "Amplitude Spectral Density", "m/sqrt(Hz)", 0, 4e-11, 32, density};
-    const nid_writer_group group = {.name = "Spectrum FFT",
-                                    .points = N,
-                                    .lines = 1,
-                                    .x_name = "Frequency",
-                                    .x_unit = "Hz",
-                                    .x_range = 40e3,
-                                    .n_channels = 1,
-                                    .channels = &channel};
-    nid_writer_file file = nid_writer_defaults();
-    uint64_t seed = 3;
-    for (size_t i = 0; i < N; i++) {
-        const double x = (double)i / 200, d = pow(1 - x * x, 2) + x * x / 400;
-        density[i] = 1e-13 * sqrt(1 / d + 0.5) * (1 + 0.05 * truth_normal(&seed));
-    }
-    file.path = path;
-    file.groups = &group;
-    file.n_groups = 1;
-    file.info = "Cantilever temperature=30\r\nAverages=100\r\nFrequency:=20.0kHz\r\n"
-                "Q Factor:=20\r\nSpring Constant:=0.5 N/m\r\n";
-    assert_int_equal(nid_write(&file), 0);
-    const char *const patterns[] = {path, FORMATS "table-noise/deflection.csv",
-                                    FORMATS "table-noise/detector.txt"};
-    wt_job common = wt_job_defaults();
-    wt_thermal_job job = wt_thermal_job_defaults();
-    common.formats = formats;
-    job.n_sets = 1;
-    job.sensitivity_error = 0.01;
-    /* a very different cantilever: an inconsistency, but not of the fixtures in the second call */
-    job.length = (wt_estimate){200e-6, 2e-6, 0, "m"};
-    job.width = (wt_estimate){40e-6, 1e-6, 0, "m"};
-    for (size_t n = 1; n <= 3; n += 2) {
-        if (n > 1)
-            job.length = job.width = wt_thermal_job_defaults().length;
-        const wt_file_set set = {.patterns = patterns, .n_patterns = n, .read = wt_read_defaults()};
-        wt_table *table = NULL;
-        wt_error err = WT_ERROR_INIT;
-        job.sets = &set;
-        if (wt_thermal_compute(&job, &common, &table, &err) != WT_OK)
-            fail_msg("%s %s", err.message, err.found);
-        assert_int_equal(wt_table_n_rows(table), n);
-        see(table);
-        wt_table_free(table);
-    }
-    (void)remove(path);
-}
-
 /* A reciprocating record with all channels, then a disc with stick-slip, once with all data of its
  * wear and once without. */
 static void test_record(void **state)
@@ -1103,7 +1048,7 @@ static void see_surfaces(const char *const *files, size_t n)
     common.formats = formats;
     job.sets = &set;
     job.n_sets = 1;
-    job.scans = job.heights = true;
+    job.heights = true;
     job.end_slope = n > 1 ? 1.3 : (double)NAN;
     if (wt_topography_compute(&job, &common, &tables, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
@@ -1116,7 +1061,6 @@ static void see_surfaces(const char *const *files, size_t n)
         see(tables.height_map);
     see(tables.height_profile);
     see(tables.surfaces);
-    see(tables.scan_spectra);
     wt_tables_clear(&tables, sizeof tables);
 }
 
@@ -1345,7 +1289,6 @@ int main(void)
         cmocka_unit_test(test_validation),
         cmocka_unit_test(test_identification),
         cmocka_unit_test(test_dwell),
-        cmocka_unit_test(test_thermal),
         cmocka_unit_test(test_transverse_isotropy),
         cmocka_unit_test(test_spot),
         cmocka_unit_test(test_surface),

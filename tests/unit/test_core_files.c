@@ -291,7 +291,7 @@ static void write_database(const char *path, const char *id)
 static void inputs_are_not_overwritten(void **state)
 {
     (void)state;
-    char path[256], other[256], pdf[256];
+    char path[256], other[256], foreign[256];
     wt_error err = WT_ERROR_INIT;
     wt_atomic_file *file = NULL;
     path_of("read.txt", path);
@@ -305,18 +305,16 @@ static void inputs_are_not_overwritten(void **state)
     assert_int_equal(wt_outfile_open(path, &file, &err), WT_E_ARG);
     assert_string_equal(err.file, path);
     assert_int_equal(wt_outfile_open(other, &file, &err), WT_E_ARG);
-    /* A file that exists now, because a later file might get the inode of a file that was read. */
-    path_of("sheets.pdf", pdf);
-    write_file("sheets.pdf", "%PDF\1\n%%EOF\n");
-    assert_int_equal(wt_check_overwrite(pdf, &err), WT_E_ARG); /* database of another program */
-    write_file("sheets.pdf", "%PDF\1\n%%EOF\n%weartrack sheets\n");
-    assert_int_equal(wt_check_overwrite(pdf, &err), WT_OK);
-    assert_int_equal(unlink(pdf), 0);
-    write_database(pdf, "GP10");
-    assert_int_equal(wt_check_overwrite(pdf, &err), WT_E_ARG); /* a GeoPackage */
-    write_database(pdf, "wtrk");
-    assert_int_equal(wt_check_overwrite(pdf, &err), WT_OK);
-    assert_int_equal(unlink(pdf), 0);
+    /* A file that is there now: a later one might get the number of one that was read. */
+    path_of("other.pdf", foreign);
+    write_file("other.pdf", "%PDF\1\n%%EOF\n");
+    assert_int_equal(wt_check_overwrite(foreign, &err), WT_E_ARG); /* of another program */
+    assert_int_equal(unlink(foreign), 0);
+    write_database(foreign, "GP10");
+    assert_int_equal(wt_check_overwrite(foreign, &err), WT_E_ARG); /* a GeoPackage */
+    write_database(foreign, "wtrk");
+    assert_int_equal(wt_check_overwrite(foreign, &err), WT_OK);
+    assert_int_equal(unlink(foreign), 0);
     assert_int_equal(unlink(path) + unlink(other), 0);
     for (int i = 0; i < 300; i++) /* many */
         wt_protect_input("/proc/self/exe");

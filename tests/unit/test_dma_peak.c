@@ -8,9 +8,6 @@
 #include "dma/numerics/gaussian_process.h"
 #include "dma_data.h"
 
-#define TIDY WT_SHARED_DIR "/data/dma/tidy/"
-#define REFERENCE WT_SHARED_DIR "/data/dma-scans/tg-from-isotherms.csv"
-
 /* A Havriliak-Negami process, which is asymmetric, with a network. */
 typedef struct rubber {
     double glassy, rubbery, width, skew;
@@ -73,7 +70,7 @@ static void peaks_hold_the_truth(void **unused)
             const rubber *r;
             wt_peak peak;
             const size_t n = measure(draw, factor, x, y, &state, &r);
-            assert_int_equal(wt_peak_find(x, y, n, 0, &peak, NULL), WT_OK);
+            assert_int_equal(wt_peak_find(x, y, n, &peak, NULL), WT_OK);
             if (!peak.found)
                 continue;
             const double truth = true_peak(r, factor);
@@ -204,21 +201,21 @@ static void no_peak(void **unused)
         x[i] = i;
         y[i] = exp(0.05 * i);
     }
-    assert_int_equal(wt_peak_find(x, y, 60, 0, &peak, NULL), WT_OK);
+    assert_int_equal(wt_peak_find(x, y, 60, &peak, NULL), WT_OK);
     assert_false(peak.found);
     assert_true(isnan(peak.at.value));
     assert_non_null(strstr(peak.reason, "largest at the highest temperatures"));
     for (int i = 0; i < 60; i++)
         y[i] = exp(-0.05 * i);
     y[1] = 2;
-    assert_int_equal(wt_peak_find(x, y, 60, 0, &peak, NULL), WT_OK);
+    assert_int_equal(wt_peak_find(x, y, 60, &peak, NULL), WT_OK);
     assert_non_null(strstr(peak.reason, "no peak in range: largest at the lowest"));
-    assert_int_equal(wt_peak_find(x, y, 4, 0, &peak, NULL), WT_OK);
+    assert_int_equal(wt_peak_find(x, y, 4, &peak, NULL), WT_OK);
     assert_non_null(strstr(peak.reason, "fewer than 5"));
     for (int k = 0; k < 100; k++) {
         for (int i = 0; i < 60; i++)
             y[i] = exp(0.02 * dma_normal(&state));
-        assert_int_equal(wt_peak_find(x, y, 60, 0, &peak, NULL), WT_OK);
+        assert_int_equal(wt_peak_find(x, y, 60, &peak, NULL), WT_OK);
         false_ones += peak.found;
     }
     print_message("peaks of scatter: %zu of 100\n", false_ones);
@@ -227,89 +224,6 @@ static void no_peak(void **unused)
     assert_true(isnan(got.value) && isnan(got.low));
     assert_int_equal(wt_smooth_interpolate(x, y, 4, 2, &got, NULL), WT_OK);
     assert_true(isnan(got.value));
-}
-
-/* Exact points determine a parabola exactly. */
-static void parabola(void **unused)
-{
-    double x[9], y[9];
-    wt_peak peak;
-    (void)unused;
-    for (int i = 0; i < 9; i++) {
-        x[i] = 280 + 3 * i;
-        y[i] = 0.8 - 1e-3 * (x[i] - 291.3) * (x[i] - 291.3);
-    }
-    for (size_t points = 5; points <= 7; points++) {
-        assert_int_equal(wt_peak_find(x, y, 9, points, &peak, NULL), WT_OK);
-        assert_true(peak.found);
-        assert_near(peak.at.value, 291.3, 1e-9);
-        assert_near(peak.height.value, 0.8, 1e-9);
-        assert_int_equal(peak.n, points);
-        assert_near_abs(peak.misfit, 0, 1e-9);
-    }
-    assert_int_equal(wt_peak_find(x, y, 8, 8, &peak, NULL), WT_OK);
-    assert_false(peak.found); /* not so many on both sides */
-}
-
-/* ---- the reference table --------------------------------------------------------------------- */
-
-/* Points of one nominal frequency. */
-static size_t slice(const wt_sweep *sweep, double omega, bool factor, double *x, double *y)
-{
-    size_t n = 0;
-    for (size_t i = 0; i < sweep->n_isotherms; i++) {
-        const wt_isotherm *t = &sweep->isotherms[i];
-        for (size_t k = 0; k < t->n; k++)
-            if (fabs(t->angular_frequency[k] / omega - 1) < 5e-4 && t->loss_modulus[k] > 0) {
-                x[n] = t->temperature - 273.15;
-                y[n++] = t->loss_modulus[k] / (factor ? t->storage_modulus[k] : 1);
-                break;
-            }
-    }
-    return n;
-}
-
-/* Vertex, height and lack of fit of five points, from another program. */
-static void reference_parabolas(void **unused)
-{
-    static const char *const sets[] = {"stare_E", "hermes_ares", "nrel_A", "PI_94.9k"};
-    FILE *file = fopen(REFERENCE, "r");
-    char line[1024];
-    size_t checked = 0;
-    (void)unused;
-    if (file == NULL)
-        skip();
-    for (size_t s = 0; s < 4; s++) {
-        wt_sweep sweep = {0};
-        char path[256];
-        (void)snprintf(path, sizeof path, "%s%s.csv", TIDY, sets[s]);
-        assert_true(dma_read_tidy(path, &sweep));
-        rewind(file);
-        while (fgets(line, sizeof line, file) != NULL) {
-            char set[32], quantity[32];
-            double f, largest, at, height, misfit, x[MOST], y[MOST];
-            int n_t;
-            wt_peak peak;
-            if (sscanf(line, "%31[^,],%31[^,],%lf,%d,%lf,%lf,%lf,%lf", set, quantity, &f, &n_t,
-                       &largest, &at, &height, &misfit) != 8 ||
-                strcmp(set, sets[s]) != 0)
-                continue;
-            const size_t n = slice(&sweep, 2 * M_PI * f, strcmp(quantity, "tan_delta") == 0, x, y);
-            assert_int_equal(n, n_t);
-            assert_int_equal(wt_peak_find(x, y, n, 5, &peak, NULL), WT_OK);
-            /* the tidy tables of two sets have measured temperatures, the other table nominal
-             * ones */
-            const bool nominal = s == 1 || s == 2;
-            assert_near_abs(peak.at.value, at, nominal ? 0.05 : 2e-6);
-            assert_near(peak.height.value, height, nominal ? 1e-3 : 2e-6);
-            assert_near_abs(peak.misfit, misfit, nominal ? 1e-3 : 1e-4);
-            checked++;
-        }
-        wt_sweep_clear(&sweep);
-    }
-    fclose(file);
-    print_message("%zu parabolas\n", checked);
-    assert_int_equal(checked, 152);
 }
 
 /* Parabola about 3 with half-width 5: its values, its slopes in units of x, and the side of a limit
@@ -324,7 +238,7 @@ static void slopes(void **state)
         x[i] = -2 + 0.5 * i;
         y[i] = 0.4 * x[i] * x[i] - x[i] + 7 + 1e-6 * (i % 2 == 0 ? 1 : -1);
     }
-    assert_int_equal(gaussian_process_new(x, y, POINTS, true, &s, NULL), WT_OK);
+    assert_int_equal(gaussian_process_new(x, y, POINTS, &s, NULL), WT_OK);
     for (double at = -2; at <= 8; at += 1.25) {
         const double slope = 0.8 * at - 1;
         assert_near_abs(gaussian_process_mean(&s, at, GP_VALUE), 0.4 * at * at - at + 7, 1e-5);
@@ -407,8 +321,6 @@ int main(void)
                                        cmocka_unit_test(no_onset),
                                        cmocka_unit_test(values_hold_the_truth),
                                        cmocka_unit_test(no_peak),
-                                       cmocka_unit_test(parabola),
-                                       cmocka_unit_test(reference_parabolas),
                                        cmocka_unit_test(slopes),
                                        cmocka_unit_test(lower_peaks_are_found),
                                        cmocka_unit_test(no_lower_peak)};

@@ -289,7 +289,6 @@ static void test_columns(void **state)
     job.x = 0.48e-6;
     job.y = 0.53e-6;
     job.position_error = 20e-9;
-    job.largest_effect = 0.2;
     write_image(&s, &seed);
     wt_table *t = make(&job);
     double pixels = 0;
@@ -306,10 +305,10 @@ static void test_columns(void **state)
     assert_near(cell(t, 0, "ratio"), rms / DEPTH, 1e-9);
     assert_near(cell(t, 0, "ratio_low"), low / DEPTH, 1e-9);
     assert_near(cell(t, 0, "ratio_high"), high / DEPTH, 1e-9);
-    assert_near(cell(t, 0, "limit"), 0.1, 1e-6); /* of a cone */
+    assert_near(cell(t, 0, "limit"), 0.05, 1e-6); /* of a cone */
     assert_string_equal(wt_table_key(t, "image"), "Scan forward: Z-Axis");
     assert_non_null(strstr(wt_table_key(t, "tip"), "35"));
-    assert_near(strtod(wt_table_key(t, "largest_effect"), NULL), 0.2, 1e-12);
+    assert_near(strtod(wt_table_key(t, "largest_effect"), NULL), 0.1, 1e-12);
     wt_table_free(t);
 }
 

@@ -202,7 +202,6 @@ static void binary_readers_are_complete(void **state)
         assert_int_equal(r->read_sweep != NULL, (r->info.kinds & WT_KIND_SWEEP) != 0);
         assert_int_equal(r->read_images != NULL, (r->info.kinds & WT_KIND_IMAGE) != 0);
         assert_int_equal(r->read_spectrum != NULL, (r->info.kinds & WT_KIND_SPECTRUM) != 0);
-        assert_int_equal(r->read_noise != NULL, (r->info.kinds & WT_KIND_NOISE) != 0);
         assert_non_null(r->describe);
         for (size_t k = 0; k < sizeof strange / sizeof *strange; k++) {
             file_peek peek = {.bytes = (const unsigned char *)strange[k],

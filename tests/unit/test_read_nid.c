@@ -485,7 +485,7 @@ static void measured_thermal_spectrum(void **state)
     assert_int_equal(n, 2);
     const wt_image *s = &images[0];
     assert_string_equal(s->name, "Spectrum FFT: Amplitude Spectral Density");
-    assert_string_equal(s->unit, "m.Hz^-0.5");
+    assert_string_equal(s->unit, "m/sqrt(Hz)");
     assert_string_equal(s->x_unit, "Hz");
     assert_int_equal(s->n_rows, 1);
     assert_int_equal(s->n_columns, 8369);

@@ -84,15 +84,6 @@ static void describe_indentation(text_builder *t, const table_view *table)
                 ratio != NULL ? ratio : "");
 }
 
-static void describe_thermal(text_builder *t, const table_view *table)
-{
-    const wt_estimate constant = thermal_value(table, THERMAL_KEY_SPRING_CONSTANT);
-    text_append(t,
-                "The spring constant of the cantilever%s%s was determined from its thermal noise.",
-                isfinite(constant.value) ? ", " : "",
-                isfinite(constant.value) ? format_estimate(constant).text : "");
-}
-
 /* ---- comparison ------------------------------------------------------------------------------ */
 
 static void describe_welch(text_builder *t, const table_view *table)
@@ -195,19 +186,6 @@ static void describe_arrhenius(text_builder *t, const table_view *table)
     const wt_estimate energy = shift_factors_value(table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
     text_append(t, "The shift factors follow Arrhenius' law%s with an activation energy of %s.",
                 has_wlf_constants(table) ? " in the cold" : "", format_estimate(energy).text);
-}
-
-static bool has_zener_comparison(const table_view *table)
-{
-    return prony_reduced_key_text(table, PRONY_REDUCED_KEY_BETTER) != NULL;
-}
-
-static void describe_zener(text_builder *t, const table_view *table)
-{
-    text_append(t,
-                "A Prony series of %zu term%s and a fractional Zener law were compared by Akaike's "
-                "criterion with the correction for few points.",
-                table->n_rows, table->n_rows == 1 ? "" : "s");
 }
 
 static void describe_payne(text_builder *t, const table_view *table)
@@ -317,8 +295,6 @@ static void describe_track_layer(text_builder *t, const table_view *table)
 /* ---- the list -------------------------------------------------------------------------------- */
 
 static const method methods[] = {
-    {"spring constant by thermal noise", &thermal_schema, NULL, describe_thermal,
-     "H.-J. Butt and M. Jaschke, Nanotechnology 6 (1995) 1", "10.1088/0957-4484/6/1/001"},
     {"contact law of a blunted pyramid", &indentation_schema, is_blunted, describe_indentation,
      "F. Rico et al., Phys. Rev. E 72 (2005) 021914", "10.1103/PhysRevE.72.021914"},
     {"contact law of the tip", &indentation_schema, is_general_tip, describe_indentation,
@@ -337,8 +313,6 @@ static const method methods[] = {
      "M. L. Williams, R. F. Landel and J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701",
      "10.1021/ja01619a008"},
     {"Arrhenius' law", &shift_factors_schema, has_activation_energy, describe_arrhenius, "", ""},
-    {"corrected criterion of Akaike", &prony_reduced_schema, has_zener_comparison, describe_zener,
-     "C. M. Hurvich and C.-L. Tsai, Biometrika 76 (1989) 297", "10.1093/biomet/76.2.297"},
     {"law of Kraus", &payne_schema, NULL, describe_payne,
      "G. Kraus, J. Appl. Polym. Sci., Appl. Polym. Symp. 39 (1984) 75, as in Rutherford et al., "
      "Polymers 15 (2023) 1675",

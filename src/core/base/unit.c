@@ -266,22 +266,6 @@ static wt_status convert_unit(const char *unit, const char *si, bool *good, doub
     return known ? WT_OK : query_udunits(unit, si, good, factor, offset, err);
 }
 
-/* UDUNITS supports integer powers only. The square root of the hertz is removed from the text. */
-static bool strip_root_hertz(char *unit)
-{
-    static const char *const spellings[] = {"/sqrt(Hz)", "/\xE2\x88\x9AHz", "/rtHz",   "/Hz^0.5",
-                                            "/Hz^(1/2)", ".Hz^-0.5",        " Hz^-0.5"};
-    const size_t length = strlen(unit);
-    for (size_t i = 0; i < sizeof spellings / sizeof *spellings; i++) {
-        const size_t n = strlen(spellings[i]);
-        if (length > n && strcmp(unit + length - n, spellings[i]) == 0) {
-            unit[length - n] = '\0';
-            return true;
-        }
-    }
-    return false;
-}
-
 /* Skips the blanks around a text. */
 static const char *skip_outer_blanks(const char *text, size_t *length)
 {
@@ -375,11 +359,6 @@ static wt_status convert_quantity_unit(const char text[UNIT_MAX], wt_quantity qu
     const char *si = wt_quantity_unit(quantity), *instead = NULL;
     char unit[UNIT_MAX];
     memcpy(unit, text, sizeof unit);
-    if (quantity == WT_Q_SPECTRAL_DENSITY || quantity == WT_Q_VOLTAGE_DENSITY) {
-        if (!strip_root_hertz(unit))
-            return WT_OK;
-        si = quantity == WT_Q_SPECTRAL_DENSITY ? "m" : "V";
-    }
     wt_status status = convert_unit(unit, si, good, factor, offset, err);
     if (status != WT_OK || *good)
         return status;

@@ -28,15 +28,6 @@ void wt_record_torque_to_force(wt_record *record, double radius)
     record->channel[WT_RECORD_TORQUE] = NULL;
 }
 
-void wt_noise_spectrum_clear(wt_noise_spectrum *spectrum)
-{
-    if (spectrum == NULL)
-        return;
-    free(spectrum->frequency);
-    free(spectrum->density);
-    *spectrum = (wt_noise_spectrum){.n = 0};
-}
-
 void wt_power_spectrum_clear(wt_power_spectrum *spectrum)
 {
     if (spectrum == NULL)

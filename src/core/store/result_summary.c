@@ -165,25 +165,25 @@ static wt_result_status result_completeness(const table_view *failures, const ta
 }
 
 /* Further tables with headlines. Those from WITH_KEYS on have headlines in their keys. */
-enum { ANSWER, NOTES, FAILURES, WITH_KEYS, N_TABLES = WITH_KEYS + 15 };
-static const table_schema *const sources[N_TABLES] = {[ANSWER] = &answer_schema,
-                                                      [NOTES] = &notes_schema,
-                                                      [FAILURES] = &failures_schema,
-                                                      [WITH_KEYS] = &shift_factors_schema,
-                                                      &glass_transition_schema,
-                                                      &friction_schema,
-                                                      &layer_schema,
-                                                      &dwell_schema,
-                                                      &sensitivity_schema,
-                                                      &thermal_schema,
-                                                      &ratio_pairs_schema,
-                                                      &identification_schema,
-                                                      &shared_pairs_schema,
-                                                      &validation_schema,
-                                                      &validation_running_in_schema,
-                                                      &record_schema,
-                                                      &wear_schema,
-                                                      &power_spectrum_schema};
+enum { ANSWER, NOTES, FAILURES, WITH_KEYS };
+static const table_schema *const sources[] = {[ANSWER] = &answer_schema,
+                                              [NOTES] = &notes_schema,
+                                              [FAILURES] = &failures_schema,
+                                              [WITH_KEYS] = &shift_factors_schema,
+                                              &glass_transition_schema,
+                                              &friction_schema,
+                                              &layer_schema,
+                                              &dwell_schema,
+                                              &sensitivity_schema,
+                                              &ratio_pairs_schema,
+                                              &identification_schema,
+                                              &shared_pairs_schema,
+                                              &validation_schema,
+                                              &validation_running_in_schema,
+                                              &record_schema,
+                                              &wear_schema,
+                                              &power_spectrum_schema};
+enum { N_TABLES = sizeof sources / sizeof *sources };
 
 bool store_has_headlines(const char *table)
 {

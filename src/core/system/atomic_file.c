@@ -74,15 +74,6 @@ static bool has_binary_bytes(const unsigned char *block, size_t n)
     return false;
 }
 
-/* True if the file ends like a PDF of this program. */
-static bool is_weartrack_pdf(FILE *file)
-{
-    char end[sizeof PDF_SIGNATURE - 1];
-    return fseeko(file, -(off_t)sizeof end, SEEK_END) == 0 &&
-           fread(end, 1, sizeof end, file) == sizeof end &&
-           memcmp(end, PDF_SIGNATURE, sizeof end) == 0;
-}
-
 static bool is_weartrack_database(const unsigned char *begin, size_t n)
 {
     return n >= SQLITE_APPLICATION_ID_OFFSET + SQLITE_APPLICATION_ID_SIZE &&
@@ -91,8 +82,8 @@ static bool is_weartrack_database(const unsigned char *begin, size_t n)
                   SQLITE_APPLICATION_ID_SIZE) == 0;
 }
 
-/* True if the file was probably written by an instrument: it is neither text nor HDF5, a database
- * or a PDF of this program. Files of instruments may have a text header. Therefore the middle and
+/* True if the file was probably written by an instrument: it is neither text nor HDF5 or a
+ * database of this program. Files of instruments may have a text header. Therefore the middle and
  * the end of the file are also checked. */
 static bool is_foreign(const char *path, off_t size)
 {
@@ -104,7 +95,7 @@ static bool is_foreign(const char *path, off_t size)
     FILE *file = fopen(path, "rbe");
     if (file == NULL)
         return false; /* the later attempt to write reports an error */
-    bool own = is_weartrack_pdf(file);
+    bool own = false;
     for (size_t i = 0; i < sizeof places / sizeof *places && !own && !foreign; i++) {
         const size_t n =
             fseeko(file, places[i], SEEK_SET) == 0 ? fread(block, 1, sizeof block, file) : 0;

@@ -86,7 +86,6 @@
     X(sensitivity, SENSITIVITY, "sensitivity", "Deflection sensitivity", "sensitivity")            \
     X(sensitivity_curves, SENSITIVITY_CURVES, "sensitivity_curves",                                \
       "Deflection sensitivity of every curve", "sensitivity")                                      \
-    X(thermal, THERMAL, "thermal", "Spring constant by thermal noise", "thermal")                  \
     X(spot, SPOT, "spot", "Roughness of a spot", "spot")                                           \
     X(modulus_groups, MODULUS_GROUPS, "modulus_groups", "Modulus of the groups", "compare")        \
     X(modulus_budget, MODULUS_BUDGET, "modulus_budget",                                            \
@@ -142,7 +141,6 @@
     X(height_map, HEIGHT_MAP, "height_map", "Heights of a surface", "psd")                         \
     X(height_profile, HEIGHT_PROFILE, "height_profile", "Heights along a line of a surface",       \
       "psd")                                                                                       \
-    X(scan_spectra, SCAN_SPECTRA, "scan_spectra", "Power spectrum of every scan", "psd")           \
     X(roughness, ROUGHNESS, "roughness", "Power spectrum of the counter surface", "run")           \
     X(friction, FRICTION, "friction", "Friction against velocity", "friction")                     \
     X(contact_area, CONTACT_AREA, "contact_area", "Contact area against magnification",            \

@@ -196,47 +196,6 @@ static void add_sensitivity(rows_source *s, const table_view *v)
         rows_add_text(s, 1, "", "for weartrack compare: %s", compare);
 }
 
-static void add_thermal(rows_source *s, const table_view *v)
-{
-    const wt_estimate k = thermal_value(v, THERMAL_KEY_SPRING_CONSTANT);
-    const char *indent = thermal_key_text(v, THERMAL_KEY_INDENT),
-               *compare = thermal_key_text(v, THERMAL_KEY_COMPARE);
-    size_t n = 0;
-    for (size_t i = 0; i < v->n_rows; i++)
-        n += isnan(thermal_get(v, i, THERMAL_SPRING_CONSTANT)) ? 0 : 1;
-    result_row *row = rows_add_number(s, 0, rows_estimate(k), "spring constant");
-    if (isnan(k.value))
-        rows_note(row, "%s", v->n_rows > 0 ? thermal_text(v, 0, THERMAL_NOTE) : "");
-    else if (v->n_rows > 1)
-        rows_note(row, "mean of %zu spectra", n);
-    rows_reason(row, "its error is that of", thermal_key_text(v, THERMAL_KEY_INCLUDES));
-    if (v->n_rows == 1 && !isnan(k.value)) {
-        rows_add_number(
-            s, 1, rows_number(thermal_get(v, 0, THERMAL_RESONANCE), (double)NAN, (double)NAN, "Hz"),
-            "resonance");
-        rows_add_number(
-            s, 1, rows_number(thermal_get(v, 0, THERMAL_QUALITY), (double)NAN, (double)NAN, "1"),
-            "quality factor");
-    }
-    if (v->n_rows == 1 && !isnan(thermal_get(v, 0, THERMAL_RATIO)))
-        rows_add_number(
-            s, 0, rows_number(thermal_get(v, 0, THERMAL_RATIO), (double)NAN, (double)NAN, "1"),
-            "over that of the file");
-    if (v->n_rows == 1 && !isnan(thermal_get(v, 0, THERMAL_SADER)))
-        rows_add_number(
-            s, 0, rows_number(thermal_get(v, 0, THERMAL_SADER), (double)NAN, (double)NAN, "N/m"),
-            "by Sader's method");
-    const char *contradiction = thermal_key_text(v, THERMAL_KEY_CONTRADICTION);
-    if (indent == NULL && contradiction != NULL) {
-        row = rows_add_text(s, 0, "no", "to be used");
-        rows_reason(row, "not to be used", contradiction);
-    }
-    if (indent != NULL)
-        rows_add_text(s, 1, "", "for weartrack indent: %s", indent);
-    if (compare != NULL)
-        rows_add_text(s, 1, "", "for weartrack compare: %s", compare);
-}
-
 static void add_spot(rows_source *s, const table_view *v)
 {
     const char *verdict = spot_key_text(v, SPOT_KEY_VERDICT);
@@ -279,7 +238,6 @@ void rows_of_curves(rows_source *s)
     } parts[] = {{&dwell_schema, add_dwells},
                  {&dwell_dma_schema, add_dwell_ratios},
                  {&sensitivity_schema, add_sensitivity},
-                 {&thermal_schema, add_thermal},
                  {&spot_schema, add_spot},
                  {&comparison_schema, add_ratio}};
     table_view view;

@@ -157,8 +157,8 @@ static gp_hyperparameters *new_component(gaussian_process *s, double length, dou
     return w;
 }
 
-wt_status gaussian_process_new(const double *x, const double *y, size_t n, bool parabola,
-                               gaussian_process *s, wt_error *err)
+wt_status gaussian_process_new(const double *x, const double *y, size_t n, gaussian_process *s,
+                               wt_error *err)
 {
     *s = (gaussian_process){.n = 0};
     gsl_quiet();
@@ -167,9 +167,7 @@ wt_status gaussian_process_new(const double *x, const double *y, size_t n, bool 
     double best = -HUGE_VAL, sum = 0;
     for (size_t k = 0; k < COUNT_OF(lengths); k++)
         for (size_t r = 0; r < COUNT_OF(ratios); r++) {
-            if (parabola && k + r > 0)
-                continue;
-            gp_hyperparameters *w = new_component(s, lengths[k], parabola ? 0 : ratios[r]);
+            gp_hyperparameters *w = new_component(s, lengths[k], ratios[r]);
             if (!fit_component(s, w, scratch))
                 continue;
             best = fmax(best, w->log_weight);

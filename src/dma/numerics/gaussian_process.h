@@ -24,10 +24,10 @@ typedef struct gaussian_process {
 
 typedef enum gp_order { GP_VALUE, GP_SLOPE } gp_order;
 
-/* Fits the curve. x is rising and n >= GP_MIN_POINTS. With `parabola` the Gaussian process is
- * omitted. The caller frees s, also on failure. */
-wt_status gaussian_process_new(const double *x, const double *y, size_t n, bool parabola,
-                               gaussian_process *s, wt_error *err) WT_NODISCARD;
+/* Fits the curve. x is rising and n >= GP_MIN_POINTS. The caller frees s, also on
+ * failure. */
+wt_status gaussian_process_new(const double *x, const double *y, size_t n, gaussian_process *s,
+                               wt_error *err) WT_NODISCARD;
 void gaussian_process_free(gaussian_process *s);
 double gaussian_process_mean(const gaussian_process *s, double x, gp_order order);
 /* Returns the probability that the curve, or its slope, is below `limit` at x. */

@@ -91,7 +91,7 @@ static wt_status locate_onset(const double *x, const double *z, size_t n, wt_ons
     gaussian_process s;
     for (int i = 0; i < POSITIONS; i++)
         positions[i] = x[0] + (x[n - 1] - x[0]) * i / (POSITIONS - 1);
-    const wt_status status = gaussian_process_new(x, z, n, false, &s, err);
+    const wt_status status = gaussian_process_new(x, z, n, &s, err);
     if (status == WT_OK)
         onset->at = gaussian_process_slope_interval(&s, positions, POSITIONS, tangent_intersection);
     gaussian_process_free(&s);
@@ -153,18 +153,11 @@ static void set_no_peak(wt_peak *peak, const char *reason)
                       .reason = reason};
 }
 
-/* Selects the points around the largest one: first index and end index. Returns false if they
- * leave the range. */
-static bool select_peak_points(const double *y, size_t n, size_t top, size_t n_requested,
-                               size_t *first, size_t *last)
+/* Selects the points around the largest one: first index and end index. */
+static void select_peak_points(const double *y, size_t n, size_t top, size_t *first, size_t *last)
 {
     *first = top;
     *last = top + 1;
-    if (n_requested > 0) {
-        *first = top - (n_requested - 1) / 2;
-        *last = *first + n_requested;
-        return top >= (n_requested - 1) / 2 && *last <= n;
-    }
     while (*first > 0 && y[*first - 1] > peak_share * y[top])
         --*first;
     while (*last < n && y[*last] > peak_share * y[top])
@@ -175,7 +168,6 @@ static bool select_peak_points(const double *y, size_t n, size_t top, size_t n_r
         else
             ++*last;
     }
-    return true;
 }
 
 /* ---- position of a maximum ------------------------------------------------------------------- */
@@ -249,39 +241,35 @@ static double relative_misfit(const gaussian_process *s, const double *x, const 
     return sqrt(squares / (double)n);
 }
 
-/* Locates the peak of n points. z: the fitted values, ln y or with `parabola` y, relative to the
- * largest point. */
+/* Locates the peak of n points. z: ln y relative to the largest point. */
 static wt_status locate_peak(const double *x, const double *z, size_t n, double largest_x,
-                             double largest_y, bool parabola, wt_peak *peak, wt_error *err)
+                             double largest_y, wt_peak *peak, wt_error *err)
 {
     gaussian_process s;
-    wt_status status = gaussian_process_new(x, z, n, parabola, &s, err);
+    wt_status status = gaussian_process_new(x, z, n, &s, err);
     if (status == WT_OK) {
         peak->at = find_maximum(&s, x[0], x[n - 1], largest_x);
         peak->n = n;
     }
-    const bool closed = !isnan(peak->at.low) && !isnan(peak->at.high);
-    peak->found = status == WT_OK && !isnan(peak->at.value) && (closed || parabola);
+    peak->found =
+        status == WT_OK && !isnan(peak->at.value) && !isnan(peak->at.low) && !isnan(peak->at.high);
     if (status == WT_OK && !peak->found) {
         set_no_peak(peak, "no peak above the scatter of the points");
     } else if (status == WT_OK) {
         const wt_interval height = gaussian_process_interval(&s, peak->at.value);
         peak->misfit = relative_misfit(&s, x, z, n);
-        if (parabola)
-            peak->misfit /= height.value;
-        peak->height.value = largest_y * (parabola ? height.value : exp(height.value));
-        peak->height.low = largest_y * (parabola ? height.low : exp(height.low));
-        peak->height.high = largest_y * (parabola ? height.high : exp(height.high));
-        peak->height.standard_error =
-            largest_y * height.standard_error * (parabola ? 1 : exp(height.value));
-        peak->reason = closed ? "" : "so few points do not bound it";
+        peak->height =
+            (wt_interval){.value = largest_y * exp(height.value),
+                          .low = largest_y * exp(height.low),
+                          .high = largest_y * exp(height.high),
+                          .standard_error = largest_y * height.standard_error * exp(height.value)};
+        peak->reason = "";
     }
     gaussian_process_free(&s);
     return status;
 }
 
-wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points, wt_peak *peak,
-                       wt_error *err)
+wt_status wt_peak_find(const double *x, const double *y, size_t n, wt_peak *peak, wt_error *err)
 {
     size_t top = 0, first, last;
     set_no_peak(peak, "fewer than 5 points");
@@ -294,15 +282,11 @@ wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points
                                          : "no peak in range: largest at the highest temperatures");
         return WT_OK;
     }
-    if (!select_peak_points(y, n, top, points, &first, &last)) {
-        set_no_peak(peak, "no peak in range: too few points on one side of the largest");
-        return WT_OK;
-    }
+    select_peak_points(y, n, top, &first, &last);
     double *z = wt_alloc(last - first, sizeof *z);
     for (size_t i = first; i < last; i++)
-        z[i - first] = points > 0 ? y[i] / y[top] : log(y[i] / y[top]);
-    const wt_status status =
-        locate_peak(x + first, z, last - first, x[top], y[top], points > 0, peak, err);
+        z[i - first] = log(y[i] / y[top]);
+    const wt_status status = locate_peak(x + first, z, last - first, x[top], y[top], peak, err);
     free(z);
     return status;
 }
@@ -343,9 +327,8 @@ static wt_status add_secondary_peaks(peak_list *list, size_t first, size_t last,
     if (status == WT_OK && top != list->main_index && list->n < list->most) {
         const size_t from = cold != top ? cold : first, to = warm != top ? warm + 1 : last;
         wt_peak *peak = &list->peaks[list->n];
-        status = to - from >= LEAST
-                     ? wt_peak_find(list->x + from, y + from, to - from, 0, peak, err)
-                     : WT_OK;
+        status = to - from >= LEAST ? wt_peak_find(list->x + from, y + from, to - from, peak, err)
+                                    : WT_OK;
         list->n += status == WT_OK && to - from >= LEAST && peak->found;
     }
     return status == WT_OK && warm != top ? add_secondary_peaks(list, warm, last, err) : status;
@@ -378,7 +361,7 @@ wt_status wt_smooth_interpolate(const double *x, const double *y, size_t n, doub
     for (size_t i = 0; i < most; i++)
         z[i] = log(y[first + i]);
     gaussian_process s;
-    const wt_status status = gaussian_process_new(x + first, z, most, false, &s, err);
+    const wt_status status = gaussian_process_new(x + first, z, most, &s, err);
     if (status == WT_OK) {
         const wt_interval log_value = gaussian_process_interval(&s, at);
         value->value = exp(log_value.value);

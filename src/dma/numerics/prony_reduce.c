@@ -1,8 +1,7 @@
 /* Reduces the spectrum of a fit to a short Prony series that stays as close to both moduli as
  * requested over the measured frequencies. Times and moduli of the terms are fitted as logarithms,
  * so all are positive. After least squares the points are reweighted by their deviation (Lawson),
- * which equalises the largest deviations. A fractional Zener law is fitted to the points for
- * comparison. Its constants have no errors, because the residuals are not noise.
+ * which equalises the largest deviations.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/special.h"
 
@@ -15,7 +14,6 @@
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
-#include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -457,144 +455,4 @@ wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *options, wt_
     }
     arena_free(&r.memory);
     return status;
-}
-
-/* ---- fractional Zener law -------------------------------------------------------------------- */
-
-/* Constants of the law, and limit of the steps of a fit. */
-enum { CONSTANTS = 4, ZENER_STEPS = 200 };
-/* Relative step, and relative gradient, that end a fit. */
-static const double zener_close = 1e-10;
-/* Above this ratio to the measured moduli the glass modulus is undetermined, because less than a
- * tenth of the transition is visible. A long-term modulus below this share of the lowest E'
- * counts as 0. */
-static const double max_glass_ratio = 10, negligible = 1e-3;
-enum { LN_E0, LN_RISE, LN_TAU, LOGIT_ALPHA };
-
-/* Computes ln E' and ln E'' of E0 + rise z/(1 + z), z = (i w tau)^alpha. */
-static void zener_log_moduli(const double *p, double ln_w, double ln[2])
-{
-    const double alpha = 1 / (1 + exp(-p[LOGIT_ALPHA])), exponent = alpha * (ln_w + p[LN_TAU]);
-    const double r = exp(-fabs(exponent)), c = cos(alpha * M_PI_2), s = sin(alpha * M_PI_2);
-    const double below = 1 + 2 * r * c + r * r, above = exponent < 0 ? r * (c + r) : 1 + r * c;
-    ln[0] = log(exp(p[LN_E0]) + exp(p[LN_RISE]) * (above / below));
-    ln[1] = p[LN_RISE] + log(r * s / below);
-}
-
-/* Returns true if both moduli of the point are measured and not excluded. */
-static bool is_usable_point(const wt_master *m, size_t i)
-{
-    return !m->is_outlier[i] && isfinite(m->log_storage[i]) && isfinite(m->log_loss[i]);
-}
-
-/* Fills the ln residuals of the law: E', then E'' of each usable point. */
-static int zener_residuals(const gsl_vector *p, void *user, gsl_vector *residual)
-{
-    const wt_master *const m = *(const wt_master *const *)user;
-    size_t n = 0;
-    for (size_t i = 0; i < m->n; i++) {
-        double ln[2];
-        if (!is_usable_point(m, i))
-            continue;
-        zener_log_moduli(p->data, m->log_frequency[i] * M_LN10, ln);
-        gsl_vector_set(residual, n++, ln[0] - m->log_storage[i] * M_LN10);
-        gsl_vector_set(residual, n++, ln[1] - m->log_loss[i] * M_LN10);
-    }
-    return GSL_SUCCESS;
-}
-
-/* Fits the constants from `start`. Returns the sum of `squares`, HUGE_VAL after a failure. */
-static double fit_zener(const wt_master *m, size_t n_residuals, gsl_vector *start,
-                        double squares[2])
-{
-    gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
-    gsl_multifit_nlinear_fdf problem = {
-        .f = zener_residuals, .n = n_residuals, .p = CONSTANTS, .params = &m};
-    settings.fdtype = GSL_MULTIFIT_NLINEAR_CTRDIFF;
-    gsl_multifit_nlinear_workspace *w =
-        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n_residuals, CONSTANTS);
-    if (w == NULL)
-        out_of_memory(n_residuals * sizeof(double));
-    int reason, status = gsl_multifit_nlinear_init(start, &problem, w);
-    if (status == GSL_SUCCESS)
-        status = gsl_multifit_nlinear_driver(ZENER_STEPS, zener_close, zener_close, 0, NULL, NULL,
-                                             &reason, w);
-    /* Where the glass modulus is undetermined a fit may end without progress or by its steps. */
-    const bool usable = status == GSL_SUCCESS || status == GSL_ENOPROG || status == GSL_EMAXITER;
-    gsl_vector_memcpy(start, w->x);
-    squares[0] = squares[1] = usable ? 0 : HUGE_VAL;
-    for (size_t i = 0; usable && i < n_residuals; i++)
-        squares[i % 2] += pow(gsl_vector_get(w->f, i), 2);
-    gsl_multifit_nlinear_free(w);
-    return squares[0] + squares[1];
-}
-
-/* Returns the small-sample Akaike criterion for equal variances, which count as one constant. */
-static double akaike_criterion(double sum, double n, double constants)
-{
-    const double k = constants + 1;
-    return n - k > 1 ? n * log(sum / n) + 2 * k + 2 * k * (k + 1) / (n - k - 1) : (double)NAN;
-}
-
-static void series_squares(const wt_master *m, const wt_prony *series, double squares[2])
-{
-    squares[0] = squares[1] = 0;
-    for (size_t i = 0; i < m->n; i++) {
-        double storage, loss;
-        prony_moduli(series, pow(10, m->log_frequency[i]), &storage, &loss);
-        if (!is_usable_point(m, i))
-            continue;
-        squares[0] += pow(log(storage) - m->log_storage[i] * M_LN10, 2);
-        squares[1] += pow(log(loss) - m->log_loss[i] * M_LN10, 2);
-    }
-}
-
-wt_status wt_master_zener(const wt_master *m, const wt_prony *series, wt_zener_fit *fit,
-                          wt_error *err)
-{
-    static const double exponents[] = {-1.0, 0.0, 1.0}; /* logit of alpha to start from */
-    double points = 0, lowest = HUGE_VAL, highest = -HUGE_VAL, best = HUGE_VAL;
-    double constants[CONSTANTS] = {0}, squares[2] = {0}, of_start[2];
-    gsl_quiet();
-    for (size_t i = 0; i < m->n; i++) {
-        if (!is_usable_point(m, i))
-            continue;
-        points++;
-        lowest = fmin(lowest, m->log_storage[i] * M_LN10);
-        highest = fmax(highest, m->log_storage[i] * M_LN10);
-    }
-    if (points < CONSTANTS)
-        return wt_fail(err, WT_E_EMPTY, "too few points for a fractional Zener law");
-    for (size_t i = 0; i < COUNT_OF(exponents); i++)
-        for (int at = 1; at < 4; at++) {
-            const double x = m->log_frequency[(size_t)at * m->n / 4] * M_LN10;
-            double p[CONSTANTS] = {lowest, highest, -x, exponents[i]};
-            gsl_vector_view start = gsl_vector_view_array(p, CONSTANTS);
-            const double sum = fit_zener(m, 2 * (size_t)points, &start.vector, of_start);
-            if (!(sum < best))
-                continue;
-            best = sum;
-            memcpy(squares, of_start, sizeof squares);
-            memcpy(constants, p, sizeof constants);
-        }
-    if (!(best < HUGE_VAL))
-        return wt_fail(err, WT_E_CONVERGENCE, "no fractional Zener law goes through the points");
-    const double x = -constants[LN_TAU] / M_LN10, rise = exp(constants[LN_RISE]);
-    const double e0 = exp(constants[LN_E0]);
-    *fit = (wt_zener_fit){.e0 = constants[LN_E0] < lowest + log(negligible) ? 0 : e0,
-                          .eg = e0 + rise,
-                          .determined = e0 + rise < max_glass_ratio * exp(highest) &&
-                                        x > m->log_frequency[0] - 1 &&
-                                        x < m->log_frequency[m->n - 1] + 1,
-                          .tau = exp(constants[LN_TAU]),
-                          .alpha = 1 / (1 + exp(-constants[LOGIT_ALPHA])),
-                          .rms_storage = sqrt(squares[0] / points),
-                          .rms_loss = sqrt(squares[1] / points),
-                          .aicc = akaike_criterion(best, 2 * points, CONSTANTS)};
-    series_squares(m, series, squares);
-    fit->series_rms_storage = sqrt(squares[0] / points);
-    fit->series_rms_loss = sqrt(squares[1] / points);
-    fit->series_aicc = akaike_criterion(squares[0] + squares[1], 2 * points,
-                                        2 * (double)series->n + (series->equilibrium_modulus > 0));
-    return WT_OK;
 }

@@ -310,7 +310,6 @@ unsigned parse_kinds(const char *kind_names)
     kinds |= strstr(kind_names, "sweep") != NULL ? WT_KIND_SWEEP : 0u;
     kinds |= strstr(kind_names, "image") != NULL ? WT_KIND_IMAGE : 0u;
     kinds |= strstr(kind_names, "spectrum") != NULL ? WT_KIND_SPECTRUM : 0u;
-    kinds |= strstr(kind_names, "noise") != NULL ? WT_KIND_NOISE : 0u;
     kinds |= strstr(kind_names, "record") != NULL ? WT_KIND_RECORD : 0u;
     return kinds;
 }

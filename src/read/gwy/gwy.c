@@ -1,7 +1,6 @@
 /* Reads Gwyddion files (.gwy): "GWYP", then a container of objects. The data fields "/N/data" are
  * images, and graphs may be profiles. The top line of an image comes first.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "read/gwy/gwy.h"
 #include "read/bytes/bytes.h"
 #include "read/bytes/samples.h"
 #include "read/images.h"

@@ -8,7 +8,6 @@
 #include "core/system/temporary.h"
 #include "read/bytes/bytes.h"
 #include "read/bytes/input.h"
-#include "read/gwy/gwy.h"
 #include "read/images.h"
 #include "read/reader.h"
 #include "weartrack/read.h"

@@ -11,105 +11,6 @@
 #include <string.h>
 #include <strings.h>
 
-static const char info[] = "DataSet-Info";
-
-/* Reads a value such as "179.8kHz", "27.13 N/m" or a plain number, with optional blanks, in the SI
- * unit of the quantity; NaN otherwise. */
-static double read_info_value(const nid_header *header, const char *key, wt_quantity quantity)
-{
-    const char *text = nid_get(header, info, key);
-    double value = (double)NAN;
-    if (text == NULL || wt_quantity_parse(text, quantity, &value, NULL) == WT_OK)
-        return value;
-    size_t n = strlen(text);
-    while (n > 0 && text[n - 1] == ' ')
-        n--;
-    return wt_number_parse(text, n, '.', &value) ? value : (double)NAN;
-}
-
-/* Reads the temperature, such as "40 °C" [K]; a plain number is in degrees Celsius. */
-static double read_tune_temperature(const nid_header *header)
-{
-    static const char key[] = "Cantilever temperature";
-    const char *text = nid_get(header, info, key);
-    double kelvin = (double)NAN;
-    if (text != NULL && wt_quantity_parse(text, WT_Q_TEMPERATURE, &kelvin, NULL) == WT_OK)
-        return kelvin;
-    return read_info_value(header, key, WT_Q_NONE) + WT_ZERO_CELSIUS;
-}
-
-static bool is_tune_channel(const nid_channel *c)
-{
-    double factor;
-    return strcmp(c->group_name, "Spectrum FFT") == 0 && c->lines == 1 && c->points > 1 &&
-           strcmp(nid_si_unit(c->unit, &factor), wt_quantity_unit(WT_Q_SPECTRAL_DENSITY)) == 0;
-}
-
-/* Returns the channel of the measured spectrum; NULL if the file is no thermal tune. */
-static const nid_channel *nid_find_tune(const nid_file *file)
-{
-    for (size_t i = 0; i < file->n; i++)
-        if (is_tune_channel(&file->channels[i]))
-            return &file->channels[i];
-    return NULL;
-}
-
-/* Fills the spectrum; the caller frees its memory also after a failure. */
-static wt_status fill_tune_spectrum(const nid_file *file, const nid_channel *c, wt_log *log,
-                                    wt_noise_spectrum *spectrum, wt_error *err)
-{
-    const nid_header *const h = &file->header;
-    const double range = nid_number(h, c->section, "Dim0Range"),
-                 first = nid_number(h, c->section, "Dim0Min");
-    const char *unit = nid_get(h, c->section, "Dim0Unit");
-    if (!(range > 0) || !(first >= 0) || !isfinite(first + range * (double)c->points) ||
-        unit == NULL || strcmp(unit, "Hz") != 0) {
-        wt_fail(err, WT_E_CORRUPT, "the frequencies of the spectrum are not known");
-        wt_error_place(err, "[%s]", c->section);
-        wt_error_expected(err, "Dim0Range above 0, Dim0Min and Dim0Unit=Hz");
-        return WT_E_CORRUPT;
-    }
-    wt_noise_spectrum made = {.n = c->points, .amplitudes = true};
-    made.frequency = wt_alloc(c->points, sizeof *made.frequency);
-    made.density = wt_alloc(c->points, sizeof *made.density);
-    *spectrum = made;
-    const wt_status status = nid_decode(file, c, 0, c->points, 1, made.density, err);
-    for (size_t i = 0; status == WT_OK && i < c->points; i++) {
-        made.frequency[i] = first + range * (double)i / (double)(c->points - 1);
-        made.density[i] *= made.density[i];
-    }
-    if (status == WT_OK && samples_mark_missing(made.density, made.n) > 0)
-        wt_log_add(log, WT_WARNING, file->name, c->section,
-                   "densities that are no finite numbers are missing");
-    spectrum->averages = read_info_value(h, "Averages", WT_Q_NONE);
-    spectrum->temperature = read_tune_temperature(h);
-    spectrum->spring_constant = read_info_value(h, "Spring Constant:", WT_Q_SPRING_CONSTANT);
-    spectrum->resonance = read_info_value(h, "Frequency:", WT_Q_FREQUENCY);
-    spectrum->quality = read_info_value(h, "Q Factor:", WT_Q_NONE);
-    spectrum->sensitivity = (double)NAN;
-    return status;
-}
-
-static wt_status nid_read_noise(const file_reader *self, wt_input *input,
-                                const wt_read_options *options, wt_log *log,
-                                wt_noise_spectrum *spectrum, wt_error *err)
-{
-    (void)self;
-    (void)options;
-    nid_file file = {0};
-    wt_status status = nid_file_open(input, &file, err);
-    const nid_channel *const c = status == WT_OK ? nid_find_tune(&file) : NULL;
-    if (c != NULL) {
-        status = fill_tune_spectrum(&file, c, log, spectrum, err);
-    } else if (status == WT_OK) {
-        status = wt_fail(err, WT_E_EMPTY, "the file holds no thermal tune");
-        wt_error_expected(err, "a group Spectrum FFT with an amplitude spectral density in "
-                               "m/sqrt(Hz)");
-    }
-    nid_file_close(&file);
-    return status;
-}
-
 #define SPECTROSCOPY "DataSet\\Parameters\\Spectroscopy"
 
 #define CANTILEVER "DataSet\\Calibration\\Cantilever"
@@ -427,25 +328,6 @@ static void add_channels(const nid_file *file, table_writer *metadata)
     }
 }
 
-static void describe_tune(const nid_file *file, table_writer *metadata)
-{
-    static const struct {
-        const char *item, *key;
-    } known[] = {{"temperature of the lever (degree Celsius)", "Cantilever temperature"},
-                 {"averages", "Averages"},
-                 {"resonance", "Frequency:"},
-                 {"quality factor", "Q Factor:"},
-                 {"spring constant", "Spring Constant:"}};
-    const nid_channel *c = nid_find_tune(file);
-    if (c == NULL)
-        return;
-    metadata_add(metadata, fact_item_text(FACT_NOISE), "", c->section, "%zu points up to %s Hz",
-                 c->points, nid_get(&file->header, c->section, "Dim0Range"));
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        metadata_add_text(metadata, known[i].item, known[i].key,
-                          nid_get(&file->header, "DataSet-Info", known[i].key));
-}
-
 static void describe_phase(const nid_phase *phase, table_writer *metadata)
 {
     const force_metadata *read = &phase->metadata;
@@ -495,7 +377,6 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
         return status;
     add_identity(&file, metadata);
     add_channels(&file, metadata);
-    describe_tune(&file, metadata);
     if (nid_find_spectroscopy(&file, &spectroscopy, NULL) == WT_OK)
         add_curves(&spectroscopy, options, metadata);
     nid_file_close(&file);
@@ -505,7 +386,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
 const file_reader reader_nid = {
     .info = {.id = "nid",
              .title = "Nanosurf images, spectra and force curves (.nid)",
-             .kinds = WT_KIND_FORCE | WT_KIND_IMAGE | WT_KIND_NOISE,
+             .kinds = WT_KIND_FORCE | WT_KIND_IMAGE,
              .verified = true,
              .evidence =
                  "images and spectra: measured files of software 1.7 to 3.10; force curves: "
@@ -514,6 +395,5 @@ const file_reader reader_nid = {
     .detect = detect,
     .force = &nid_force,
     .read_images = nid_read_images,
-    .read_noise = nid_read_noise,
     .describe = describe,
 };

@@ -86,8 +86,6 @@ const char *nid_si_unit(const char *unit, double *factor);
 wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_log *log, wt_image **images, size_t *n_images, wt_error *err);
 
-/* ---- thermal tune: nid_noise.c ------------------------------------------------------------ */
-
 /* ---- force curves: nid_force.c ------------------------------------------------------------ */
 
 /* Number of the groups of a force curve, in temporal order. */

@@ -292,9 +292,6 @@ const char *nid_si_unit(const char *unit, double *factor)
                                         WT_Q_PHASE,  WT_Q_FREQUENCY,          WT_Q_TIME};
     double offset = 0; /* always 0 for these quantities */
     *factor = 1;
-    /* UDUNITS cannot express a square root. */
-    if (strcmp(unit, "m/sqrt(Hz)") == 0)
-        return wt_quantity_unit(WT_Q_SPECTRAL_DENSITY);
     for (size_t i = 0; unit[0] != '\0' && i < sizeof known / sizeof *known; i++)
         if (wt_unit_to_si(unit, known[i], factor, &offset, NULL) == WT_OK)
             return wt_quantity_unit(known[i]);

@@ -1,8 +1,8 @@
 /* Reads compound files. A stream is a chain of sectors; a table (FAT) contains the successor of
  * each sector. Every number of the file is checked where it is used. A chain has no more steps than
  * the file has sectors. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "read/packed/ole2.h"
 #include "read/bytes/bytes.h"
+#include "read/packed/packed.h"
 
 #include <stdlib.h>
 #include <string.h>

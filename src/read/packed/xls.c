@@ -8,7 +8,6 @@
 #include "core/base/clocale.h"
 #include "core/base/memory.h"
 #include "read/bytes/bytes.h"
-#include "read/packed/ole2.h"
 #include "read/packed/packed.h"
 
 #include <errno.h>

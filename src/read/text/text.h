@@ -349,8 +349,6 @@ wt_status text_read_spectrum(const file_reader *self, wt_input *input,
                              wt_power_spectrum *spectrum, wt_error *err);
 wt_status text_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
                            wt_log *log, wt_image **images, size_t *n_images, wt_error *err);
-wt_status text_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_log *log, wt_noise_spectrum *spectrum, wt_error *err);
 wt_status text_read_record(const file_reader *self, wt_input *input, const wt_read_options *options,
                            wt_log *log, wt_record *record, wt_error *err);
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,

@@ -282,20 +282,6 @@ static wt_status describe_layout(const describe_context *r, const text_parts *pa
     return status;
 }
 
-static void describe_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
-                           table_writer *metadata)
-{
-    wt_noise_spectrum noise = {.n = 0};
-    wt_error problem = WT_ERROR_INIT;
-    if (text_read_noise(self, input, options, NULL, &noise, &problem) == WT_OK)
-        metadata_add(metadata, fact_item_text(FACT_NOISE), "", "",
-                     "%zu points, %.4g to %.4g Hz, of %s", noise.n, noise.frequency[0],
-                     noise.frequency[noise.n - 1], noise.volts ? "the detector" : "the deflection");
-    else
-        describe_problem(&problem, metadata);
-    wt_noise_spectrum_clear(&noise);
-}
-
 static void describe_record(const file_reader *self, wt_input *input,
                             const wt_read_options *options, table_writer *metadata)
 {
@@ -331,7 +317,7 @@ static wt_status describe_whole_sweep(const describe_context *r, const text_file
 static wt_status describe_parts(describe_context *r, text_parts *parts, wt_log *log, unsigned *has,
                                 table_writer *metadata)
 {
-    static const unsigned others[] = {WT_KIND_FORCE, WT_KIND_IMAGE, WT_KIND_SPECTRUM, WT_KIND_NOISE,
+    static const unsigned others[] = {WT_KIND_FORCE, WT_KIND_IMAGE, WT_KIND_SPECTRUM,
                                       WT_KIND_RECORD};
     const text_file *const file = text_parts_file(parts);
     wt_error problem = WT_ERROR_INIT;
@@ -376,8 +362,6 @@ wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_
         status = images_add_metadata(self, input, options, NULL, metadata, WT_OK, NULL);
     if ((has & WT_KIND_SPECTRUM) != 0)
         describe_spectrum(self, input, options, metadata);
-    if ((has & WT_KIND_NOISE) != 0)
-        describe_noise(self, input, options, metadata);
     if ((has & WT_KIND_RECORD) != 0)
         describe_record(self, input, options, metadata);
     return status;

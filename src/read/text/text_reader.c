@@ -168,7 +168,6 @@ file_reader text_reader(text_description *d)
         .read_sweep = (d->kinds & WT_KIND_SWEEP) != 0 ? text_read_sweep : NULL,
         .read_spectrum = (d->kinds & WT_KIND_SPECTRUM) != 0 ? text_read_spectrum : NULL,
         .read_images = (d->kinds & WT_KIND_IMAGE) != 0 ? text_read_images : NULL,
-        .read_noise = (d->kinds & WT_KIND_NOISE) != 0 ? text_read_noise : NULL,
         .read_record = (d->kinds & WT_KIND_RECORD) != 0 ? text_read_record : NULL,
         .describe = text_describe,
     };

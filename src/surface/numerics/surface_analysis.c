@@ -8,20 +8,19 @@
 
 /* Waves over the shorter side that the form and the window distort. */
 static const double first_waves = 2;
+/* Largest share of missing heights. With this share of filled scattered points the error of C is
+ * 5 %; patches are worse. */
+static const double largest_missing = 0.2;
+/* Fewest points of a reliable wave. For a self-affine surface, aliased waves contribute 2 % of the
+ * density there; with 2 points it is half. */
+static const double points_per_wave = 4;
 /* Minimum number of points in a direction, so that a range of reliable waves remains. */
 enum { LEAST_POINTS = 16 };
 
 wt_surface_options wt_surface_options_defaults(void)
 {
     return (wt_surface_options){
-        .form = WT_FORM_QUADRATIC,
-        .window = WT_WINDOW_HANN,
-        /* with this share of filled scattered points the error of C is 5 %; patches are worse */
-        .largest_missing = 0.2,
-        /* for a self-affine surface, aliased waves contribute 2 % of the density there; with 2
-         * points it is half */
-        .points_per_wave = 4,
-        .tip_radius = (double)NAN};
+        .form = WT_FORM_QUADRATIC, .window = WT_WINDOW_HANN, .tip_radius = (double)NAN};
 }
 
 void wt_surface_spectrum_clear(wt_surface_spectrum *spectrum)
@@ -132,8 +131,7 @@ static wt_status check_grid(const wt_height_map *map, wt_error *err)
     return WT_OK;
 }
 
-static wt_status check_height_statistics(const wt_surface_heights *h, double largest_missing,
-                                         wt_error *err)
+static wt_status check_height_statistics(const wt_surface_heights *h, wt_error *err)
 {
     const double share = (double)h->missing / (double)h->n;
     if (share > largest_missing) {
@@ -155,7 +153,7 @@ static void find_reliable_range(const wt_height_map *map, const wt_surface_optio
     const double length_x = (double)map->nx * map->dx, length_y = (double)map->ny * map->dy;
     const double coarse = profile ? map->dx : fmax(map->dx, map->dy);
     to->from = first_waves * 2 * M_PI / (profile ? length_x : fmin(length_x, length_y));
-    to->to = 2 * M_PI / (o->points_per_wave * coarse);
+    to->to = 2 * M_PI / (points_per_wave * coarse);
     to->ends_by = "points";
     if (isnan(o->tip_radius))
         return;
@@ -185,7 +183,7 @@ wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options 
     status = surface_remove_form(z, map->nx, map->ny, (unsigned)options->form, form, err);
     if (status == WT_OK) {
         surface_height_statistics(&less, heights);
-        status = check_height_statistics(heights, options->largest_missing, err);
+        status = check_height_statistics(heights, err);
     }
     if (status == WT_OK)
         status = surface_fill_missing(z, map->nx, map->ny, err);

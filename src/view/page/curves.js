@@ -7,8 +7,11 @@
   const usable = (verdict) => ['accepted', 'wide', 'doubtful'].includes(verdict);
   const words = (verdict) => View.state().verdicts[verdict] || verdict;
   const AUTOMATIC = 1000; /* larger groups are refitted by a button */
+  const wanted = 'indentation/bulk indentation/track modulus_groups comparison modulus_depth';
   let ui = null, groups = {}, group = 'bulk', rows = [], shown = [], at = -1, fit = null, origin = 0, originOf = '';
   let live = null;
+  /* A result without a case, of weartrack indent, is shown as it is; no curve is fitted. */
+  const hasCase = () => View.text() !== '';
 
   /* ---- overrides: rows of the file that indent reads ------------------------------------------ */
 
@@ -41,7 +44,7 @@
       throw new Error('The overrides of the case are in another folder: move the file beside the case and correct <overrides>.');
     const {digest} = await View.call('save', {name: state.overrides.name, was: state.overrides.digest}, text);
     View.setOverrides(text, digest);
-    if (!View.has('indentation/overrides')) View.edit({'indentation/overrides': state.overrides.name});
+    if (hasCase() && !View.has('indentation/overrides')) View.edit({'indentation/overrides': state.overrides.name});
     document.documentElement.dataset.overrides = overrides.length;
   };
   const write = async () => {
@@ -107,7 +110,7 @@
       `${words(row.verdict)}: ${row.reason}`,
       `contact point ${inUnit(row.contact_point, 'm', 6)}`,
       `noise ${inUnit(row.noise, 'N', 2)}`, `lack of fit ${inUnit(row.lack_of_fit, '1', 2)}`,
-      `refitted in ${(fit.time * 1000).toFixed(0)} ms`].join('; ');
+      hasCase() ? `refitted in ${(fit.time * 1000).toFixed(0)} ms` : 'as in the result'].join('; ');
     const out = chosen(curve, 'exclude');
     ui.exclude.checked = Boolean(out);
     ui.note.value = out ? out.note : '';
@@ -124,7 +127,7 @@
   const byHand = ['contact-point', 'baseline-from', 'baseline-to'];
   const rangeValues = {'fit-depth': 'End of the fit', 'fit-depth-from': 'Begin of the fit'};
   const markers = (curve) => {
-    if (fit.row.contact_point === null) return [];
+    if (fit.row.contact_point === null || !hasCase()) return [];
     if (ui.axis.value === 'displacement') {
       const contact = fit.row.contact_point - origin;
       const first = Math.min(...fit.samples.column('displacement').filter((v) => v !== null)) + contact;
@@ -322,8 +325,8 @@
     ui.cards.replaceChildren(...cards);
     drawDepth();
   };
-  const wanted = 'indentation/bulk indentation/track modulus_groups comparison modulus_depth';
   const groupFit = View.guard(async (always) => {
+    if (!hasCase()) return;
     if (!always && rows.length > AUTOMATIC) {
       ui.refit.hidden = false;
       return;
@@ -396,13 +399,14 @@
     async show(state) {
       if (writing === 0) readOverrides(state.overrides.text);
       ui.tip.value = View.get('indentation/tip') || '';
-      const there = ['bulk', 'track'].filter((name) => View.has('indentation/' + name));
+      const there = hasCase() ? ['bulk', 'track'].filter((name) => View.has('indentation/' + name)) :
+        state.tables.filter((name) => name.startsWith('indentation/')).map((name) => name.slice(12));
       if (!there.includes(group)) group = there[0] || 'bulk';
       ui.group.replaceChildren(...options(there.map((name) => [name, name])));
       ui.group.value = group;
       if (there.length === 0) throw new Error('The case has no force curves (<indentation>).');
-      if (state.current && View.text() === state.case.text) {
-        groups = View.tables(await View.call('table', {name: wanted}));
+      if (!hasCase() || state.current && View.text() === state.case.text) {
+        groups = await View.stored([wanted, ...there.map((name) => 'indentation/' + name)].join(' '));
         showCards();
         await showGroup();
       } else if (state.tables.includes('indentation/' + group) && rows.length === 0) {

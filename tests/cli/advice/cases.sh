@@ -45,12 +45,10 @@ helps new-case --tip "$tip" on_the_track -o new.xml
 cause 'in <roughness> by a guess' new-case b.gsf -o new.xml
 mv b.gsf road-b.gsf
 helps new-case road-b.gsf -o new.xml
-piece '; an image: of the counter surface it goes into roughness' '; noise of a cantilever: see weartrack thermal'
+piece '; an image: of the counter surface it goes into roughness'
 cp "$fixtures/surface/place-1.gsf" on_the_track
 cause 'see weartrack spot' new-case --tip "$tip" three.csv on_the_track
 helps spot --tip "$tip" --depth 70nm on_the_track/place-1.gsf -o a.h5
-cause 'see weartrack thermal' new-case --tip "$tip" three.csv "$fixtures/formats/jpk-thermal/noise.tnd"
-helps thermal "$fixtures/formats/jpk-thermal/noise.tnd" -o a.h5
 piece '<reference-temperature> in <dma>' 'delete <modulus-ratio>, or the curves of bulk or track'
 wlf='<wlf><c1>8.86</c1><c2>101.6K</c2></wlf>'
 prony='<prony deformation="tension"><equilibrium>5MPa</equilibrium><term time="1s" modulus="10MPa"/></prony>'
@@ -156,13 +154,6 @@ case_file w.xml "<sample>s</sample><condition>d</condition>$rubber$rough$slides"
 helps collect one.h5 two.h5
 no_input 'no digest distinguishes them (--no-provenance)' 'a reason in a table'
 
-piece 'make it by weartrack indent --curves all, or <curves>all</curves> in the <indentation> of a case' 'none rejected, so that --curves rejected keeps none'
-cause 'weartrack indent --curves all' report --browse b.html bulk.h5
-helps indent --tip "$tip" --curves all --spring-constant 0.3N/m "$curve" -o all.h5
-helps report --browse b.html all.h5
-case_file w.xml "<indentation>$stylus<curves>all</curves>$soft</indentation>"
-helps run --no-report w.xml -o a.h5
-helps report --browse b.html a.h5
 piece 'a style of your own is a file that ends in .gp, given with --style'
 cause 'given with --style' report --style mine three.h5 -o p.html
 cp "$source/src/report/styles/paper.gp" mine.gp 2> err || :

@@ -20,6 +20,9 @@ helps master --poisson-ratio 0.5 three.csv -o a.h5
 piece 'hold a record against the growing layer: weartrack validate'
 cause 'hold a record against the growing layer' friction $slide --running-in-friction
 helps validate --help
+piece 'weartrack view of the result shows all curves'
+cause 'weartrack view of the result shows all curves' report three.h5 --sheets a.pdf
+helps view --help
 piece '; did you mean '
 cause 'did you mean table-units' master --format table-unit three.csv -o a.h5
 helps master --poisson-ratio 0.5 --format table-units three.csv -o a.h5
@@ -57,18 +60,12 @@ not_advice '--help all has every one' 'part of the help'
 cause '--help all has every one' master --help
 helps master --help all
 not_advice 'a whole case from one case file; --plan' 'part of the help'
-piece '-o is required: NAME.html or a folder' 'standard output with --methods, none with'
-cause '--sheets FILE.pdf' report three.h5
-helps report three.h5 -o page.html
 piece '--figure is of the page: -o NAME.html or a folder' '-o %s: a page or a folder is written; -o FOLDER --figures'
 cause '-o NAME.html or a folder' report --methods --figure master_curve three.h5
 helps report --figure master_curve three.h5 -o page.html
 cause '-o FOLDER --figures svg' report --figure master_curve three.h5 -o picture.svg
 helps report --figure master_curve three.h5 -o figures --figures svg
 not_advice 'standard output with --methods' 'part of the help'
-piece '--methods is a call of its own'
-cause '--methods is a call of its own' report --methods --browse a.html three.h5
-helps report --methods three.h5
 piece '--columns: %s; %s'
 cause '--columns: ' master --columns "a=nothing:MPa" foreign.csv -o a.h5
 leads master --columns "Stor=storage_modulus:MPa" foreign.csv -o a.h5

@@ -1,4 +1,4 @@
-# Force curves, images of positions and thermal noise. SPDX-License-Identifier: GPL-3.0-or-later
+# Force curves, images of positions. SPDX-License-Identifier: GPL-3.0-or-later
 
 volts=$fixtures/formats/table-force/volts.csv
 piece '--spring-constant 0.1N/m' '--sensitivity 60nm/V'
@@ -17,11 +17,10 @@ piece "Poisson's ratio of %g or more, or --unbonded"
 cause '--unbonded' indent --tip sphere:radius=5um --poisson-ratio 0.3 --sample-thickness 2um --spring-constant 0.3N/m "$curve"
 helps indent --tip sphere:radius=5um --poisson-ratio 0.3 --sample-thickness 2um --unbonded --spring-constant 0.3N/m "$curve" -o a.h5
 
-piece 'a table of choices, as report --browse writes it'
-piece 'a table of choices, as report --browse writes it'
-cause 'as report --browse writes it' indent --tip "$tip" --overrides empty.txt --spring-constant 0.3N/m "$curve"
-"$weartrack" indent -q --tip "$tip" --curves all --spring-constant 0.3N/m "$curve" -o curves.h5 2> err
-helps report --browse browse.html curves.h5
+piece 'a table of choices, as weartrack view writes it'
+piece 'a table of choices, as weartrack view writes it'
+cause 'as weartrack view writes it' indent --tip "$tip" --overrides empty.txt --spring-constant 0.3N/m "$curve"
+helps view --help
 
 piece 'a force without a spring constant: give --spring-constant 0.1N/m'
 cause '--spring-constant 0.1N/m' sensitivity "$fixtures/formats/table-force/turning.txt"
@@ -34,33 +33,13 @@ cause '`weartrack info FILE` shows them' psd --image none "$road"
 helps info "$road"
 not_advice '`weartrack formats list` shows the formats' 'the library only: the program has looked before'
 
-sed 1d "$fixtures/formats/table-noise/detector.txt" > detector.txt
-piece 'give it, e.g. --sensitivity 60nm/V'
-cause '--sensitivity 60nm/V' thermal detector.txt
-helps thermal --sensitivity 60nm/V detector.txt
-says '92\.5 mN/m' # 208.2 mN/m x (40 / 60)^2
-piece '25 degC is taken, and 3 K off are 1 %% of the spring constant; give --lever-temperature'
-cause 'give --lever-temperature' thermal --sensitivity 60nm/V detector.txt
-helps thermal --sensitivity 60nm/V --lever-temperature 23degC detector.txt
-piece 'that of --sensitivity is not used'
-cause 'that of --sensitivity is not used' thermal --sensitivity 60nm/V "$fixtures/formats/table-noise/deflection.csv"
-helps thermal --lever-temperature 23degC "$fixtures/formats/table-noise/deflection.csv"
-piece "Sader's method takes both: --length 225um --width 40um" 'give --length and --width, or --sader-coefficient'
-cause '--length 225um --width 40um' thermal --length 225um "$fixtures/formats/table-noise/deflection.csv"
-helps thermal --length 225um --width 40um "$fixtures/formats/table-noise/deflection.csv"
-cause 'or --sader-coefficient' thermal --length 225um --width 40um --sader-coefficient 1e-9 "$fixtures/formats/table-noise/deflection.csv"
-helps thermal --sader-coefficient 1e-9 "$fixtures/formats/table-noise/deflection.csv"
-helps thermal --length 225um --width 40um "$fixtures/formats/table-noise/deflection.csv"
-
-piece '--sensitivity %.6gnm/V' '--sensitivity-error %.2g'
-"$weartrack" thermal -q "$fixtures/formats/jpk-thermal/noise.tnd" -o noise.h5 2> err || :
-piece '--spring-constant %.6gN/m' '--spring-constant-error %.2g' 'for weartrack indent: %s' 'for weartrack compare: %s'
-"$weartrack" thermal -q "$fixtures/formats/jpk-thermal/noise.tnd" -o noise.h5 2> err || :
-given=$("$weartrack" table noise.h5 thermal --keys 2> err | sed -n 's/.*\(--spring-constant [^ ]*N\/m\).*/\1/p' | head -n 1)
-cause '' thermal "$fixtures/formats/jpk-thermal/noise.tnd"
-[ -n "$given" ] || fail "thermal gives no option"
+piece '--sensitivity %.6gnm/V' '--sensitivity-error %.2g' 'for weartrack indent: %s' 'for weartrack compare: %s'
+"$weartrack" sensitivity -q --max-slope-change 5 --direction retract "$curve" -o slope.h5 2> err || :
+given=$("$weartrack" table slope.h5 sensitivity --keys 2> err | sed -n 's/.*\(--sensitivity [^ ]*nm\/V\).*/\1/p' | head -n 1)
+cause '' sensitivity "$curve"
+[ -n "$given" ] || fail "sensitivity gives no option"
 advice='no such text'
-helps indent --tip "$tip" $given "$curve" -o a.h5
+helps indent --tip "$tip" --spring-constant 0.3N/m $given "$curve" -o a.h5
 
 piece 'give --indentation-temperature, and --track-temperature if the track differs'
 "$weartrack" indent -q --group track --indentation-temperature 40degC --tip "$tip" --spring-constant 0.3N/m "$track" -o warm.h5 2> err

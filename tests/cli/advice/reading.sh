@@ -101,7 +101,7 @@ printf '<case version="1"><roughness><files>%s</files></roughness></case>\n' "$r
 cause '`weartrack table` writes them' convert whole.h5 -o a.tsv
 helps table whole.h5 surfaces -o a.csv
 
-piece 'weartrack indent' 'weartrack master' 'weartrack spot' 'weartrack thermal' 'weartrack record' 'weartrack friction --roughness'
+piece 'weartrack indent' 'weartrack master' 'weartrack spot' 'weartrack record' 'weartrack friction --roughness'
 cause '`weartrack indent` takes force curves' master "$curve"
 helps indent --tip "$tip" --spring-constant 0.3N/m "$curve" -o a.h5
 cause '`weartrack master` takes' indent --tip "$tip" "$dma"
@@ -146,7 +146,7 @@ helps master --poisson-ratio 0.5 --sheet all sweeps.xlsx -o a.h5
 cause 'choose one with --sheet NAME' info sweeps.xlsx
 helps info --sheet first sweeps.xlsx
 says '^next: weartrack master --sheet first sweeps.xlsx'
-for command in master ramp payne indent dwell sensitivity thermal psd spot record convert info; do
+for command in master ramp payne indent dwell sensitivity psd spot record convert info; do
   "$weartrack" $command --help all > help
   grep -q -e '--sheet ' help || fail "weartrack $command has no --sheet"
 done

@@ -1,9 +1,8 @@
 # Messages without a row of their own. SPDX-License-Identifier: GPL-3.0-or-later
 
-not_advice '%weartrack sheets' 'the mark of a file'
 not_advice 'weartrack or the textbook' 'a name in a table'
 not_advice 'will not be replaced: it is not a weartrack report' 'what a file is not'
-not_advice 'install the Debian package libjs-dygraphs and build weartrack again' 'of the build'
+no_input 'make it by weartrack indent --curves all' 'of the server: cli_view_server'
 no_input 'make it again from its case, or use the weartrack that wrote it' 'a file of a version to come'
 no_input 'no browser found; open the address by hand' 'of a computer without a browser: cli_view_server'
 no_input 'use another --port, or none for a free one' 'of the server: cli_view_server'
@@ -14,7 +13,6 @@ not_advice 'Compare with a friction record (weartrack validate).' 'a remark of a
 no_input 'a Poisson' 'an obstacle in a table: tests/unit/test_study_track_layer.c'
 no_input 'the same curves once more through this version of weartrack indent' 'a result of an older version'
 no_input 'a sample on something hard (thinner than' 'a list of possible causes in a warning'
-no_input 'the spectrum departs from an oscillator on a white floor' 'a list of possible causes in a warning'
 no_input 'that of --pixel-size is taken' 'says what was done'
 not_advice 'a result of weartrack run, beside which those of curves stand' 'what is expected: taken with collect'
 no_input '--anisotropy %.4g --texture-angle' 'key of psd, taken by tests/unit/test_surface_job.c'

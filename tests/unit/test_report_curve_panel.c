@@ -1,4 +1,5 @@
-/* Curve sheets: positions, texts, sheets of A4, refusals.
+/* The figure of force curves: which stands where, and what is said of it.
+ *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "table_cells.h"
 
@@ -7,7 +8,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { MANY = 30 };
 
@@ -119,8 +119,8 @@ static size_t join_reason_lines(const char *script, char *to, size_t size)
     }
 }
 
-/* The longest reason is complete above a panel of the last column, which begins 180 points before
- * the edge of the sheet; 40 letters of 8 points need 160 on average. */
+/* The longest reason stands whole above a panel of the last column, which begins 180 points
+ * before the edge of the figure; 40 letters of 8 points have 160 in the mean. */
 static void test_long_reason(void **state)
 {
     (void)state;
@@ -171,81 +171,9 @@ static void test_texts(void **state)
     wt_result_free(result);
 }
 
-static char *bytes_of(const char *path, size_t *length)
-{
-    FILE *in = fopen(path, "rb");
-    assert_non_null(in);
-    char *bytes = malloc(1 << 22);
-    *length = fread(bytes, 1, 1 << 22, in);
-    fclose(in);
-    return bytes;
-}
-
-static void test_sheets(void **state)
-{
-    (void)state;
-    if (system("gnuplot --version >/dev/null 2>&1") != 0)
-        skip();
-    wt_result *result = curves_by_hand(MANY);
-    wt_error err = WT_ERROR_INIT;
-    for (int again = 0; again < 2; again++) /* it may replace its own file */
-        if (wt_curve_sheets_write(result, "sheets.pdf", NULL, NULL, &err) != WT_OK)
-            fail_msg("%s", err.message);
-    size_t length = 0, pages = 0;
-    char *pdf = bytes_of("sheets.pdf", &length);
-    static const char page[] = "/Type /Page ", box[] = "/MediaBox [ 0 0 ";
-    const char *end = pdf + length;
-    for (const char *s = pdf; (s = memmem(s, (size_t)(end - s), page, sizeof page - 1)) != NULL;
-         s++)
-        pages++;
-    assert_int_equal(pages, 3); /* 29 curves, twelve per sheet */
-    const char *size = memmem(pdf, length, box, sizeof box - 1);
-    assert_non_null(size);
-    char *next = NULL;
-    assert_true(fabs(strtod(size + sizeof box - 1, &next) - 595) < 1.5);
-    assert_true(fabs(strtod(next, NULL) - 842) < 1.5);
-    assert_non_null(memmem(pdf, length, "/Font", 5)); /* text is text */
-    free(pdf);
-    assert_int_equal(unlink("sheets.pdf"), 0);
-    wt_result_free(result);
-}
-
-static bool stop(void *user, const char *what, size_t done, size_t total)
-{
-    (void)user, (void)done;
-    assert_string_equal(what, "sheets");
-    assert_int_equal(total, 3);
-    return false;
-}
-
-static void test_refusals(void **state)
-{
-    (void)state;
-    wt_result *none = wt_result_new(), *one = curves_by_hand(1), *result = curves_by_hand(MANY);
-    wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_curve_sheets_write(none, "none.pdf", NULL, NULL, &err), WT_E_EMPTY);
-    assert_non_null(strstr(err.advice, "--curves all"));
-    assert_int_equal(wt_curve_sheets_write(one, "none.pdf", NULL, NULL, &err), WT_E_EMPTY);
-    const wt_progress progress = {stop, NULL};
-    assert_int_equal(wt_curve_sheets_write(result, "none.pdf", NULL, &progress, &err),
-                     WT_E_CANCELLED);
-    wt_report_options options = wt_report_defaults();
-    options.gnuplot = "no-such-gnuplot";
-    assert_int_equal(wt_curve_sheets_write(result, "none.pdf", &options, NULL, &err), WT_E_TOOL);
-    options = wt_report_defaults();
-    assert_int_equal(wt_curve_sheets_write(result, "no-folder/x.pdf", &options, NULL, &err),
-                     WT_E_IO);
-    assert_int_not_equal(access("none.pdf", F_OK), 0);
-    wt_result_free(none);
-    wt_result_free(one);
-    wt_result_free(result);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_order), cmocka_unit_test(test_texts),
-                                       cmocka_unit_test(test_long_reason),
-                                       cmocka_unit_test(test_sheets),
-                                       cmocka_unit_test(test_refusals)};
+                                       cmocka_unit_test(test_long_reason)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
