@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* Initial widths of the prior of the vertical shift [decade]: clamping and departure of the
- * material (master_route.c). */
+ * material (master_widths.c). */
 static const double start_geometry = 0.002, start_departure = 0.02;
 /* Noise that is uniform along an isotherm. */
 const double master_uniform_noise[SPECTRUM_SHAPES] = {0.0};
@@ -464,6 +464,8 @@ wt_status master_test_superposition(master_work *work, wt_error *err)
     spectrum_set_point_noise(s, work->within.shape);
     if (status == WT_OK)
         status = spectrum_fit(s, work->is_gross ? SPECTRUM_ROUGH : SPECTRUM_NOISE, err);
+    if (status == WT_OK && work->tested)
+        status = spectrum_refresh(s, err);
     if (status == WT_OK && work->tested)
         work->lack = superposition_test(s, work->within.uncertainty);
     s->rho = s->kept_rho;

@@ -187,6 +187,13 @@ static void prepare_equations(spectrum *s)
     make_equations(s);
 }
 
+wt_status spectrum_refresh(spectrum *s, wt_error *err)
+{
+    s->may_reuse = false;
+    prepare_equations(s);
+    return invert_precision(s, err);
+}
+
 void spectrum_keep(spectrum *s)
 {
     memcpy(s->kept_value, s->value, s->n_unknowns * sizeof *s->value);
@@ -209,10 +216,12 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
     const bool held = mode == SPECTRUM_FIXED_NOISE || mode == SPECTRUM_TRIAL;
     const double settled = rough ? rough_change : min_change;
     const double least = rough ? rough_gain : held ? held_gain : least_gain;
+    const bool final = mode == SPECTRUM_NOISE;
     wt_status status = WT_OK;
     double damping = 0.0, gain = HUGE_VAL, change = 0.0;
     bool done = false;
     gsl_quiet();
+    s->may_reuse = final; /* the weights of the others change */
     prepare_equations(s);
     for (int i = 0; status == WT_OK && !done && i < max_steps[mode]; i++) {
         status = damped_step(s, &damping, &gain, err);
@@ -231,7 +240,7 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
         }
         const bool trial = mode == SPECTRUM_TRIAL;
         const double enough = trial ? fmax(least, trial_gain * s->objective) : least;
-        done = gain < enough && change < settled &&
+        done = (gain < enough || final) && change < settled &&
                has_converged(s, trial ? fmax(least, trial_left * s->objective) : least);
     }
     s->settled = done;
