@@ -133,6 +133,9 @@ typedef struct spectrum {
 wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, const double *a,
                        const double *b, double terms_per_decade, double margin, bool liquid,
                        spectrum *s, wt_error *err) WT_NODISCARD;
+/* Starts from the terms of a fitted spectrum of the same anchor. Slower terms are added to the
+ * equilibrium modulus. */
+void spectrum_start_from(spectrum *s, const spectrum *fitted);
 void spectrum_free(spectrum *s);
 /* Sets the prior of b and the unknowns; the present shifts are unchanged. */
 void spectrum_set_prior(spectrum *s, const spectrum_prior *prior);
@@ -218,6 +221,8 @@ typedef enum spectrum_mode {
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
 /* Forms and factors the equations of the present unknowns, of no earlier rows. */
 wt_status spectrum_refresh(spectrum *s, wt_error *err) WT_NODISCARD;
+/* Returns the least objective that a step from the present unknowns can reach, by a parabola. */
+double spectrum_expected_objective(spectrum *s);
 /* Keeps the present fit, and returns to the kept one, which has the same unknowns. The equations
  * stay those of the last fit. */
 void spectrum_keep(spectrum *s);

@@ -194,6 +194,30 @@ wt_status spectrum_refresh(spectrum *s, wt_error *err)
     return invert_precision(s, err);
 }
 
+void spectrum_start_from(spectrum *s, const spectrum *fitted)
+{
+    const double last = (double)fitted->n_terms - 1.0;
+    const double end = s->log_tau + ((double)s->n_terms - 0.5) * s->step;
+    double slower = fitted->liquid ? 0.0 : exp(fitted->value[fitted->n_terms]);
+    for (size_t j = 0; j < s->n_terms; j++) {
+        const double at =
+            fmin(fmax((s->log_tau - fitted->log_tau + (double)j * s->step) / fitted->step, 0.0),
+                 last - 1.0);
+        const double *y = fitted->value + (size_t)at;
+        s->value[j] = log(s->step / fitted->step) + y[0] + (at - floor(at)) * (y[1] - y[0]);
+    }
+    for (size_t j = 0; j < fitted->n_terms; j++)
+        slower += fitted->log_tau + (double)j * fitted->step > end ? exp(fitted->value[j]) : 0.0;
+    if (!s->liquid && slower > 0.0)
+        s->value[s->n_terms] = log(slower);
+}
+
+double spectrum_expected_objective(spectrum *s)
+{
+    prepare_equations(s);
+    return factor_damped(s, 0.0) ? s->objective - pow(spectrum_step_left(s), 2) : -HUGE_VAL;
+}
+
 void spectrum_keep(spectrum *s)
 {
     memcpy(s->kept_value, s->value, s->n_unknowns * sizeof *s->value);
