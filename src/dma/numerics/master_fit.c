@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* Initial widths of the prior of the vertical shift [decade]: clamping and departure of the
- * material (master_route.c). */
+ * material (master_widths.c). */
 static const double start_geometry = 0.002, start_departure = 0.02;
 /* Noise that is uniform along an isotherm. */
 const double master_uniform_noise[SPECTRUM_SHAPES] = {0.0};
@@ -50,6 +50,9 @@ static const double shift_relevant_misfit = 0.01;
  * the factor 1.3 lines between terms add 69 % to the square of the noise: a smaller misfit is below
  * 0.83 of the noise and moves no shift by more than its error. */
 static const double lines_smooth = 5.0, noise_ratio_limit = 1.3, noise_significance = 6.0;
+/* Lines are fitted if a step towards them may leave less than this share of the squares. If they
+ * reduce the noise of one of two moduli by noise_ratio_limit they leave 0.8. */
+static const double most_promising = 0.9;
 
 wt_master_options wt_master_options_defaults(void)
 {
@@ -309,6 +312,7 @@ static bool try_line_spectrum(const master_work *work)
 {
     const spectrum *s = work->s;
     spectrum lines;
+    double squares = 0.0;
     bool better = false;
     if (spectrum_new(&work->set, work->placed, work->anchor, work->a, work->b, trial_terms,
                      trial_margin, work->options.liquid, &lines, NULL) != WT_OK)
@@ -322,8 +326,13 @@ static bool try_line_spectrum(const master_work *work)
     for (int q = 0; q < MODULI; q++) {
         memcpy(lines.weight[q], s->weight[q], s->n * sizeof *s->weight[q]);
         lines.noise[q] = s->noise[q];
+        squares += spectrum_squares(s, q) / (s->noise[q] * s->noise[q]);
     }
-    if (spectrum_fit(&lines, SPECTRUM_TRIAL, NULL) == WT_OK) {
+    spectrum_keep(&lines);
+    spectrum_start_from(&lines, s);
+    const bool promising = spectrum_expected_objective(&lines) < most_promising * squares;
+    spectrum_return(&lines);
+    if (promising && spectrum_fit(&lines, SPECTRUM_TRIAL, NULL) == WT_OK) {
         (void)spectrum_noise_update(&lines, 1.0, 0.0);
         for (int q = 0; q < MODULI; q++)
             better = better || lines_reduce_noise(&lines, s, q);
@@ -464,6 +473,8 @@ wt_status master_test_superposition(master_work *work, wt_error *err)
     spectrum_set_point_noise(s, work->within.shape);
     if (status == WT_OK)
         status = spectrum_fit(s, work->is_gross ? SPECTRUM_ROUGH : SPECTRUM_NOISE, err);
+    if (status == WT_OK && work->tested)
+        status = spectrum_refresh(s, err);
     if (status == WT_OK && work->tested)
         work->lack = superposition_test(s, work->within.uncertainty);
     s->rho = s->kept_rho;

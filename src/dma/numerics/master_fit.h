@@ -148,6 +148,9 @@ bool master_find_objecting(master_work *work, size_t *found);
  * there is none. */
 bool master_find_unit_slip(master_work *work, size_t *found);
 
+/* Fits all relevant widths of the vertical shift. The spectrum ends at the best one. */
+wt_status master_fit_widths(master_work *work, wt_error *err) WT_NODISCARD;
+
 /* Fills `master` and transfers the posterior to it. */
 wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, wt_master *master,
                         wt_error *err) WT_NODISCARD;

@@ -26,12 +26,37 @@ void posterior_free(wt_posterior *p)
     free(p);
 }
 
-/* Computes the covariance of a cell and the factor of its inverse. */
-static wt_status fill_cell(const wt_posterior *p, posterior_cell *c, wt_error *err)
+void posterior_store(wt_posterior *p, const vertical *v, double log_weight)
 {
     const spectrum *s = &p->frame;
     const size_t n = s->n_unknowns;
+    posterior_cell *c = &p->cells[p->n_cells++];
+    *c = (posterior_cell){.value = arena_numbers(&p->memory, n),
+                          .noise = {s->noise[STORAGE], s->noise[LOSS]},
+                          .smoothness = s->smooth,
+                          .geometry = v->geometry,
+                          .departure = v->departure,
+                          .log_weight = log_weight,
+                          .has_converged = s->settled};
+    p->step_left = fmax(p->step_left, spectrum_step_left(s));
+    memcpy(c->value, s->value, n * sizeof *c->value);
+}
+
+wt_status posterior_fill(wt_posterior *p, posterior_cell *c, wt_error *err)
+{
+    spectrum *s = &p->frame;
+    const size_t n = s->n_unknowns;
     arena memory = {0};
+    posterior_restore(p, c);
+    const wt_status status = spectrum_refresh(s, err);
+    if (status != WT_OK)
+        return status;
+    c->covariance = arena_matrix(&p->memory, n, n);
+    c->root = arena_matrix(&p->memory, n, n);
+    if (s->prior->n_smooth > 0) {
+        c->smooth = arena_numbers(&p->memory, s->n_curves * s->n_curves);
+        vertical_smooth_part(s->prior, s->n_curves, c->smooth);
+    }
     spectrum_precision(s, c->root);
     for (size_t u = 0; u < n; u++)
         *gsl_matrix_ptr(c->root, u, u) *= 1.0 + s->rounding;
@@ -43,31 +68,10 @@ static wt_status fill_cell(const wt_posterior *p, posterior_cell *c, wt_error *e
                 : wt_fail(err, WT_E_CONVERGENCE, "the isotherms do not determine a spectrum");
 }
 
-wt_status posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
-                          double log_weight, wt_error *err)
+bool posterior_counts(const wt_posterior *p, const posterior_cell *cell)
 {
-    const spectrum *s = &p->frame;
-    const size_t n = s->n_unknowns, n_curves = s->n_curves;
-    posterior_cell *c = &p->cells[p->n_cells++];
-    *c = (posterior_cell){.value = arena_numbers(&p->memory, n),
-                          .noise = {s->noise[STORAGE], s->noise[LOSS]},
-                          .smoothness = s->smooth,
-                          .geometry = v->geometry,
-                          .departure = v->departure,
-                          .log_weight = log_weight,
-                          .has_converged = s->settled};
-    const bool counts = log_weight > posterior_best(p)->log_weight + 2.0 * log(least_share);
-    if (counts) {
-        c->covariance = arena_matrix(&p->memory, n, n);
-        c->root = arena_matrix(&p->memory, n, n);
-    }
-    if (counts && kind == WT_VERTICAL_TIED)
-        c->smooth = arena_numbers(&p->memory, n_curves * n_curves);
-    p->step_left = fmax(p->step_left, spectrum_step_left(s));
-    memcpy(c->value, s->value, n * sizeof *c->value);
-    if (c->smooth != NULL)
-        vertical_smooth_part(s->prior, n_curves, c->smooth);
-    return counts ? fill_cell(p, c, err) : WT_OK;
+    /* the law cannot raise a smaller weight enough */
+    return cell->log_weight > posterior_best(p)->log_weight + 2.0 * log(least_share);
 }
 
 const posterior_cell *posterior_best(const wt_posterior *p)
@@ -93,9 +97,8 @@ static void weigh_cells(wt_posterior *p)
     const double most = posterior_best(p)->log_weight;
     double sum = 0.0;
     for (size_t i = 0; i < p->n_cells; i++) {
-        const double weight = exp(p->cells[i].log_weight - most);
-        /* the law cannot raise a smaller weight enough */
-        p->cells[i].weight = weight > least_share * least_share ? weight : 0.0;
+        p->cells[i].weight =
+            posterior_counts(p, &p->cells[i]) ? exp(p->cells[i].log_weight - most) : 0.0;
         sum += p->cells[i].weight;
     }
     for (size_t i = 0; i < p->n_cells; i++)

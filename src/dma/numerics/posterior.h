@@ -21,7 +21,7 @@ wt_interval mixture_interval(const mixture_component *part, size_t n);
 wt_interval interval_offset(wt_interval x, double by);
 wt_interval interval_map(wt_interval x, double (*f)(double));
 
-/* Number of geometry widths times departure widths in master_route.c. */
+/* Number of geometry widths times departure widths in master_widths.c. */
 enum { POSTERIOR_CELLS = 12 };
 
 /* One fit of the spectrum for one width of the vertical shift. */
@@ -75,8 +75,11 @@ struct wt_posterior {
 
 void posterior_free(wt_posterior *p);
 /* Stores the present fit of the frame as a cell. */
-wt_status posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
-                          double log_weight, wt_error *err) WT_NODISCARD;
+void posterior_store(wt_posterior *p, const vertical *v, double log_weight);
+/* Returns true if a cell has a relevant weight, when all cells are stored. */
+bool posterior_counts(const wt_posterior *p, const posterior_cell *cell);
+/* Computes the covariance of a cell, to which the frame is restored; its prior must be set. */
+wt_status posterior_fill(wt_posterior *p, posterior_cell *cell, wt_error *err) WT_NODISCARD;
 /* Returns the cell with the largest weight without the law. */
 const posterior_cell *posterior_best(const wt_posterior *p);
 /* Restores the frame from a cell; its prior must be set. */

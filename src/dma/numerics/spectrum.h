@@ -101,11 +101,14 @@ typedef struct spectrum {
     /* Border: terms, then one unknown for each column of prior->smooth, with 1 on the diagonal
      * and -P S at the side. Eliminating these gives the equations with the prior. Blocks: a and
      * b. */
-    bordered_matrix normal[MODULI]; /* J'J of the rows of a modulus */
-    double *right[MODULI];          /* [n_unknowns] J'r of the same rows */
-    bordered_matrix precision;      /* normal / noise^2 + priors */
-    bordered_matrix factor;         /* Cholesky factor of the precision */
-    bordered_matrix covariance;     /* elements of the inverse at the non-zero positions */
+    bordered_matrix normal[MODULI];  /* J'J of the rows of a modulus, the present or earlier ones */
+    double *normal_residual[MODULI]; /* [n] residuals of those rows */
+    size_t normal_unknowns;          /* number of unknowns then, 0: no products */
+    bool may_reuse;                  /* products of earlier rows may serve */
+    double *right[MODULI];           /* [n_unknowns] J'r of the same rows */
+    bordered_matrix precision;       /* normal / noise^2 + priors */
+    bordered_matrix factor;          /* Cholesky factor of the precision */
+    bordered_matrix covariance;      /* elements of the inverse at the non-zero positions */
     gsl_matrix *scratch;
     double *border, *side; /* scratch of a solve */
     gsl_vector *gradient;
@@ -130,6 +133,9 @@ typedef struct spectrum {
 wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, const double *a,
                        const double *b, double terms_per_decade, double margin, bool liquid,
                        spectrum *s, wt_error *err) WT_NODISCARD;
+/* Starts from the terms of a fitted spectrum of the same anchor. Slower terms are added to the
+ * equilibrium modulus. */
+void spectrum_start_from(spectrum *s, const spectrum *fitted);
 void spectrum_free(spectrum *s);
 /* Sets the prior of b and the unknowns; the present shifts are unchanged. */
 void spectrum_set_prior(spectrum *s, const spectrum_prior *prior);
@@ -213,6 +219,10 @@ typedef enum spectrum_mode {
     SPECTRUM_TRIAL        /* the same with an accuracy that suffices to compare the noise */
 } spectrum_mode;
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
+/* Forms and factors the equations of the present unknowns, of no earlier rows. */
+wt_status spectrum_refresh(spectrum *s, wt_error *err) WT_NODISCARD;
+/* Returns the least objective that a step from the present unknowns can reach, by a parabola. */
+double spectrum_expected_objective(spectrum *s);
 /* Keeps the present fit, and returns to the kept one, which has the same unknowns. The equations
  * stay those of the last fit. */
 void spectrum_keep(spectrum *s);

@@ -187,6 +187,37 @@ static void prepare_equations(spectrum *s)
     make_equations(s);
 }
 
+wt_status spectrum_refresh(spectrum *s, wt_error *err)
+{
+    s->may_reuse = false;
+    prepare_equations(s);
+    return invert_precision(s, err);
+}
+
+void spectrum_start_from(spectrum *s, const spectrum *fitted)
+{
+    const double last = (double)fitted->n_terms - 1.0;
+    const double end = s->log_tau + ((double)s->n_terms - 0.5) * s->step;
+    double slower = fitted->liquid ? 0.0 : exp(fitted->value[fitted->n_terms]);
+    for (size_t j = 0; j < s->n_terms; j++) {
+        const double at =
+            fmin(fmax((s->log_tau - fitted->log_tau + (double)j * s->step) / fitted->step, 0.0),
+                 last - 1.0);
+        const double *y = fitted->value + (size_t)at;
+        s->value[j] = log(s->step / fitted->step) + y[0] + (at - floor(at)) * (y[1] - y[0]);
+    }
+    for (size_t j = 0; j < fitted->n_terms; j++)
+        slower += fitted->log_tau + (double)j * fitted->step > end ? exp(fitted->value[j]) : 0.0;
+    if (!s->liquid && slower > 0.0)
+        s->value[s->n_terms] = log(slower);
+}
+
+double spectrum_expected_objective(spectrum *s)
+{
+    prepare_equations(s);
+    return factor_damped(s, 0.0) ? s->objective - pow(spectrum_step_left(s), 2) : -HUGE_VAL;
+}
+
 void spectrum_keep(spectrum *s)
 {
     memcpy(s->kept_value, s->value, s->n_unknowns * sizeof *s->value);
@@ -209,10 +240,12 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
     const bool held = mode == SPECTRUM_FIXED_NOISE || mode == SPECTRUM_TRIAL;
     const double settled = rough ? rough_change : min_change;
     const double least = rough ? rough_gain : held ? held_gain : least_gain;
+    const bool final = mode == SPECTRUM_NOISE;
     wt_status status = WT_OK;
     double damping = 0.0, gain = HUGE_VAL, change = 0.0;
     bool done = false;
     gsl_quiet();
+    s->may_reuse = final; /* the weights of the others change */
     prepare_equations(s);
     for (int i = 0; status == WT_OK && !done && i < max_steps[mode]; i++) {
         status = damped_step(s, &damping, &gain, err);
@@ -231,7 +264,7 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
         }
         const bool trial = mode == SPECTRUM_TRIAL;
         const double enough = trial ? fmax(least, trial_gain * s->objective) : least;
-        done = gain < enough && change < settled &&
+        done = (gain < enough || final) && change < settled &&
                has_converged(s, trial ? fmax(least, trial_left * s->objective) : least);
     }
     s->settled = done;

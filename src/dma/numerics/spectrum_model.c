@@ -23,6 +23,11 @@ static const double start_fall = 0.5;
  * relaxes outside the range. */
 static const double flattest = 0.01, steepest = 1.5;
 
+/* Products of the rows are formed again when the moduli have changed by more than this since, the
+ * sum of squares in standard deviations of the noise: 0.3 standard errors. The gradient is always
+ * that of the present rows, so that the minimum does not depend on it. */
+static const double most_change = 0.1;
+
 /* ---- beyond the measured range --------------------------------------------------------------- */
 
 /* Extension of the relaxation times beyond the measured range [decade]. E'' of a term 4.5
@@ -93,6 +98,7 @@ static void allocate_spectrum(spectrum *s)
         s->residual[q] = arena_numbers(m, s->n);
         s->row[q] = arena_numbers(m, (s->n + TILE_ROWS - 1) * (s->n_linear + 2));
         s->normal[q] = bordered_new(m, s->n_linear, s->n_curves);
+        s->normal_residual[q] = arena_numbers(m, s->n);
         s->right[q] = arena_numbers(m, most);
     }
     s->kappa = arena_numbers(m, s->n_curves);
@@ -500,14 +506,12 @@ static void add_row_products(gsl_matrix *normal, size_t m, const double *row, si
                              (tile_rows){row + i, row + j, width, width, rows}, false);
 }
 
-/* Adds the products of the shifts of a curve with the terms, with each other and with the
- * residuals. */
+/* Adds the products of the shifts of a curve with the terms and with each other. */
 static void add_shift_products(spectrum *s, size_t curve, int q)
 {
     const size_t m = s->n_linear, width = m + 2, n = s->first[curve + 1] - s->first[curve];
     const long column[BLOCK_SIDE] = {s->column_a[curve], s->column_b[curve]};
-    const double *first = s->row[q] + s->first[curve] * width,
-                 *residual = s->residual[q] + s->first[curve];
+    const double *first = s->row[q] + s->first[curve] * width;
     double *diagonal = s->normal[q].diagonal + BLOCK_DIAGONAL * curve;
     for (size_t c = 0; c < BLOCK_SIDE; c++) {
         if (column[c] < 0)
@@ -516,31 +520,60 @@ static void add_shift_products(spectrum *s, size_t curve, int q)
                        first + m + c, width, first, width, n);
         for (size_t k = 0; k < n; k++) {
             const double *shift = first + k * width + m;
-            s->right[q][column[c]] += shift[c] * residual[k];
             for (size_t d = 0; d <= c; d++)
                 diagonal[c + d] += column[d] >= 0 ? shift[c] * shift[d] : 0.0;
         }
     }
 }
 
+/* Forms the products of the rows of a modulus with each other. */
+static void form_products(spectrum *s, int q)
+{
+    const size_t m = s->n_linear, width = m + 2;
+    gsl_matrix *normal = s->normal[q].border;
+    bordered_zero(&s->normal[q]);
+    for (size_t k = 0; k < s->n; k += TILE_CACHED_ROWS) /* the last rows are zeros */
+        add_row_products(normal, m, s->row[q] + k * width, width,
+                         k + TILE_CACHED_ROWS < s->n ? TILE_CACHED_ROWS : s->n - k);
+    for (size_t i = 0; i < s->n_curves; i++)
+        add_shift_products(s, i, q);
+    for (size_t i = 0; i < m; i++) /* lower triangle */
+        for (size_t j = 0; j < i; j++)
+            gsl_matrix_set(normal, i, j, gsl_matrix_get(normal, j, i));
+    memcpy(s->normal_residual[q], s->residual[q], s->n * sizeof *s->residual[q]);
+    s->normal_unknowns = s->n_unknowns;
+}
+
+/* Returns true if the products of earlier rows serve: the unknowns are the same, and the residuals
+ * have changed by little, which they do not if the weights change. */
+static bool products_serve(const spectrum *s)
+{
+    double sum = 0.0;
+    for (int q = 0; q < MODULI; q++)
+        for (size_t k = 0; s->used[q] && k < s->n; k++)
+            sum += pow((s->residual[q][k] - s->normal_residual[q][k]) / s->noise[q], 2);
+    return s->may_reuse && s->normal_unknowns == s->n_unknowns && sum < most_change;
+}
+
 void spectrum_normal(spectrum *s)
 {
     const size_t m = s->n_linear, width = m + 2;
+    const bool serve = products_serve(s);
     for (int q = 0; q < MODULI; q++) {
-        gsl_matrix *normal = s->normal[q].border;
         if (!s->used[q])
             continue; /* its rows are zeros */
-        bordered_zero(&s->normal[q]);
+        if (!serve)
+            form_products(s, q);
         memset(s->right[q], 0, s->n_unknowns * sizeof *s->right[q]);
         dense_add_rows(s->right[q], m, s->residual[q], 1, s->row[q], width, s->n);
-        for (size_t k = 0; k < s->n; k += TILE_CACHED_ROWS) /* the last rows are zeros */
-            add_row_products(normal, m, s->row[q] + k * width, width,
-                             k + TILE_CACHED_ROWS < s->n ? TILE_CACHED_ROWS : s->n - k);
         for (size_t i = 0; i < s->n_curves; i++)
-            add_shift_products(s, i, q);
-        for (size_t i = 0; i < m; i++) /* lower triangle */
-            for (size_t j = 0; j < i; j++)
-                gsl_matrix_set(normal, i, j, gsl_matrix_get(normal, j, i));
+            for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
+                const double *shift = s->row[q] + k * width + m;
+                if (s->column_a[i] >= 0)
+                    s->right[q][s->column_a[i]] += shift[0] * s->residual[q][k];
+                if (s->column_b[i] >= 0)
+                    s->right[q][s->column_b[i]] += shift[1] * s->residual[q][k];
+            }
     }
 }
 

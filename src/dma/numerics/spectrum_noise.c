@@ -3,7 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/spectrum.h"
 
-#include <gsl/gsl_blas.h>
+#include "core/math/cholesky.h"
+
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
@@ -27,6 +28,8 @@ enum { LEAST_LEFT = 3 };
 enum { CORRELATIONS = 15 };
 static const double correlation_first = -0.36, correlation_step = 0.18,
                     correlation_prior_width = 0.3;
+/* Rise of the criterion, -2 ln, from which larger correlations have no weight: exp(-10) = 5e-5. */
+static const double negligible_criterion = 20.0;
 
 /* Shape of ln noise along all isotherms: a line and a parabola in the position from -1 to 1. The
  * prior width is a factor 2.2 from one end to the other. It is twice the standard error of a slope
@@ -63,7 +66,7 @@ static struct within fit_isotherm_polynomial(const spectrum *s, size_t curve, in
     while (n < MOST_COEFFICIENTS && 2 * (n + 2) <= to - from)
         n++;
     const size_t width = n + 1;
-    double cross_block[MOST_WIDTH * MOST_WIDTH] = {0}, *v = w->v;
+    double cross[MOST_WIDTH * MOST_WIDTH] = {0}, *v = w->v;
     struct within sum = {0.0, -(double)n, 0.0};
     for (size_t k = from; k < to; k++) {
         const double at = isotherm_position(s, curve, k);
@@ -79,15 +82,13 @@ static struct within fit_isotherm_polynomial(const spectrum *s, size_t curve, in
     for (size_t k = from; k < to; k++)
         for (size_t i = 0; i < width; i++)
             for (size_t j = 0; j <= i; j++)
-                cross_block[i * width + j] += v[k * width + i] * v[k * width + j];
-    gsl_matrix_view cross = gsl_matrix_view_array(cross_block, width, width);
-    if (gsl_linalg_cholesky_decomp1(&cross.matrix) != GSL_SUCCESS)
+                cross[i * width + j] += v[k * width + i] * v[k * width + j];
+    if (!cholesky_factor(cross, width, width, 0.0))
         return (struct within){0.0, 0.0, 0.0};
     /* multiplies each row by the inverse factor: orthogonal polynomials and the residual */
-    const double last = gsl_matrix_get(&cross.matrix, n, n);
+    const double last = cross[n * width + n];
     for (size_t k = from; points && k < to; k++) {
-        gsl_vector_view row = gsl_vector_view_array(v + k * width, width);
-        gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, &cross.matrix, &row.vector);
+        cholesky_forward(cross, width, width, v + k * width, v + k * width);
         w->left[k] = s->weight[q][k] > 0.0 ? 1.0 : 0.0;
         for (size_t i = 0; i < n; i++)
             w->left[k] -= v[k * width + i] * v[k * width + i];
@@ -95,7 +96,7 @@ static struct within fit_isotherm_polynomial(const spectrum *s, size_t curve, in
     }
     sum.squares = last * last;
     for (size_t i = 0; i < n; i++)
-        sum.log_det += 2.0 * log(gsl_matrix_get(&cross.matrix, i, i));
+        sum.log_det += 2.0 * log(cross[i * width + i]);
     return sum;
 }
 
@@ -121,14 +122,15 @@ static double restricted_likelihood(const spectrum *s, struct noise_work *w)
 static double estimate_correlation(spectrum *s, struct noise_work *w)
 {
     double criterion[CORRELATIONS], least = HUGE_VAL, sum[3] = {0.0, 0.0, 0.0};
-    for (int i = 0; i < CORRELATIONS; i++) {
-        const double z = correlation_first + i * correlation_step;
+    int n = 0;
+    do { /* the criterion has one minimum */
+        const double z = correlation_first + n * correlation_step;
         s->rho = tanh(z);
-        criterion[i] = restricted_likelihood(s, w) +
+        criterion[n] = restricted_likelihood(s, w) +
                        2.0 * log1p(z * z / (correlation_prior_width * correlation_prior_width));
-        least = fmin(least, criterion[i]);
-    }
-    for (int i = 0; i < CORRELATIONS; i++) {
+        least = fmin(least, criterion[n]);
+    } while (criterion[n] < least + negligible_criterion && ++n < CORRELATIONS);
+    for (int i = 0; i < n; i++) {
         const double weight = exp(-0.5 * (criterion[i] - least)),
                      z = correlation_first + i * correlation_step;
         sum[0] += weight;
