@@ -349,13 +349,11 @@ static const char *find_long_name(const stream_reader *r, const char *name)
 /* Parses "# name[unit]<TAB>name[unit]". */
 static wt_status read_stream_header(stream_reader *r, wt_error *err)
 {
-    static const char form[] = "a header line \"# name[unit]<TAB>name[unit]...\", as "
+    static const char form[] = "a result, which -o NAME.h5 writes, or a header line \"# "
+                               "name[unit]<TAB>name[unit]...\", as "
                                "`weartrack table --format stream` writes";
-    static const char instead[] =
-        "a result, which -o NAME.h5 writes (one table as .tsv or .csv is for "
-        "other programs), or a header line \"# name[unit]<TAB>name[unit]...\"";
     if (r->length < 3 || r->line[0] != '#' || r->line[1] != ' ')
-        return fail_corrupt_stream(r, 0, "the header line is missing", instead, r->line, err);
+        return fail_corrupt_stream(r, 0, "the header line is missing", form, r->line, err);
     wt_status status = WT_OK;
     if (r->table == NULL)
         r->table = wt_table_new("table", "");

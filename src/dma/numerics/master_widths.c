@@ -108,7 +108,7 @@ wt_status master_fit_widths(master_work *work, wt_error *err)
             continue;
         status = master_set_widths(work, kind, cell->geometry, cell->departure, err);
         if (status == WT_OK)
-            status = posterior_fill(p, cell, err);
+            status = posterior_fill(p, kind, cell, err);
     }
     if (status != WT_OK)
         return status;

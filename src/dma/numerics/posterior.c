@@ -42,7 +42,7 @@ void posterior_store(wt_posterior *p, const vertical *v, double log_weight)
     memcpy(c->value, s->value, n * sizeof *c->value);
 }
 
-wt_status posterior_fill(wt_posterior *p, posterior_cell *c, wt_error *err)
+wt_status posterior_fill(wt_posterior *p, wt_vertical_shift kind, posterior_cell *c, wt_error *err)
 {
     spectrum *s = &p->frame;
     const size_t n = s->n_unknowns;
@@ -53,7 +53,7 @@ wt_status posterior_fill(wt_posterior *p, posterior_cell *c, wt_error *err)
         return status;
     c->covariance = arena_matrix(&p->memory, n, n);
     c->root = arena_matrix(&p->memory, n, n);
-    if (s->prior->n_smooth > 0) {
+    if (kind == WT_VERTICAL_TIED) { /* zero without a departure of the material */
         c->smooth = arena_numbers(&p->memory, s->n_curves * s->n_curves);
         vertical_smooth_part(s->prior, s->n_curves, c->smooth);
     }

@@ -79,7 +79,8 @@ void posterior_store(wt_posterior *p, const vertical *v, double log_weight);
 /* Returns true if a cell has a relevant weight, when all cells are stored. */
 bool posterior_counts(const wt_posterior *p, const posterior_cell *cell);
 /* Computes the covariance of a cell, to which the frame is restored; its prior must be set. */
-wt_status posterior_fill(wt_posterior *p, posterior_cell *cell, wt_error *err) WT_NODISCARD;
+wt_status posterior_fill(wt_posterior *p, wt_vertical_shift kind, posterior_cell *cell,
+                         wt_error *err) WT_NODISCARD;
 /* Returns the cell with the largest weight without the law. */
 const posterior_cell *posterior_best(const wt_posterior *p);
 /* Restores the frame from a cell; its prior must be set. */
