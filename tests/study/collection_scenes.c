@@ -8,7 +8,8 @@ const collection_scene collection_scenes[] = {
      .facts.intervals_promised = true, .facts.right = RIGHT(YES), .lap_noise = 0.02,
      .cases = {{{0.82, 5, 0.04}, {0.64, 5, 0.04}}, {{1, 5, 0.04}, {0.64, 3, 0.25}}}},
     {NAMED("G2", "the same with the running-in of the record, the second compound by transport"),
-     .facts.right = RIGHT(YES), .lap_noise = 0.003, .running_in = true,
+     .facts.intervals_promised = true, .facts.right = RIGHT(YES), .lap_noise = 0.003,
+     .running_in = true,
      .cases = {{{0.82, 5, 0.04}, {0.64, 5, 0.04}}, {{1, 5, 0.04}, {0.64, 3, 0.25}}}},
 };
 const int n_collection_scenes = sizeof collection_scenes / sizeof collection_scenes[0];
