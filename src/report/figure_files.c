@@ -218,8 +218,7 @@ static size_t length_through(const char *s, size_t n, const char *end)
     return found != NULL ? (size_t)(found - s) + strlen(end) : n;
 }
 
-/* Reads width and height of the picture in its own units; false if it does not state them. */
-static bool canvas_size(const char *svg, size_t length, double size[2])
+bool svg_canvas_size(const char *svg, size_t length, double size[2])
 {
     static const char box[] = "viewBox=\"0 0 ";
     const char *s = memmem(svg, length, box, sizeof box - 1);
@@ -243,7 +242,7 @@ void svg_append_sized(text_buffer *out, const char *svg, size_t length, double u
 {
     double size[2];
     const char *begin = memmem(svg, length, "<svg", 4);
-    if (begin == NULL || !canvas_size(svg, length, size)) {
+    if (begin == NULL || !svg_canvas_size(svg, length, size)) {
         text_bytes(out, svg, length);
         return;
     }
@@ -402,8 +401,8 @@ static const char *find_symbols(const char *svg, size_t length, size_t *symbols_
     return begin;
 }
 
-bool svg_append_inline(text_buffer *page, const char *svg, size_t length, const char *id,
-                       const char *label, svg_symbols *symbols)
+bool svg_append_inline(text_buffer *page, const char *svg, size_t length, const char *name,
+                       const char *id, const char *label, svg_symbols *symbols)
 {
     static const char *const references[] = {" id='", " id=\"", "href='#", "href=\"#",
                                              "url(#", "url('#", "url(\"#"};
@@ -412,8 +411,8 @@ bool svg_append_inline(text_buffer *page, const char *svg, size_t length, const 
         return false;
     const char *const end = svg + length;
     double size[2];
-    text_html(page, "<svg role=\"img\" aria-label=\"%s\"", label);
-    if (canvas_size(begin, (size_t)(end - begin), size))
+    text_html(page, "<svg id=\"picture-%s\" role=\"img\" aria-label=\"%s\"", name, label);
+    if (svg_canvas_size(begin, (size_t)(end - begin), size))
         text_format(page, " style=\"max-width:%.1frem\"", rem_per_unit * size[0]);
     bool in_tag = true;
     size_t symbols_length = 0;

@@ -69,8 +69,8 @@ static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t
               figure->name, drawing_is_wide(&drawn->drawing) ? "wide" : "single");
     char id[16]; /* short, as each symbol of the figure repeats it */
     snprintf(id, sizeof id, "f%zu", number);
-    if (!svg_append_inline(&page->out, text_string(&drawn->svg), drawn->svg.length, id,
-                           figure->title, &page->symbols)) {
+    if (!svg_append_inline(&page->out, text_string(&drawn->svg), drawn->svg.length, figure->name,
+                           id, figure->title, &page->symbols)) {
         wt_status status =
             wt_fail(err, WT_E_TOOL, "the picture of figure %s is not SVG", figure->name);
         wt_error_advice(err, "a plot style must use `set terminal svg`");

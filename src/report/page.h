@@ -14,13 +14,16 @@ typedef struct svg_symbols {
     size_t length;
 } svg_symbols;
 
-/* Appends the <svg> element of `svg` to a page, without XML declaration. Its ids and references
- * have the prefix `name`, so that they are unique on the page. Titles of gnuplot, which would
- * appear as tool tips, are removed. `label` is the accessible name. Its size is limited so that its
- * type is not larger than that of the page. Returns false if there is no <svg>.
- * `symbols` is zero before the first picture of the page. */
-bool svg_append_inline(text_buffer *page, const char *svg, size_t length, const char *id,
-                       const char *label, svg_symbols *symbols);
+/* Appends the <svg> element of `svg` to a page, without XML declaration. The element has the id
+ * "picture-NAME". Ids and references within it have the prefix `id`, so that they are unique.
+ * Titles of gnuplot, which would appear as tool tips, are removed. `label` is the accessible name.
+ * Its size is limited so that its type is not larger than that of the page. Returns false if there
+ * is no <svg>. `symbols` is zero before the first picture of the page. */
+bool svg_append_inline(text_buffer *page, const char *svg, size_t length, const char *name,
+                       const char *id, const char *label, svg_symbols *symbols);
+
+/* Reads width and height of a picture in its own units. False if it does not state them. */
+bool svg_canvas_size(const char *svg, size_t length, double size[2]);
 
 /* Appends the picture with width and height; `unit` is the size of its unit [mm]. */
 void svg_append_sized(text_buffer *out, const char *svg, size_t length, double unit);

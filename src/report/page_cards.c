@@ -108,7 +108,23 @@ static void write_card_warnings(page_writer *page, finding_question question)
     }
 }
 
-/* Links a card with its section, which exists for each number, and with its key figure. */
+/* Shows a figure of the page again, small, with a link to it. Its data stand on the page once. */
+static void write_key_figure(page_writer *page, const char *name)
+{
+    double size[2];
+    for (size_t i = 0; i < page->n_figures; i++) {
+        const drawn_figure *const f = &page->figures[i];
+        if (f->svg.length == 0 || strcmp(f->drawing.figure->name, name) != 0 ||
+            !svg_canvas_size(text_string(&f->svg), f->svg.length, size))
+            continue;
+        text_html(&page->out, "<a class=\"key\" href=\"#figure-%s\">", name);
+        text_format(&page->out, "<svg viewBox=\"0 0 %.0f %.0f\" role=\"img\"", size[0], size[1]);
+        text_html(&page->out, " aria-label=\"%s\"><use href=\"#picture-%s\"/></svg></a>\n",
+                  f->drawing.figure->title, name);
+    }
+}
+
+/* Links a card with its section, which exists for each number, and shows its key figure. */
 static void write_card_links(page_writer *page, const finding *f)
 {
     static const struct {
@@ -118,12 +134,9 @@ static void write_card_links(page_writer *page, const finding *f)
                                   [FINDING_FRICTION_CHANGE] = {"friction", "friction"}};
     if (isnan(f->value.number.value))
         return;
-    text_html(&page->out, "<p class=\"why\"><a href=\"#%s\">Why</a>", links[f->question].section);
-    for (size_t i = 0; i < page->n_figures; i++)
-        if (page->figures[i].svg.length > 0 &&
-            strcmp(page->figures[i].drawing.figure->name, links[f->question].figure) == 0)
-            text_html(&page->out, " <a href=\"#figure-%s\">Figure</a>", links[f->question].figure);
-    text_add(&page->out, "</p>\n");
+    text_html(&page->out, "<p class=\"why\"><a href=\"#%s\">Why</a></p>\n",
+              links[f->question].section);
+    write_key_figure(page, links[f->question].figure);
 }
 
 static void write_card(page_writer *page, const finding *f)

@@ -304,9 +304,9 @@ void page_summary(page_writer *page)
         has_remedies = true;
     text_buffer left = page->out;
     page->out = (text_buffer){0};
+    write_limits(page);
     if (has_remedies)
         write_data_used(page);
-    write_limits(page);
     text_buffer right = page->out;
     page->out = before;
     if (left.length > 0 || right.length > 0) {

@@ -171,12 +171,12 @@ static void test_svg_is_made_fit_for_a_page(void **state)
         "clip-path='url(#c)'/><text> id='a' url(#c)</text></g></svg>";
     text_buffer text = {0};
     svg_symbols symbols = {0};
-    assert_true(svg_append_inline(&text, svg, sizeof svg - 1, "mu", "a < b", &symbols));
+    assert_true(svg_append_inline(&text, svg, sizeof svg - 1, "layer", "mu", "a < b", &symbols));
     assert_text(&text, "<svg role=\"img\" aria-label=\"a &lt; b\" "
                        "style=\"max-width:35.0rem\" viewBox=\"0 0 600 1\">\n"
                        "<g id=\"mu-a\"><use href='#mu-a' clip-path='url(#mu-c)'/>"
                        "<text> id='a' url(#c)</text></g></svg>");
-    assert_false(svg_append_inline(&text, "%PDF-1.4", 8, "mu", "", &symbols));
+    assert_false(svg_append_inline(&text, "%PDF-1.4", 8, "layer", "mu", "", &symbols));
     text_free(&text);
 }
 
@@ -196,7 +196,7 @@ static void test_svg_symbols_are_shared(void **state)
     for (int i = 0; i < 2; i++) {
         text_buffer text = {0};
         assert_true(
-            svg_append_inline(&text, svg, sizeof svg - 1, i == 0 ? "a" : "b", "x", &symbols));
+            svg_append_inline(&text, svg, sizeof svg - 1, "layer", i == 0 ? "a" : "b", "x", &symbols));
         assert_text(&text, expected[i]);
         text_free(&text);
     }
@@ -216,7 +216,7 @@ static void test_svg_runs_of_symbols_are_grouped(void **state)
         "'/>100.04</g></svg>";
     text_buffer text = {0};
     svg_symbols symbols = {0};
-    assert_true(svg_append_inline(&text, svg, sizeof svg - 1, "f", "x", &symbols));
+    assert_true(svg_append_inline(&text, svg, sizeof svg - 1, "layer", "f", "x", &symbols));
     assert_non_null(strstr(text_string(&text),
                            "<g class=\"g\" stroke-width=\"1.10\"><g color='#010203'>"
                            "<use href='#f-a' transform='translate(10.3,100) scale(3.38)'/>\n<use "
