@@ -108,7 +108,8 @@ static void write_card_warnings(page_writer *page, finding_question question)
     }
 }
 
-/* Shows a figure of the page again, small, with a link to it. Its data stand on the page once. */
+/* Shows a figure of the page again, small, with a link to it. The page has its data once. A picture
+ * that is taller than wide has two panels, of which the upper one is shown. */
 static void write_key_figure(page_writer *page, const char *name)
 {
     double size[2];
@@ -118,9 +119,11 @@ static void write_key_figure(page_writer *page, const char *name)
             !svg_canvas_size(text_string(&f->svg), f->svg.length, size))
             continue;
         text_html(&page->out, "<a class=\"key\" href=\"#figure-%s\">", name);
-        text_format(&page->out, "<svg viewBox=\"0 0 %.0f %.0f\" role=\"img\"", size[0], size[1]);
-        text_html(&page->out, " aria-label=\"%s\"><use href=\"#picture-%s\"/></svg></a>\n",
-                  f->drawing.figure->title, name);
+        text_format(&page->out, "<svg viewBox=\"0 0 %.0f %.0f\" role=\"img\"", size[0],
+                    size[1] > size[0] ? size[1] / 2 : size[1]);
+        text_html(&page->out,
+                  " aria-label=\"%s\"><use href=\"#picture-%s\" height=\"%s\"/></svg></a>\n",
+                  f->drawing.figure->title, name, size[1] > size[0] ? "200%" : "100%");
     }
 }
 

@@ -172,7 +172,7 @@ static void test_svg_is_made_fit_for_a_page(void **state)
     text_buffer text = {0};
     svg_symbols symbols = {0};
     assert_true(svg_append_inline(&text, svg, sizeof svg - 1, "layer", "mu", "a < b", &symbols));
-    assert_text(&text, "<svg role=\"img\" aria-label=\"a &lt; b\" "
+    assert_text(&text, "<svg id=\"picture-layer\" role=\"img\" aria-label=\"a &lt; b\" "
                        "style=\"max-width:35.0rem\" viewBox=\"0 0 600 1\">\n"
                        "<g id=\"mu-a\"><use href='#mu-a' clip-path='url(#mu-c)'/>"
                        "<text> id='a' url(#c)</text></g></svg>");
@@ -188,15 +188,17 @@ static void test_svg_symbols_are_shared(void **state)
                               "<g fill=\"none\" color=\"black\">\n</g>"
                               "<use xlink:href='#gpPt1' color='rgb( 11,  79, 255)'/></svg>";
     static const char *const expected[] = {
-        "<svg role=\"img\" aria-label=\"x\" style=\"max-width:35.0rem\" viewBox=\"0 0 600 1\">"
+        "<svg id=\"picture-layer\" role=\"img\" aria-label=\"x\" style=\"max-width:35.0rem\" "
+        "viewBox=\"0 0 600 1\">"
         "<defs><path id='gpPt1'/></defs><use href='#gpPt1' color='#0b4fff'/></svg>",
-        "<svg role=\"img\" aria-label=\"x\" style=\"max-width:35.0rem\" viewBox=\"0 0 600 1\">"
+        "<svg id=\"picture-layer\" role=\"img\" aria-label=\"x\" style=\"max-width:35.0rem\" "
+        "viewBox=\"0 0 600 1\">"
         "<use href='#gpPt1' color='#0b4fff'/></svg>"};
     svg_symbols symbols = {0};
     for (int i = 0; i < 2; i++) {
         text_buffer text = {0};
-        assert_true(
-            svg_append_inline(&text, svg, sizeof svg - 1, "layer", i == 0 ? "a" : "b", "x", &symbols));
+        assert_true(svg_append_inline(&text, svg, sizeof svg - 1, "layer", i == 0 ? "a" : "b", "x",
+                                      &symbols));
         assert_text(&text, expected[i]);
         text_free(&text);
     }
