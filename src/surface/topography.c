@@ -186,6 +186,16 @@ static void warn_surface(const surface_result *w, size_t n, const wt_job *work)
                    "%% about its mean, which is reported; friction depends on the direction of "
                    "sliding",
                    100 * w->directions.amplitude);
+    /* a self-affine surface has exponents of 0 to 1 (Mandelbrot, Phys. Scr. 32 (1985) 257) */
+    if (w->law.found && (w->law.hurst.low > 1 || w->law.hurst.high < 0))
+        wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                   "the Hurst exponent, %.3g, is outside 0 to 1 by more than its error: %s",
+                   w->law.hurst.value,
+                   w->law.hurst.low > 1
+                       ? "short waves are too low, as a blunt tip or a filter leaves them; "
+                         "check whether the heights were filtered, or scan with a sharper tip"
+                       : "short waves are too high, as noise of the height leaves them; scan "
+                         "more slowly, or combine several sizes");
 }
 
 wt_status wt_topography_compute(const wt_topography_job *job, const wt_job *work,
