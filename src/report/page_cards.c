@@ -127,20 +127,12 @@ static void write_key_figure(page_writer *page, const char *name)
     }
 }
 
-/* Links a card with its section, which exists for each number, and shows its key figure. */
-static void write_card_links(page_writer *page, const finding *f)
-{
-    static const struct {
-        const char *section, *figure;
-    } links[FINDING_QUESTIONS] = {[FINDING_TRACK_DIFFERS] = {"indentation", "modulus_groups"},
-                                  [FINDING_LAYER_THICKNESS] = {"layer", "layer"},
-                                  [FINDING_FRICTION_CHANGE] = {"friction", "friction"}};
-    if (isnan(f->value.number.value))
-        return;
-    text_html(&page->out, "<p class=\"why\"><a href=\"#%s\">Why</a></p>\n",
-              links[f->question].section);
-    write_key_figure(page, links[f->question].figure);
-}
+/* Section and key figure of each question. */
+static const struct {
+    const char *section, *figure;
+} links[FINDING_QUESTIONS] = {[FINDING_TRACK_DIFFERS] = {"indentation", "modulus_groups"},
+                              [FINDING_LAYER_THICKNESS] = {"layer", "layer"},
+                              [FINDING_FRICTION_CHANGE] = {"friction", "friction"}};
 
 static void write_card(page_writer *page, const finding *f)
 {
@@ -183,6 +175,8 @@ static void write_card(page_writer *page, const finding *f)
     if (f->as_if_layer && !is_given && !isnan(value->number.value))
         text_add(&page->out,
                  " The track is not shown to differ: the number is as if there were a layer.");
+    if (!isnan(value->number.value)) /* its section exists */
+        text_html(&page->out, " <a class=\"why\" href=\"#%s\">Why</a>", links[f->question].section);
     text_add(&page->out, "</p>\n");
     write_card_warnings(page, f->question);
     if (value->range.widest != NULL)
@@ -193,7 +187,8 @@ static void write_card(page_writer *page, const finding *f)
                     100 * f->rest);
     if (value->range.widest != NULL)
         text_add(&page->out, ".</p>\n");
-    write_card_links(page, f);
+    if (!isnan(value->number.value))
+        write_key_figure(page, links[f->question].figure);
     text_add(&page->out, "</section>\n");
 }
 

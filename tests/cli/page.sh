@@ -51,14 +51,15 @@ function judge_contrast(name, page) {
   }
   say(name, 'contrast', least >= 4.5 ? 'good' : 'low', least.toFixed(1), where);
 }
-// The first screen: cards, remedies, data and limits. The words are those of the page as it opens.
+// The first screen: cards, remedies and limits. The words are those of the page as it opens.
 function judge_first_screen(name, page) {
   const cards = [...page.querySelectorAll('.finding')];
   const cut = cards.flatMap(c => [c, ...c.querySelectorAll('p, dl, li, .limits')]).filter(e => e.scrollWidth > e.clientWidth + 1 ||
     e.getBoundingClientRect().right > e.closest('.finding').getBoundingClientRect().right + 1);
   say(name, 'cards', cards.length, 'cut', cut.length, cut.map(e => e.localName + ':' + e.textContent.trim().replace(/\s+/g, ' ')).join('; ').slice(0, 300));
-  const last = page.querySelector('.summary') ?? page.querySelector('.findings');
-  say(name, 'first_screen_ends', last ? Math.round(last.getBoundingClientRect().bottom) : -1);
+  const last = ['certain', 'limits'].map(id => page.getElementById(id)?.parentElement).filter(e => e);
+  if (!last.length) last.push(page.querySelector('.findings'));
+  say(name, 'first_screen_ends', Math.round(Math.max(...last.map(e => e?.getBoundingClientRect().bottom ?? -1))));
 }
 function judge_words(page) {
   for (const picture of page.querySelectorAll('svg')) picture.remove();
@@ -146,7 +147,7 @@ for name in case dma texture record; do
     grep -q "JUDGED $width contrast good" "$name.judged" || fail "$name: $(grep "$width contrast" "$name.judged")"
   done
   end=$(sed -n 's/.*JUDGED desk first_screen_ends //p' "$name.judged")
-  [ "$end" -gt 0 ] && [ "$end" -le 900 ] || fail "$name: answers, remedies, data and limits end at $end"
+  [ "$end" -gt 0 ] && [ "$end" -le 900 ] || fail "$name: answers, remedies and limits end at $end"
   if [ $name = case ]; then
     words=$(sed -n 's/.*JUDGED words //p' "$name.judged")
     [ "$words" -gt 300 ] && [ "$words" -le 900 ] || fail "$name: $words words are not folded"
