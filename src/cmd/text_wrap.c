@@ -28,7 +28,8 @@ void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text)
     for (const char *p = text; *p != '\0';) {
         const size_t blanks = strspn(p, " ");
         size_t word = strcspn(p + blanks, " \n");
-        if (p[blanks + word] == ' ' && p[blanks + word + 1] == '%') /* a number keeps its percent sign */
+        if (p[blanks + word] == ' ' &&
+            p[blanks + word + 1] == '%') /* a number keeps its percent sign */
             word += 1 + strcspn(p + blanks + word + 1, " \n");
         const size_t width = cmd_text_width(p, blanks + word);
         if (!begin && column + width > CMD_SCREEN_WIDTH) {
