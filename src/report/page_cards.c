@@ -113,18 +113,20 @@ static void write_card_warnings(page_writer *page, finding_question question)
 static void write_key_figure(page_writer *page, const char *name)
 {
     double size[2];
-    for (size_t i = 0; i < page->n_figures; i++) {
-        const drawn_figure *const f = &page->figures[i];
-        if (f->svg.length == 0 || strcmp(f->drawing.figure->name, name) != 0 ||
-            !svg_canvas_size(text_string(&f->svg), f->svg.length, size))
-            continue;
-        text_html(&page->out, "<a class=\"key\" href=\"#figure-%s\">", name);
-        text_format(&page->out, "<svg viewBox=\"0 0 %.0f %.0f\" role=\"img\"", size[0],
-                    size[1] > size[0] ? size[1] / 2 : size[1]);
-        text_html(&page->out,
-                  " aria-label=\"%s\"><use href=\"#picture-%s\" height=\"%s\"/></svg></a>\n",
-                  f->drawing.figure->title, name, size[1] > size[0] ? "200%" : "100%");
-    }
+    size_t i = 0;
+    while (i < page->n_figures && (page->figures[i].svg.length == 0 ||
+                                   strcmp(page->figures[i].drawing.figure->name, name) != 0))
+        i++;
+    if (i == page->n_figures ||
+        !svg_canvas_size(text_string(&page->figures[i].svg), page->figures[i].svg.length, size))
+        return;
+    const bool has_two_panels = size[1] > size[0];
+    text_html(&page->out, "<a class=\"key\" href=\"#figure-%s\">", name);
+    text_format(&page->out, "<svg viewBox=\"0 0 %.0f %.0f\" role=\"img\"", size[0],
+                has_two_panels ? size[1] / 2 : size[1]);
+    text_html(&page->out,
+              " aria-label=\"%s\"><use href=\"#picture-%s\" height=\"%s\"/></svg></a>\n",
+              page->figures[i].drawing.figure->title, name, has_two_panels ? "200%" : "100%");
 }
 
 /* Section and key figure of each question. */
