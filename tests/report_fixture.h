@@ -478,10 +478,6 @@ static inline void fixture_collection(void)
     fixture_check(wt_result_add(fixture_case, tables.collected_ramp, NULL));
     fixture_check(wt_result_add(fixture_case, tables.collected_force, NULL));
     fixture_check(wt_result_add(fixture_case, tables.ratio_pairs, NULL));
-    fixture_check(wt_result_add(fixture_case, tables.shared_constants, NULL));
-    fixture_check(wt_result_add(fixture_case, tables.shared_members, NULL));
-    fixture_check(wt_result_add(fixture_case, tables.collected_constants, NULL));
-    fixture_check(wt_result_add(fixture_case, tables.shared_pairs, NULL));
 }
 
 /* The case is run once in each program. */

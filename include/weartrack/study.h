@@ -137,8 +137,7 @@ typedef struct wt_collected_result {
 } wt_collected_result;
 
 typedef struct wt_collect_job {
-    double margin;          /* irrelevant relative difference of modulus ratios; default 0.2 */
-    double constant_margin; /* irrelevant relative difference of shared constants; default 0.5 */
+    double margin; /* irrelevant relative difference of modulus ratios; default 0.2 */
 } wt_collect_job;
 WT_API wt_collect_job wt_collect_job_defaults(void);
 WT_API const wt_params *wt_collect_job_params(void);
@@ -146,12 +145,10 @@ WT_API const wt_params *wt_collect_job_params(void);
 /* Tables of these names. NULL: no case has data for it, or there is no pair. */
 typedef struct wt_collection_tables {
     wt_table *collection, *collected_modulus, *collected_friction, *collected_ramp,
-        *collected_force, *ratio_pairs, *shared_constants, *shared_members, *collected_constants,
-        *shared_pairs;
+        *collected_force, *ratio_pairs;
 } wt_collection_tables;
-/* Compares cases. Modulus ratios of pairs count as independent. For shared constants, errors from
- * the same files are fully correlated. WT_E_EMPTY without a case or a temperature sweep;
- * WT_E_AMBIGUOUS for two cases of one sample and condition. */
+/* Compares cases. Modulus ratios of pairs count as independent. WT_E_EMPTY without a case or a
+ * temperature sweep; WT_E_AMBIGUOUS for two cases of one sample and condition. */
 WT_API wt_status wt_collection_compute(const wt_collected_result *cases, size_t n,
                                        const wt_collect_job *job, wt_collection_tables *tables,
                                        wt_error *err) WT_NODISCARD;

@@ -47,18 +47,14 @@ int cmd_collect(int argc, char **argv)
             "Sets the results of cases side by side by their <sample> and <condition>: modulus "
             "of bulk and track against the indentation rate, friction against velocity, and "
             "whether the track of one condition or sample is more different from its bulk than "
-            "that of another, corrected for the number of pairs; and constants that they may "
-            "have in common: wear rate, shear stress, rate dependence, critical energy. RESULT "
-            "may be an output "
-            "of weartrack indent, too, such as that of a particle of the filler, whose curve "
-            "stands beside, or of weartrack ramp, whose moduli stand in one picture with those of "
+            "that of another, corrected for the number of pairs. RESULT may be an output of "
+            "weartrack indent, too, such as that of a particle of the filler, whose curve stands "
+            "beside, or of weartrack ramp, whose moduli stand in one picture with those of "
             "others.",
         .common = "output files-from provenance",
         .notes = "The tables collection, collected_modulus, collected_friction, collected_ramp, "
-                 "collected_force, "
-                 "ratio_pairs, shared_constants, shared_members, collected_constants and "
-                 "shared_pairs follow one another; weartrack "
-                 "report draws them.",
+                 "collected_force and ratio_pairs follow one another; weartrack report draws "
+                 "them.",
         .n_files = CMD_ONE_OR_MORE,
         .files = "no result given"};
     wt_collect_job job = wt_collect_job_defaults();
@@ -76,11 +72,9 @@ int cmd_collect(int argc, char **argv)
         cmd_end(&s, WT_OK);
     } else
         status = wt_collection_compute(cases, n, &job, &tables, &s.err);
-    wt_table **const made_tables[] = {&tables.collection,          &tables.collected_modulus,
-                                      &tables.collected_friction,  &tables.collected_ramp,
-                                      &tables.collected_force,     &tables.ratio_pairs,
-                                      &tables.shared_constants,    &tables.shared_members,
-                                      &tables.collected_constants, &tables.shared_pairs};
+    wt_table **const made_tables[] = {&tables.collection,         &tables.collected_modulus,
+                                      &tables.collected_friction, &tables.collected_ramp,
+                                      &tables.collected_force,    &tables.ratio_pairs};
     if (n > 0 || status != WT_OK)
         cmd_finish(&s, status, made_tables, COUNT_OF(made_tables));
     for (size_t i = 0; i < n; i++)

@@ -11,6 +11,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Binds a table of a case. The error names its file. */
+static wt_status collected_bind(const collected_case *c, const table_schema *schema,
+                                const char *suffix, table_view *view, wt_error *err)
+{
+    const wt_status status = table_bind_result(c->result, schema, suffix, view, err);
+    if (status != WT_OK)
+        wt_error_file(err, c->file);
+    return status;
+}
+
 TABLE_ROW(collected_ramp, COLLECTED_RAMP, const char *sample;
           double temperature, angular_frequency, storage_modulus, loss_modulus;)
 TABLE_KEYS(collected_ramp, COLLECTED_RAMP, wt_deformation deformation; const char *left_out;)
@@ -245,16 +255,10 @@ static wt_status collect_ramps(const collected_case *cases, size_t n,
 
 wt_collect_job wt_collect_job_defaults(void)
 {
-    /* A wear rate is hardly known to better than 20 %. A margin below the usual errors would never
-     * give a positive verdict. */
-    return (wt_collect_job){.margin = 0.2, .constant_margin = 0.5};
+    return (wt_collect_job){.margin = 0.2};
 }
 
-static const wt_param rows[] = {
-    EQUIVALENCE_MARGIN(wt_collect_job),
-    {PARAM("constant-margin", wt_collect_job, constant_margin, WT_Q_NONE, ABOVE(0)), .value = "X",
-     .help = "relative difference of a constant that does not matter: that one value suffices for "
-             "several cases is said only if all of them lie within it"}};
+static const wt_param rows[] = {EQUIVALENCE_MARGIN(wt_collect_job)};
 PARAM_TABLE(wt_collect_job_params, wt_collect_job, rows, wt_collect_job_defaults, NO_PARTS)
 
 TABLE_ROW(collection, COLLECTION, const char *sample, *condition; wt_interval ratio;
@@ -495,10 +499,6 @@ wt_status wt_collection_compute(const wt_collected_result *from, size_t n,
         status = collect_force(cases, n_cases, paired, n - n_cases, &tables->collected_force, err);
     if (status == WT_OK)
         status = collect_pairs(cases, n_cases, job->margin, &tables->ratio_pairs, err);
-    if (status == WT_OK)
-        status = collect_constants(cases, n_cases, job->constant_margin, tables, err);
-    if (status == WT_OK)
-        status = collect_layer_constants(cases, n_cases, job->constant_margin, tables, err);
     free(paired);
     free(cases);
     if (status != WT_OK)

@@ -5,7 +5,7 @@
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "study/collect.h"
-#include "study/numerics/shared_value.h"
+#include "study/numerics/log_ratio.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -118,7 +118,7 @@ static wt_log_ratio mean_difference(const wt_log_ratio *of, size_t n)
 /* Compares two cases at the rates that both have, or of all rates if there is none. Where the
  * difference itself depends on the rate, half its range is an error of the one difference. The test
  * of that takes the errors of the rates as independent, which is on the safe side. */
-static wt_status compare_at_common_rates(ratio_pair *q, wt_error *err)
+static void compare_at_common_rates(ratio_pair *q)
 {
     static const wt_log_ratio none = {0, 0, (double)NAN};
     wt_log_ratio *const of = wt_alloc(q->a->tables.comparison.n_rows + 1, sizeof *of);
@@ -129,22 +129,17 @@ static wt_status compare_at_common_rates(ratio_pair *q, wt_error *err)
     wt_log_ratio difference = all || n == 0
                                   ? (wt_log_ratio){first.value - second.value, 0, (double)NAN}
                                   : mean_difference(of, n);
-    wt_status status = WT_OK;
     q->rates = n > 0 ? (double)n : (double)NAN;
     q->interaction_p = (double)NAN;
     q->difference = all || n == 0 ? wt_log_ratio_compare(&first, &second)
                                   : wt_log_ratio_compare(&difference, &none);
     if (n > 1) {
-        shared_value found;
-        shared_deviation *const deviation = wt_alloc(n, sizeof *deviation);
         double low = of[0].value, high = low;
-        status = shared_value_fit(of, NULL, n, &found, deviation, err);
         for (size_t i = 1; i < n; i++) {
             low = fmin(low, of[i].value);
             high = fmax(high, of[i].value);
         }
-        if (status == WT_OK)
-            q->interaction_p = found.p;
+        q->interaction_p = log_ratios_test(of, n);
         if (q->interaction_p < level) {
             const double df = q->difference.df, half = (q->difference.high - q->difference.low) / 2;
             difference =
@@ -154,23 +149,20 @@ static wt_status compare_at_common_rates(ratio_pair *q, wt_error *err)
                                df};
             q->difference = wt_log_ratio_compare(&difference, &none);
         }
-        free(deviation);
     }
     free(of);
-    return status;
 }
 
-static wt_status add_ratio_pair(pair_list *list, const collected_case *a, const collected_case *b,
-                                wt_error *err)
+static void add_ratio_pair(pair_list *list, const collected_case *a, const collected_case *b)
 {
     const bool sample = strcmp(a->sample, b->sample) == 0;
     const bool condition = a->condition[0] != '\0' && strcmp(a->condition, b->condition) == 0;
     if (sample == condition || isnan(a->ratio.value) || isnan(b->ratio.value))
-        return WT_OK;
+        return;
     list->pairs = array_grow(list->pairs, list->n, sizeof *list->pairs);
     list->pairs[list->n] =
         (ratio_pair){.of = sample ? a->sample : a->condition, .a = a, .b = b, .of_sample = sample};
-    return compare_at_common_rates(&list->pairs[list->n++], err);
+    compare_at_common_rates(&list->pairs[list->n++]);
 }
 
 /* ---- all pairs ------------------------------------------------------------------------------- */
@@ -254,10 +246,10 @@ wt_status collect_pairs(const collected_case *cases, size_t n, double margin, wt
 {
     pair_list list = {0};
     wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < n; i++)
-        for (size_t k = i + 1; status == WT_OK && k < n; k++)
-            status = add_ratio_pair(&list, &cases[i], &cases[k], err);
-    if (status == WT_OK && list.n > 0) {
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = i + 1; k < n; k++)
+            add_ratio_pair(&list, &cases[i], &cases[k]);
+    if (list.n > 0) {
         assess_pairs(&list, margin);
         status = make_pairs_table(&list, margin, table, err);
     }

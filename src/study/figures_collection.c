@@ -1,6 +1,6 @@
 /* Figures of collected cases: a panel per sample with moduli against the rate and with force
- * curves, a panel per condition with friction, a line per value of a shared constant, and the 95 %
- * region of critical energy and wear rate by each method of determination.
+ * curves, a panel per condition with friction, and the 95 % region of critical energy and wear rate
+ * of a layer by each method of determination.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
@@ -160,110 +160,6 @@ static void draw_ramps(figure_drawing *d)
     text_add(&d->script, "unset multiplot\n");
 }
 
-/* ---- shared constants ------------------------------------------------------------------------ */
-
-/* Rows of one constant and one name, below a line with both. */
-typedef struct constant_block {
-    const char *constant, *of;
-    int section;
-    size_t line; /* of the heading */
-} constant_block;
-
-/* Lines of the figure, and sizes in parts of a panel of the style. */
-enum { CONSTANT_LINES = 120, CONSTANT_BLOCKS = 30 };
-static const double line_height = 0.05, axis_height = 0.25;
-
-typedef struct constant_blocks {
-    constant_block of[CONSTANT_BLOCKS];
-    size_t n, lines;
-    bool too_many;
-} constant_blocks;
-
-static void find_constants(figure_drawing *d, constant_blocks *b)
-{
-    static const unsigned data[] = {SHARED_MEMBERS_NUMBER, SHARED_MEMBERS_RATIO,
-                                    SHARED_MEMBERS_RATIO_LOW, SHARED_MEMBERS_RATIO_HIGH};
-    for (size_t row = 0; row < d->table->n_rows; row++) {
-        const char *constant = shared_members_text(d->table, row, SHARED_MEMBERS_CONSTANT),
-                   *of = shared_members_text(d->table, row, SHARED_MEMBERS_OF);
-        bool seen = false;
-        for (size_t i = 0; i < b->n && !seen; i++)
-            seen = strcmp(b->of[i].constant, constant) == 0 && strcmp(b->of[i].of, of) == 0;
-        b->too_many =
-            b->too_many || (!seen && (b->n == CONSTANT_BLOCKS || b->lines > CONSTANT_LINES));
-        if (seen || b->too_many)
-            continue;
-        const row_filter rows = {
-            {SHARED_MEMBERS_CONSTANT, SHARED_MEMBERS_OF}, {constant, of}, NULL};
-        const int section = drawing_section(d, d->table, constant, &rows, data, 4, 2);
-        for (size_t c = 1; c < 4; c++)
-            span_add_section(&d->y[0], d, section, c, true);
-        b->of[b->n++] = (constant_block){constant, of, section, b->lines};
-        b->lines += 1 + (section == NO_SECTION ? 0 : drawing_row_count(d, section));
-    }
-}
-
-/* Longest name of a member [bytes]. */
-enum { NAME = 32 };
-
-/* Writes the names of the members beside their lines and the heading above them, and the mark of
- * the shared value. */
-static void draw_names(figure_drawing *d, const constant_blocks *b, size_t i)
-{
-    const constant_block *block = &b->of[i];
-    const size_t next = i + 1 < b->n ? b->of[i + 1].line : b->lines;
-    text_buffer heading = {0};
-    text_format(&heading, "%s%s%s", block->constant, block->of[0] != '\0' ? ", " : ", all cases",
-                block->of);
-    text_add(&d->script, "set label ");
-    text_quoted(&d->script, text_string(&heading));
-    text_format(&d->script,
-                " at graph 0.01, first %zu left noenhanced\n"
-                "set arrow from x_unit, first %zu.5 to x_unit, first %zu.5 nohead back ls 12\n",
-                block->line, block->line, next - 1);
-    text_free(&heading);
-    for (size_t row = 0; row < d->table->n_rows; row++) {
-        if (strcmp(shared_members_text(d->table, row, SHARED_MEMBERS_CONSTANT), block->constant) !=
-                0 ||
-            strcmp(shared_members_text(d->table, row, SHARED_MEMBERS_OF), block->of) != 0)
-            continue;
-        text_buffer name = {0};
-        text_file_name(&name, shared_members_text(d->table, row, SHARED_MEMBERS_MEMBER), NAME);
-        text_add(&d->script, "set ytics add (");
-        text_tic_label(&d->script, text_string(&name));
-        text_free(&name);
-        text_format(&d->script, " %.0f)\n",
-                    (double)block->line + shared_members_get(d->table, row, SHARED_MEMBERS_NUMBER));
-    }
-}
-
-/* One below the other, as the names of cases are long. */
-static void draw_constants(figure_drawing *d)
-{
-    constant_blocks b = {.n = 0};
-    d->y[0] = EMPTY_SPAN;
-    find_constants(d, &b);
-    if (d->status != WT_OK || span_is_empty(&d->y[0]))
-        return;
-    d->height = axis_height + line_height * (double)b.lines;
-    text_format(&d->script,
-                "unset key\nunset lmargin\nset ytics () noenhanced scale 0\n"
-                "set yrange [%zu.5:-0.8]\n",
-                b.lines - 1);
-    drawing_axis(d, "x", &d->figure->y[0], NULL, d->y[0]);
-    for (size_t i = 0; i < b.n; i++)
-        draw_names(d, &b, i);
-    for (size_t i = 0; i < b.n; i++) {
-        plot_item(d, b.of[i].section,
-                  "($2*x_unit):(%zu+$1):($3*x_unit):($4*x_unit) with xerrorbars ls 1",
-                  b.of[i].line);
-        plot_key(d, NULL);
-    }
-    plot_end(d);
-    if (b.too_many)
-        text_format(&d->caption, " The first %zu only.", b.n);
-}
-
 static void caption_collected_friction(figure_drawing *d)
 {
     if (collected_friction_key_enum(d->table, COLLECTED_FRICTION_KEY_PART) == HYSTERESIS_ALONE)
@@ -339,18 +235,6 @@ const figure_description figures_collection[] = {
          "Loading part of the curve with the median modulus of each group, counted from its "
          "contact point, a panel for each sample.",
      .draw = draw_grid},
-    {.name = "shared_constants",
-     .title = "Constants that cases may have in common",
-     .table = &shared_members_schema,
-     .x = {SHARED_MEMBERS_NUMBER, AXIS_NUMBER, "Case"},
-     .y = {{SHARED_MEMBERS_RATIO, AXIS_LOG, "Over the shared value"}},
-     .curves = {CURVE(SHARED_MEMBERS_RATIO, OWN, .with_errors = true)},
-     .empty_reason = "no two cases have the same constant",
-     .caption_text =
-         "Value of each case over the one that they share, for each constant and what it may be "
-         "common to (bars: intervals that hold together in 95 %; dotted: the shared value). "
-         "Whether one value suffices is in the table.",
-     .draw = draw_constants},
     {.name = NULL},
 };
 
@@ -358,45 +242,24 @@ const figure_description figures_collection[] = {
 
 /* Radius that contains 95 % of a bivariate normal distribution: sqrt(-2 ln 0.05). */
 static const double radius_95 = 2.4477;
-/* Points of a region, and the largest number of distinguishable regions. */
-enum { POINTS = 73, REGIONS = 36, REGION_PANELS = 3 };
-/* Number of line styles, and offset of the dashed styles. */
-enum { STYLES = 6, DASHED = 30 };
-
-/* Columns of a table of pairs. */
-typedef struct estimate_columns {
-    unsigned energy, energy_error, wear, wear_error, correlation, by;
-} estimate_columns;
-static const estimate_columns
-    of_one_layer = {IDENTIFICATION_ENERGY,      IDENTIFICATION_ENERGY_STANDARD_ERROR,
-                    IDENTIFICATION_WEAR,        IDENTIFICATION_WEAR_STANDARD_ERROR,
-                    IDENTIFICATION_CORRELATION, IDENTIFICATION_BY},
-    of_cases = {COLLECTED_CONSTANTS_ENERGY,      COLLECTED_CONSTANTS_ENERGY_STANDARD_ERROR,
-                COLLECTED_CONSTANTS_WEAR,        COLLECTED_CONSTANTS_WEAR_STANDARD_ERROR,
-                COLLECTED_CONSTANTS_CORRELATION, COLLECTED_CONSTANTS_BY};
-
-/* Returns the heading of a method. */
-static const char *panel_heading(const char *by)
-{
-    static const char *const headings[] = {[BY_WEAR] = "wear rate",
-                                           [BY_RATES] = "balance of rates",
-                                           [BY_TRANSPORT] = "transport of damage"};
-    const int method = closed_list_find(&identification_method_list, by);
-    return method <= BY_TRANSPORT ? headings[method] : by;
-}
+/* Points of a region. */
+enum { POINTS = 73 };
 
 /* Adds the points of the joint region. NO_SECTION if there is none. */
-static int add_region(figure_drawing *d, size_t row, const estimate_columns *at, const char *name)
+static int add_region(figure_drawing *d, size_t row, const char *name)
 {
     static const char *const columns[] = {"critical_energy", "specific_wear_rate", NULL},
                              *const units[] = {"J/m^3", "m^2/N", NULL};
     const table_view *const t = d->table;
     double points[2 * POINTS];
-    const double energy = view_number(t, t->schema, row, at->energy),
-                 wear = view_number(t, t->schema, row, at->wear),
-                 of_energy = radius_95 * view_number(t, t->schema, row, at->energy_error) / energy,
-                 of_wear = radius_95 * view_number(t, t->schema, row, at->wear_error) / wear,
-                 correlation = view_number(t, t->schema, row, at->correlation),
+    const double energy = identification_get(t, row, IDENTIFICATION_ENERGY),
+                 wear = identification_get(t, row, IDENTIFICATION_WEAR),
+                 of_energy = radius_95 *
+                             identification_get(t, row, IDENTIFICATION_ENERGY_STANDARD_ERROR) /
+                             energy,
+                 of_wear = radius_95 *
+                           identification_get(t, row, IDENTIFICATION_WEAR_STANDARD_ERROR) / wear,
+                 correlation = identification_get(t, row, IDENTIFICATION_CORRELATION),
                  across = sqrt(1 - correlation * correlation);
     if (!isfinite(of_energy) || !isfinite(of_wear) || !isfinite(across))
         return NO_SECTION;
@@ -408,102 +271,34 @@ static int add_region(figure_drawing *d, size_t row, const estimate_columns *at,
     return drawing_number_section(d, name, columns, units, points, POINTS);
 }
 
-typedef struct region {
-    int section;
-    size_t panel;
-    char name[128];
-} region;
-
-typedef struct regions {
-    region of[REGIONS];
-    const char *by[REGION_PANELS];
-    size_t n, n_panels;
-} regions;
-
-/* Regions of one layer have a common panel and the names of their methods, those of several cases a
- * panel for each method and the names of the cases. */
-static void find_regions(figure_drawing *d, const estimate_columns *at, regions *r)
-{
-    *r = (regions){.n = 0};
-    for (size_t row = 0; row < d->table->n_rows && d->status == WT_OK; row++) {
-        const char *by = view_text(d->table, d->table->schema, row, at->by);
-        region new_region;
-        size_t panel = 0;
-        if (at == &of_one_layer) {
-            snprintf(new_region.name, sizeof new_region.name, "%s", panel_heading(by));
-            by = "";
-        } else {
-            const char *condition =
-                collected_constants_text(d->table, row, COLLECTED_CONSTANTS_CONDITION);
-            snprintf(new_region.name, sizeof new_region.name, "%s%s%s",
-                     collected_constants_text(d->table, row, COLLECTED_CONSTANTS_SAMPLE),
-                     condition[0] != '\0' ? ", " : "", condition);
-        }
-        while (panel < r->n_panels && strcmp(r->by[panel], by) != 0)
-            panel++;
-        new_region.panel = panel;
-        new_region.section = r->n < REGIONS && panel < REGION_PANELS
-                                 ? add_region(d, row, at, new_region.name)
-                                 : NO_SECTION;
-        if (new_region.section == NO_SECTION)
-            continue;
-        r->by[panel] = by;
-        r->n_panels = panel == r->n_panels ? panel + 1 : r->n_panels;
-        r->of[r->n++] = new_region;
-    }
-}
-
-static void draw_region_panel(figure_drawing *d, const regions *r, size_t panel)
-{
-    size_t shown = 0;
-    d->x = d->y[0] = EMPTY_SPAN;
-    for (size_t i = 0; i < r->n; i++)
-        if (r->of[i].panel == panel) {
-            span_add_section(&d->x, d, r->of[i].section, 0, true);
-            span_add_section(&d->y[0], d, r->of[i].section, 1, true);
-        }
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
-    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
-    if (r->n_panels > 1)
-        plot_heading(d, panel_heading(r->by[panel]));
-    text_add(&d->script, panel == 1 ? "unset key\n" : "");
-    for (size_t i = 0; i < r->n; i++)
-        if (r->of[i].panel == panel) {
-            plot_item(d, r->of[i].section, "($1*x_unit):($2*y_unit) with lines ls %zu",
-                      1 + shown % STYLES + (shown < STYLES ? 0 : DASHED));
-            plot_title(d, r->of[i].name);
-            shown++;
-        }
-    plot_end(d);
-}
-
-/* Draws a panel for each method, as their regions may be decades apart. The common legend is above
- * the first panel. */
+/* Draws the region of each method, which has one row. */
 static void draw_regions(figure_drawing *d)
 {
-    regions r;
-    size_t names = 0;
-    find_regions(d, d->table->schema == &identification_schema ? &of_one_layer : &of_cases, &r);
-    if (d->status != WT_OK || r.n == 0)
+    static const char *const names[] = {[BY_WEAR] = "wear rate",
+                                        [BY_RATES] = "balance of rates",
+                                        [BY_TRANSPORT] = "transport of damage"};
+    int section[COUNT_OF(names)];
+    for (size_t k = 0; k < COUNT_OF(names); k++)
+        section[k] = NO_SECTION;
+    d->x = d->y[0] = EMPTY_SPAN;
+    for (size_t row = 0; row < d->table->n_rows && d->status == WT_OK; row++) {
+        const int by = identification_enum(d->table, row, IDENTIFICATION_BY);
+        if (by > BY_TRANSPORT)
+            continue;
+        section[by] = add_region(d, row, names[by]);
+        span_add_section(&d->x, d, section[by], 0, true);
+        span_add_section(&d->y[0], d, section[by], 1, true);
+    }
+    if (d->status != WT_OK || span_is_empty(&d->x))
         return;
-    for (size_t i = 0; i < r.n; i++)
-        names += r.of[i].panel == 0;
-    d->width = r.n_panels > 1 ? 2 : 1;
-    if (r.n_panels > 1)
-        text_format(&d->script,
-                    "set tmargin %zu\nset bmargin 6\nset multiplot layout 1,%zu\n"
-                    "set xtics rotate by -40\n",
-                    3 + names, r.n_panels);
-    for (size_t panel = 0; panel < r.n_panels; panel++)
-        draw_region_panel(d, &r, panel);
-    if (r.n_panels > 1)
-        text_add(&d->script, "unset multiplot\n");
-}
-
-static void caption_regions(figure_drawing *d)
-{
-    if (d->n_sections == REGIONS)
-        text_format(&d->caption, " The first %d only.", REGIONS);
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    for (size_t k = 0, shown = 0; k < COUNT_OF(names); k++)
+        if (section[k] != NO_SECTION) {
+            plot_item(d, section[k], "($1*x_unit):($2*y_unit) with lines ls %zu", ++shown);
+            plot_title(d, names[k]);
+        }
+    plot_end(d);
 }
 
 const figure_description figures_constants[] = {
@@ -519,18 +314,5 @@ const figure_description figures_constants[] = {
          "each combination of known data of the layer. A long and narrow region is well "
          "determined across and hardly along its axis.",
      .draw = draw_regions},
-    {.name = "collected_constants",
-     .title = "Critical energy and wear rate of the cases",
-     .table = &collected_constants_schema,
-     .x = {COLLECTED_CONSTANTS_ENERGY, AXIS_LOG, "Critical energy U_c"},
-     .y = {{COLLECTED_CONSTANTS_WEAR, AXIS_LOG, "Specific wear rate k"}},
-     .curves = {CURVE(COLLECTED_CONSTANTS_WEAR, LINE)},
-     .empty_reason = "no case knows both with an interval",
-     .caption_text =
-         "Regions that contain critical energy and specific wear rate of a case together in 95 "
-         "%, a panel for each way to determine them. The table says whether one pair explains "
-         "all of them.",
-     .draw = draw_regions,
-     .caption = caption_regions},
     {.name = NULL},
 };

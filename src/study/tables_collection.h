@@ -3,18 +3,6 @@
 #ifndef WT_STUDY_TABLES_COLLECTION_H
 #define WT_STUDY_TABLES_COLLECTION_H
 
-/* What cases have in common. */
-#define SHARING_LEVELS(X)                                                                          \
-    X(OF_SAMPLE, "sample")                                                                         \
-    X(OF_CONDITION, "condition")                                                                   \
-    X(OF_ALL, "all cases")
-
-/* Does one value of a constant suffice? */
-#define SHARING_VERDICTS(X)                                                                        \
-    X(SHARING_INCONCLUSIVE, "inconclusive")                                                        \
-    X(SHARING_ONE, "one")                                                                          \
-    X(SHARING_DIFFERS, "differs")
-
 #define FRICTION_PARTS(X)                                                                          \
     X(WHOLE_FRICTION, "friction")                                                                  \
     X(HYSTERESIS_ALONE, "hysteresis")
@@ -90,117 +78,6 @@
     X(COLLECTED_FORCE_FORCE, AS(force),                                                            \
       "force above the baseline, of the curve with the median modulus", SI(FORCE))
 #define COLLECTED_FORCE_KEYS(X)
-
-#define OF_CONSTANT(X, ID)                                                                         \
-    X(ID##_CONSTANT, AS(constant), "what is compared", TEXT, LABEL("Constant"))                    \
-    X(ID##_OVER, AS(over), "what the cases have in common: sample, condition, or all cases", TEXT, \
-      LABEL("Common to"))                                                                          \
-    X(ID##_OF, AS(of), "its name", TEXT, LABEL("Of"))
-
-/* Each row is a constant that cases may share. */
-#define SHARED_CONSTANTS_COLUMNS(X)                                                                \
-    OF_CONSTANT(X, SHARED_CONSTANTS)                                                               \
-    VALUE_AND_INTERVAL(X, SHARED_CONSTANTS_VALUE, "value", "shared value, weighted by the errors", \
-                       NUMBER, SHOWS(value), LABEL("Shared value"), SPARSE)                        \
-    X(SHARED_CONSTANTS_UNIT, AS(unit), "unit of the three numbers before", TEXT, LABEL("Unit"))    \
-    X(SHARED_CONSTANTS_N, AS(n), "values that it is of", NUMBER, LABEL("Values"))                  \
-    X(SHARED_CONSTANTS_CHI_SQUARED, AS(chi_squared), "chi-squared of their scatter about it",      \
-      NUMBER, LABEL("Chi-squared"), DIGITS(3))                                                     \
-    X(SHARED_CONSTANTS_DF, AS(df), "its degrees of freedom", NUMBER, LABEL("Degrees of freedom"))  \
-    X(SHARED_CONSTANTS_P, AS(p), "chance of as much scatter if one value is behind them", NUMBER,  \
-      LABEL("p"), DIGITS(2))                                                                       \
-    X(SHARED_CONSTANTS_HOLM_P, AS(holm_p), "p after Holm's correction for the number of rows",     \
-      NUMBER, LABEL("p (Holm)"), DIGITS(2))                                                        \
-    X(SHARED_CONSTANTS_SUFFICES, AS(suffices),                                                     \
-      "does one value suffice: one, differs, inconclusive", ENUM(sharing_verdict),                 \
-      LABEL("One value"))
-#define SHARED_CONSTANTS_KEYS(X)                                                                   \
-    X(SHARED_CONSTANTS_KEY_TESTED, "constants_tested", NUMBER, SHOWS(tested),                      \
-      LABEL("Constants tested"))                                                                   \
-    X(SHARED_CONSTANTS_KEY_DIFFERENT, "constants_that_differ", NUMBER, SHOWS(different),           \
-      LABEL("Constants that differ"))                                                              \
-    X(SHARED_CONSTANTS_KEY_UNDECIDED, AS(undecided), NUMBER,                                       \
-      LABEL("Constants with an inconclusive verdict"))                                             \
-    X(SHARED_CONSTANTS_KEY_INCLUDES, AS(includes), TEXT, LABEL("The intervals include"))           \
-    X(SHARED_CONSTANTS_KEY_LEFT_OUT, AS(left_out), TEXT, LABEL("Cases that are not in them"),      \
-      OPTIONAL)                                                                                    \
-    X(SHARED_CONSTANTS_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("How to decide the others"),    \
-      OPTIONAL)                                                                                    \
-    X(SHARED_CONSTANTS_KEY_MARGIN, "constant_margin", PLAIN, SHOWS(margin),                        \
-      LABEL("Margin within which they are alike"))
-
-/* Each block has the values behind one shared value. */
-#define SHARED_MEMBERS_COLUMNS(X)                                                                  \
-    OF_CONSTANT(X, SHARED_MEMBERS)                                                                 \
-    X(SHARED_MEMBERS_MEMBER, AS(member), "case, and bulk or track where it has both", TEXT,        \
-      LABEL("Case"))                                                                               \
-    X(SHARED_MEMBERS_NUMBER, AS(number), "its number", NUMBER)                                     \
-    X(SHARED_MEMBERS_VALUE, AS(value), "its own value", NUMBER, LABEL("Value"), DIGITS(4))         \
-    X(SHARED_MEMBERS_UNIT, AS(unit), "unit of that", TEXT, LABEL("Unit"))                          \
-    VALUE_AND_INTERVAL(X, SHARED_MEMBERS_RATIO, "ratio",                                           \
-                       "over the shared one; the intervals of all of a constant hold together in " \
-                       "95 %",                                                                     \
-                       NUMBER, SHOWS(ratio), LABEL("Over the shared one"), SPARSE)
-#define SHARED_MEMBERS_KEYS(X)
-
-/* Critical energy and wear rate with their correlation. */
-#define OF_PAIR(X, ID)                                                                             \
-    NUMBER_AND_INTERVAL(X, ID##_ENERGY, "critical_energy", "critical energy U_c",                  \
-                        SI(ENERGY_DENSITY), "Critical energy", SHOWS(energy))                      \
-    NUMBER_AND_INTERVAL(X, ID##_WEAR, "specific_wear_rate", "specific wear rate k", SI(WEAR_RATE), \
-                        "Specific wear rate", SHOWS(wear))                                         \
-    X(ID##_CORRELATION, IN(axes, correlation), "correlation of ln U_c and ln k", NUMBER,           \
-      DIGITS(2), LABEL("Correlation"), SPARSE)                                                     \
-    X(ID##_LOOSE, IN(axes, loose), "the combination that is known least", TEXT,                    \
-      LABEL("Known least"))                                                                        \
-    X(ID##_LOOSE_ERROR, IN(axes, loose_error), "standard deviation along it, of the logarithms",   \
-      NUMBER, DIGITS(2), LABEL("to"), SPARSE)                                                      \
-    X(ID##_TIGHT_ERROR, IN(axes, tight_error), "standard deviation across it, of the logarithms",  \
-      NUMBER, DIGITS(2), LABEL("Across it"), SPARSE)
-
-/* Each row is one method of determination for one case. */
-#define COLLECTED_CONSTANTS_COLUMNS(X)                                                             \
-    OF_CASE(X, COLLECTED_CONSTANTS)                                                                \
-    X(COLLECTED_CONSTANTS_BY, AS(by), "what they are known by", TEXT, LABEL("By"))                 \
-    OF_PAIR(X, COLLECTED_CONSTANTS)
-#define COLLECTED_CONSTANTS_KEYS(X)
-
-/* Each row is a pair that cases may share, by one method. */
-#define SHARED_PAIRS_COLUMNS(X)                                                                    \
-    X(SHARED_PAIRS_BY, AS(by), "what they are known by", TEXT, LABEL("By"))                        \
-    X(SHARED_PAIRS_OVER, AS(over),                                                                 \
-      "what the cases have in common: sample, condition, or all "                                  \
-      "cases",                                                                                     \
-      ENUM(sharing_level), LABEL("Common to"))                                                     \
-    X(SHARED_PAIRS_OF, AS(of), "its name", TEXT, LABEL("Of"))                                      \
-    X(SHARED_PAIRS_N, AS(n), "cases that it is of", NUMBER, LABEL("Cases"))                        \
-    X(SHARED_PAIRS_ONE_ENERGY, AS(one_energy),                                                     \
-      "does one critical energy suffice: one, differs, inconclusive", ENUM(sharing_verdict),       \
-      LABEL("One U_c"))                                                                            \
-    X(SHARED_PAIRS_ONE_WEAR, AS(one_wear),                                                         \
-      "does one wear rate suffice: one, differs, inconclusive", ENUM(sharing_verdict),             \
-      LABEL("One k"))                                                                              \
-    X(SHARED_PAIRS_ONE_PAIR, AS(one_pair),                                                         \
-      "does one pair of both suffice: one, differs, inconclusive", ENUM(sharing_verdict),          \
-      LABEL("One pair"))                                                                           \
-    OF_PAIR(X, SHARED_PAIRS)                                                                       \
-    X(SHARED_PAIRS_CHI_SQUARED, AS(chi_squared), "chi-squared of the scatter of the pairs",        \
-      NUMBER, LABEL("Chi-squared"), DIGITS(3))                                                     \
-    X(SHARED_PAIRS_DF, AS(df), "its degrees of freedom", NUMBER, LABEL("Degrees of freedom"))      \
-    X(SHARED_PAIRS_HOLM_P, AS(holm_p),                                                             \
-      "chance of as much scatter if one pair is behind them, after Holm's correction for the "     \
-      "number of tests of the table",                                                              \
-      NUMBER, LABEL("p (Holm)"), DIGITS(2))
-#define SHARED_PAIRS_KEYS(X)                                                                       \
-    X(SHARED_PAIRS_KEY_ONE, "one_layer_constants", ENUM(sharing_verdict), SHOWS(one_of_all),       \
-      HEADLINE("One critical energy and wear rate of all layers"), OPTIONAL)                       \
-    X(SHARED_PAIRS_KEY_TESTS, "tests", NUMBER, SHOWS(tests), LABEL("Tests"))                       \
-    X(SHARED_PAIRS_KEY_LEFT_OUT, AS(left_out), TEXT, LABEL("Cases that are not in them"),          \
-      OPTIONAL)                                                                                    \
-    X(SHARED_PAIRS_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("How to decide the others"),        \
-      OPTIONAL)                                                                                    \
-    X(SHARED_PAIRS_KEY_MARGIN, "constant_margin", PLAIN, SHOWS(margin),                            \
-      LABEL("Margin within which they are alike"))
 
 /* Each row is a pair of cases of one sample or condition: the ratio of their modulus ratios. */
 #define RATIO_PAIRS_COLUMNS(X)                                                                     \

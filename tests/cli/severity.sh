@@ -63,4 +63,3 @@ grep -q 'ratios that differ  *4 of 16 pairs  *12 alike, 0 undecided' words
 for figure in modulus force friction area; do
   test -s page/plots/collected_$figure.svg
 done
-test -s page/plots/shared_constants.svg

@@ -155,50 +155,6 @@ static int read_translations(const collection_scene *s, const stream *found, tri
     return n == 2 * COMPOUNDS ? 0 : -1;
 }
 
-/* If the true values are equal, "differs" is wrong. The two severities have so different wear rates
- * that "one" would be wrong for them. */
-static void read_shared_value(trial *t, quantity q, double truth, const stream *found, int row)
-{
-    const char *table = place_shared.table;
-    const bool is_one = stream_is(found, table, PLACE_SUFFICES, row, PLACE_ONE) != 0,
-               differs = stream_is(found, table, PLACE_SUFFICES, row, PLACE_SHARED_DIFFERS) != 0,
-               right = !(isnan(truth) ? is_one : differs);
-    const double said = is_one || differs ? 0 : (double)NAN;
-    if (!isnan(truth))
-        trial_add(t, q, truth, place_row(found, &place_shared, row));
-    trial_add(t, Q_SAID_SHARED, right ? 0 : 1, (estimate){0, said, said});
-    if (!right)
-        t->draw->verdict = NO;
-}
-
-/* Least squares over three rates a decade apart. The second compound has the spectrum of the first,
- * so that all share the value. */
-static double rate_factor(const study_prepared *p)
-{
-    const double *e = p->compound[0].modulus;
-    return sqrt(e[STUDY_RATES - 1] / e[0]);
-}
-
-static int read_shared(const study_prepared *p, const study_truth *truth, const stream *found,
-                       trial *t)
-{
-    const char *table = place_shared.table;
-    const int n = stream_rows(found, table);
-    for (int row = 0; row < n; row++) {
-        const int k = place_of(study_severity, SEVERITIES, found, table, PLACE_PAIR_OF, row);
-        if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_WEAR))
-            read_shared_value(t, Q_SHARED_WEAR, k >= 0 ? truth->wear_rate[k] : (double)NAN, found,
-                              row);
-        else if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_SHEAR))
-            read_shared_value(t, Q_SHARED_SHEAR, truth->shear_stress, found, row);
-        else if (stream_is(found, table, PLACE_CONSTANT, row, PLACE_RATE_FACTOR))
-            read_shared_value(t, Q_SHARED_RATE, rate_factor(p), found, row);
-        else
-            return -1;
-    }
-    return n > 0 ? 0 : -1;
-}
-
 static void read_collected(const collection_scene *s, const study_prepared *p,
                            const study_truth *truth, const char *path, trial *t)
 {
@@ -211,8 +167,6 @@ static void read_collected(const collection_scene *s, const study_prepared *p,
         trial_broke(t, "other frictions than were collected");
     else if (read_translations(s, found, t) != 0)
         trial_broke(t, "other pairs of cases than there are");
-    else if (read_shared(p, truth, found, t) != 0)
-        trial_broke(t, "other constants than the cases have in common");
     stream_free(found);
 }
 

@@ -51,16 +51,11 @@ typedef enum quantity {
     Q_NEEDED_SHEAR,    /* shear stress that a record requires */
     Q_CHANGE,          /* change of friction by a layer */
     Q_RATIO_PAIR,      /* ratio of the modulus ratios of two cases */
-    Q_SHARED_WEAR,     /* wear rate shared by the cases of a severity */
-    Q_SHARED_SHEAR,    /* shear stress shared by all cases */
-    /* modulus change over a decade of rate, shared by the cases of a compound or by all */
-    Q_SHARED_RATE,
     /* "Yes" and "no" count as intervals that contain the truth if they are right; "inconclusive"
      * states none. */
     Q_SAID_DIFFERS,
     Q_SAID_PAIR,
     Q_SAID_RECORD,
-    Q_SAID_SHARED,
     Q_SAID_RUNNING_IN,
     Q_SAID_WEAR,    /* The time of a running-in agrees with the wear, or contradicts it. */
     Q_SETTLED,      /* time after which friction is steady */

@@ -9,13 +9,9 @@
 typedef struct identify_scene {
     facts facts;
     double of_thickness, of_wear;
-    double of_inputs;                  /* of pressure and C0 */
-    double critical_energy;            /* U_c [J/m^3], with a factor e^(0.2 z) */
-    int cases;                         /* number of collected cases; 0: one single case */
-    double energy_factor, wear_factor; /* ratio of every second case to the others; 0: 1 */
+    double of_inputs;       /* of pressure and C0 */
+    double critical_energy; /* U_c [J/m^3], with a factor e^(0.2 z) */
 } identify_scene;
-
-enum { IDENTIFY_CASES = 4 };
 
 extern const identify_scene identify_scenes[];
 extern const int n_identify_scenes;

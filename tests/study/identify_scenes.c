@@ -13,16 +13,5 @@ const identify_scene identify_scenes[] = {
      .of_inputs = 0.05, .critical_energy = 1e11},
     {NAMED("U4", "thickness 3 %, wear 30 %"), PROMISED, .of_thickness = 0.03, .of_wear = 0.3,
      .of_inputs = 0.02, .critical_energy = 2e10},
-    {NAMED("U5", "two layers of one U_c and k"), PROMISED, .of_thickness = 0.1, .of_wear = 0.1,
-     .of_inputs = 0.02, .critical_energy = 2e10, .cases = 2},
-    {NAMED("U6", "four layers of one U_c and k, precise"), PROMISED, .of_thickness = 0.02,
-     .of_wear = 0.02, .of_inputs = 0.01, .critical_energy = 2e10, .cases = 4},
-    {NAMED("U7", "three layers, one of twice the U_c"), PROMISED, .of_thickness = 0.1,
-     .of_wear = 0.1, .of_inputs = 0.02, .critical_energy = 2e10, .cases = 3, .energy_factor = 2},
-    {NAMED("U8", "two layers, one of 1.5 times the k"), PROMISED, .of_thickness = 0.05,
-     .of_wear = 0.05, .of_inputs = 0.02, .critical_energy = 2e10, .cases = 2, .wear_factor = 1.5},
-    {NAMED("U9", "two layers, apart along what is known least"), PROMISED,
-     .facts.sometimes_silent = true, .of_thickness = 0.03, .of_wear = 0.3, .of_inputs = 0.02,
-     .critical_energy = 2e10, .cases = 2, .energy_factor = 1.5, .wear_factor = 1 / 1.5},
 };
 const int n_identify_scenes = sizeof identify_scenes / sizeof identify_scenes[0];

@@ -62,11 +62,6 @@ const place place_energy = {"identification", "critical_energy", NULL, "critical
                             "critical_energy_high"};
 const place place_energy_wear = {"identification", "specific_wear_rate", NULL,
                                  "specific_wear_rate_low", "specific_wear_rate_high"};
-static const char pairs[] = "shared_pairs";
-const place place_common_energy = {pairs, "critical_energy", NULL, "critical_energy_low",
-                                   "critical_energy_high"};
-const place place_common_wear = {pairs, "specific_wear_rate", NULL, "specific_wear_rate_low",
-                                 "specific_wear_rate_high"};
 const place place_friction_ratio = {PLACE_VALIDATION, "ratio", NULL, "ratio_low", "ratio_high"};
 const place place_needed_shear = {PLACE_VALIDATION, "shear_stress_needed", NULL,
                                   "shear_stress_needed_low", "shear_stress_needed_high"};
@@ -82,7 +77,6 @@ const place place_collected_modulus = {"collected_modulus", "modulus", NULL, "mo
                                        "modulus_high"};
 const place place_collected_friction = {"collected_friction", "friction", "friction_standard_error",
                                         NULL, NULL};
-const place place_shared = {"shared_constants", "value", NULL, "value_low", "value_high"};
 const place place_pair = {"ratio_pairs", "ratio", NULL, "ratio_low", "ratio_high"};
 static const char running_in[] = PLACE_VALIDATION_RUNNING_IN;
 const place place_settled_measured = {running_in, "settled_measured", NULL, "settled_measured_low",

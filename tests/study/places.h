@@ -33,14 +33,12 @@ extern const place place_steady, place_running_in, place_running_in_time,
     place_drift;                    /* of a record, a row for a step */
 extern const place place_wear_rate; /* a row for each method */
 
-extern const place place_common_energy, place_common_wear; /* of shared_pairs */
 extern const place place_energy, place_energy_wear; /* of identification, a row for each method */
 extern const place place_friction_ratio, place_needed_shear; /* of validation */
 
 extern const place place_collected_ratio, place_collected_thickness, place_collected_change;
 extern const place place_collected_modulus, place_collected_friction, place_pair;
-extern const place place_shared; /* a constant in each row */
-#define PLACE_SAMPLE "sample"    /* in the first five, with the condition: names the case */
+#define PLACE_SAMPLE "sample" /* in the first five, with the condition: names the case */
 #define PLACE_CONDITION "condition"
 #define PLACE_ZONE "place" /* "bulk" or another */
 #define PLACE_RATE "indentation_rate"
@@ -48,17 +46,7 @@ extern const place place_shared; /* a constant in each row */
 #define PLACE_PAIR_FIRST "first"
 #define PLACE_PAIR_SECOND "second"
 #define PLACE_PAIR_DIFFER "differ"
-#define PLACE_CONSTANT "constant"
-#define PLACE_WEAR "specific wear rate"
-#define PLACE_SHEAR "shear stress"
-#define PLACE_RATE_FACTOR "modulus over a decade of rate"
-#define PLACE_SUFFICES "suffices" /* one value: */
-#define PLACE_ONE "one"
-#define PLACE_ONE_ENERGY "one_energy"
-#define PLACE_ONE_WEAR "one_wear"
-#define PLACE_ONE_PAIR "one_pair"
 #define PLACE_PAUSED "paused_time"
-#define PLACE_SHARED_DIFFERS "differs"
 #define PLACE_ROUGHNESS "roughness" /* quantity of a surface that friction uses */
 
 extern const place place_settled_measured, place_time_ratio,

@@ -19,13 +19,13 @@
     X(failures) X(methods) X(map_channels) X(dwell_points) X(dwell_moduli) X(record) X(record_cycles) X(wear) \
     X(identification) X(validation) X(validation_running_in) X(validation_course) X(validation_sources) \
     X(anisotropy) X(friction_decades) X(flash) X(collection) X(collected_modulus) \
-    X(collected_friction) X(collected_ramp) X(collected_force) X(shared_constants) X(shared_members) X(ratio_pairs) X(collected_constants) X(shared_pairs) \
+    X(collected_friction) X(collected_ramp) X(collected_force) X(ratio_pairs) \
    
 #define KEYS(X) \
     X(modulus_depth) X(modulus_budget) X(glass_transition) X(spot) X(dma_comparison) \
     X(comparison) X(track_layer) X(friction) X(softening) X(layer) X(master_curve) X(prony) \
     X(dwell_dma) X(cost) X(power_spectrum) X(angular_spectrum) X(surfaces) X(anisotropy) X(friction_decades) X(flash) \
-    X(collection) X(collected_friction) X(collected_ramp) X(shared_constants) X(ratio_pairs) X(shared_pairs)
+    X(collection) X(collected_friction) X(collected_ramp) X(ratio_pairs)
 /* clang-format on */
 
 typedef struct binding {

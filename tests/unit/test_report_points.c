@@ -160,8 +160,7 @@ static void test_groups(void **state)
                                                                                       "severe"};
     sections rates = begin_sections("collected_modulus"),
              rubbers = begin_sections("collected_friction"),
-             areas = begin_sections("collected_area"), forces = begin_sections("collected_force"),
-             constants = begin_sections("shared_constants");
+             areas = begin_sections("collected_area"), forces = begin_sections("collected_force");
     for (size_t k = 0; k < 2; k++)
         for (size_t i = 0; i < 3; i++)
             next_is(&rates, (chosen){"collected_modulus",
@@ -179,19 +178,10 @@ static void test_groups(void **state)
             next_is(&forces, (chosen){"collected_force",
                                       {"sample", "place"},
                                       {samples[k], i == 0 ? "bulk" : conditions[i - 1]}});
-    for (size_t k = 0; k < 2; k++)
-        next_is(&constants, (chosen){"shared_members",
-                                     {"constant", "of"},
-                                     {"specific wear rate", k == 0 ? "severe" : ""}});
-    for (size_t k = 0; k < 3; k++)
-        next_is(&constants, (chosen){"shared_members",
-                                     {"constant", "of"},
-                                     {"modulus over a decade of rate", k < 2 ? samples[k] : ""}});
     end_sections(&rates);
     end_sections(&rubbers);
     end_sections(&areas);
     end_sections(&forces);
-    end_sections(&constants);
     sections groups = begin_sections("modulus_groups"), map = begin_sections("modulus_map"),
              dma = begin_sections("dma_comparison");
     next_is(&dma, (chosen){.table = "dma_comparison"});

@@ -1,10 +1,11 @@
-/* Comparison of two ratios: by hand, without a result, and coverage of the interval for ratios from
- * four positions each.
+/* Comparison of two ratios and of several: by hand, without a result, and coverage of the interval
+ * for ratios from four positions each.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 
-#include "weartrack/study.h"
+#include "study/numerics/log_ratio.h"
 
+#include <gsl/gsl_cdf.h>
 #include <math.h>
 
 static void by_hand(void **state)
@@ -97,12 +98,38 @@ static void coverage(void **state)
     assert_true(share > 0.94 && share < 0.965);
 }
 
+/* Two normal values: the squared distance over the sum of the variances. */
+static void several_by_hand(void **state)
+{
+    (void)state;
+    const wt_log_ratio of[] = {{1, 0.1, (double)NAN}, {1.3, 0.2, (double)NAN}};
+    assert_near(log_ratios_test(of, 2), gsl_cdf_chisq_Q(0.09 / 0.05, 1), 1e-12);
+}
+
+/* Four means with different scatter and one true value: the test finds a difference in 5 %, with
+ * the error of its correction and three binomial errors. */
+static void several_alike(void **state)
+{
+    (void)state;
+    enum { TRIALS = 4000 };
+    uint64_t seed = 11;
+    for (size_t n = 3; n <= 10; n += 7) {
+        size_t different = 0;
+        for (int i = 0; i < TRIALS; i++) {
+            const wt_log_ratio of[] = {observe(0.3, 0.1, n, &seed), observe(0.3, 0.1, n, &seed),
+                                       observe(0.3, 0.3, n, &seed), observe(0.3, 0.5, n, &seed)};
+            different += log_ratios_test(of, 4) < 0.05;
+        }
+        assert_in_range(different, 0.035 * TRIALS, 0.075 * TRIALS);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(by_hand),
-        cmocka_unit_test(no_answer),
-        cmocka_unit_test(coverage),
+        cmocka_unit_test(by_hand),       cmocka_unit_test(no_answer),
+        cmocka_unit_test(coverage),      cmocka_unit_test(several_by_hand),
+        cmocka_unit_test(several_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

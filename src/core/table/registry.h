@@ -104,13 +104,6 @@
       "Moduli against temperature, of all samples", "collect")                                     \
     X(collected_force, COLLECTED_FORCE, "collected_force",                                         \
       "Force against indentation, of all cases", "collect")                                        \
-    X(shared_constants, SHARED_CONSTANTS, "shared_constants",                                      \
-      "Constants that cases have in common", "collect")                                            \
-    X(shared_members, SHARED_MEMBERS, "shared_members", "What a shared constant is of", "collect") \
-    X(collected_constants, COLLECTED_CONSTANTS, "collected_constants",                             \
-      "Critical energy and wear rate of all cases", "collect")                                     \
-    X(shared_pairs, SHARED_PAIRS, "shared_pairs",                                                  \
-      "Critical energy and wear rate that cases have in common", "collect")                        \
     X(ratio_pairs, RATIO_PAIRS, "ratio_pairs", "Modulus ratios of cases against one another",      \
       "collect")                                                                                   \
     X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors", "master")                    \
@@ -219,8 +212,6 @@
     X(cantilever_count, CANTILEVER_COUNTS, CANTILEVER_COUNT_UNKNOWN)                               \
     X(error_kind, ERROR_KINDS, ERROR_KIND_UNKNOWN)                                                 \
     X(precision_method, PRECISION_METHODS, PRECISION_METHOD_UNKNOWN)                               \
-    X(sharing_level, SHARING_LEVELS, SHARED_BY_UNKNOWN)                                            \
-    X(sharing_verdict, SHARING_VERDICTS, SHARING_UNKNOWN)                                          \
     X(validation_outcome, VALIDATION_OUTCOMES, VALIDATION_OUTCOME_UNKNOWN)                         \
     X(validation_source, VALIDATION_SOURCE_LIST, VALIDATION_SOURCE_UNKNOWN)                        \
     X(friction_part, FRICTION_PARTS, FRICTION_PART_UNKNOWN)                                        \

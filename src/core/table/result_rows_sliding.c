@@ -428,59 +428,6 @@ static void add_collected_friction(rows_source *s, const table_view *v)
     }
 }
 
-static void add_constants(rows_source *s, const table_view *v)
-{
-    for (size_t i = 0; i < v->n_rows; i++) {
-        result_row *row =
-            rows_add_number(s, 0,
-                            rows_number(shared_constants_get(v, i, SHARED_CONSTANTS_VALUE),
-                                        shared_constants_get(v, i, SHARED_CONSTANTS_VALUE_LOW),
-                                        shared_constants_get(v, i, SHARED_CONSTANTS_VALUE_HIGH),
-                                        shared_constants_text(v, i, SHARED_CONSTANTS_UNIT)),
-                            "%s", shared_constants_text(v, i, SHARED_CONSTANTS_CONSTANT));
-        rows_note(row, "%s%s%s: %s", shared_constants_text(v, i, SHARED_CONSTANTS_OVER),
-                  *shared_constants_text(v, i, SHARED_CONSTANTS_OF) != '\0' ? " " : "",
-                  shared_constants_text(v, i, SHARED_CONSTANTS_OF),
-                  shared_constants_text(v, i, SHARED_CONSTANTS_SUFFICES));
-        rows_reason(row, "how to decide it",
-                    shared_constants_key_text(v, SHARED_CONSTANTS_KEY_SETTLED_BY));
-    }
-}
-
-/* Number that the cases share; NaN where the pairs differ, which have no common value. Standard
- * error, low and high end follow the column of the value. */
-static row_number shared_number(const table_view *v, size_t row, shared_pairs_column value,
-                                const char *unit)
-{
-    const double none = (double)NAN;
-    if (shared_pairs_enum(v, row, SHARED_PAIRS_ONE_PAIR) == SHARING_DIFFERS)
-        return rows_number(none, none, none, unit);
-    return rows_number(shared_pairs_get(v, row, value),
-                       shared_pairs_get(v, row, (shared_pairs_column)(value + 2)),
-                       shared_pairs_get(v, row, (shared_pairs_column)(value + 3)), unit);
-}
-
-static void add_pairs(rows_source *s, const table_view *v)
-{
-    for (size_t i = 0; i < v->n_rows; i++) {
-        result_row *row =
-            rows_add_text(s, 0, shared_pairs_text(v, i, SHARED_PAIRS_ONE_PAIR),
-                          "one U_c and k of %.0f cases", shared_pairs_get(v, i, SHARED_PAIRS_N));
-        rows_note(row, "by %s", shared_pairs_text(v, i, SHARED_PAIRS_BY));
-        rows_reason(row, "how to decide it", shared_pairs_key_text(v, SHARED_PAIRS_KEY_SETTLED_BY));
-        row = rows_add_number(s, 1, shared_number(v, i, SHARED_PAIRS_ENERGY, "J/m^3"),
-                              "critical energy U_c");
-        rows_note(row, "%s", shared_pairs_text(v, i, SHARED_PAIRS_ONE_ENERGY));
-        rows_reason(row, "known least", shared_pairs_text(v, i, SHARED_PAIRS_LOOSE));
-        row = rows_add_number(s, 1, shared_number(v, i, SHARED_PAIRS_WEAR, "m^2/N"),
-                              "specific wear rate");
-        rows_note(row, "%s", shared_pairs_text(v, i, SHARED_PAIRS_ONE_WEAR));
-        if (!isnan(row->number.value) && !isnan(shared_pairs_get(v, i, SHARED_PAIRS_CORRELATION)))
-            clocale_append(row->note, sizeof row->note, "; correlation %.2f",
-                           shared_pairs_get(v, i, SHARED_PAIRS_CORRELATION));
-    }
-}
-
 void rows_of_collection(rows_source *s)
 {
     table_view view;
@@ -491,8 +438,4 @@ void rows_of_collection(rows_source *s)
         add_collected_friction(s, &view);
     if (rows_bind(s, &ratio_pairs_schema, &view))
         add_ratio_pairs(s, &view);
-    if (rows_bind(s, &shared_constants_schema, &view))
-        add_constants(s, &view);
-    if (rows_bind(s, &shared_pairs_schema, &view))
-        add_pairs(s, &view);
 }

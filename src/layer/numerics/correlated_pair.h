@@ -21,23 +21,4 @@ typedef struct constant_axes {
 } constant_axes;
 constant_axes constant_axes_compute(pair_covariance c);
 
-/* ln U_c and ln k of a case. */
-typedef struct constant_pair {
-    double energy, wear;
-    pair_covariance whole;
-    pair_covariance inputs; /* part of the covariance that cases may share */
-} constant_pair;
-
-/* Common pair of all cases: the weighted mean, its covariance, and chi-squared with 2 (n - 1)
- * degrees of freedom and its p value. Two assumptions are compared: independent cases, and
- * systematic errors according to `common`, an [n n] array that is true if i and k share the errors
- * of `inputs`. Chi-squared is the smaller result and the covariance the larger. */
-typedef struct shared_pair {
-    double energy, wear;
-    pair_covariance covariance;
-    double chi_squared, p;
-} shared_pair;
-wt_status shared_pair_fit(const constant_pair *of, const bool *common, size_t n, shared_pair *to,
-                          wt_error *err) WT_NODISCARD;
-
 #endif
