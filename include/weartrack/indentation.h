@@ -1,5 +1,5 @@
 /* weartrack - indentation: force curves to moduli. Tips and contact laws; fits of one curve and of
- * groups; dwells, images of a spot, deflection sensitivity and spring constant of the cantilever.
+ * groups; images of a spot, deflection sensitivity and spring constant of the cantilever.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WEARTRACK_INDENTATION_H
@@ -608,96 +608,6 @@ typedef struct wt_group_data {
     wt_curve_verdict main_rejection; /* most frequent verdict of the rejected curves */
     size_t n_main_rejection;         /* number of curves with it */
 } wt_group_data;
-
-/* ---- dwells --------------------------------------------------------------------------------- */
-
-/* An approach, the following dwell and retract, in order of time. */
-typedef struct wt_dwell_history {
-    const double *time;     /* [n] [s], rising; n = n_approach + n_dwell + n_retract */
-    const double *position; /* [n] height [m], rising into the sample */
-    const double *force;    /* [n] [N], as measured */
-    size_t n_approach, n_dwell,
-        n_retract;          /* n_retract may be 0; the retract shows the drift of the force */
-    double spring_constant; /* [N/m] */
-    double poisson_ratio;
-    double contact_point, modulus; /* initial values from a fit of the approach [m], [Pa] */
-    double baseline_offset;        /* initial value [N] */
-    wt_estimate baseline_tilt;     /* initial value [N/m] */
-} wt_dwell_history;
-
-/* Mean of a part of the dwell. */
-typedef struct wt_dwell_point {
-    double time, force,
-        indentation; /* time from contact [s]; force above the baseline [N]; indentation [m] */
-    double modulus, fitted; /* modulus of an elastic sample with this force and indentation [Pa],
-                               and its value in the fit */
-} wt_dwell_point;
-/* Storage and loss modulus at one frequency. The errors include noise, contact point, baseline,
- * drift and the uncertainty of the spectrum outside the measured times. They do not include
- * cantilever, tip and sensitivity. The part that is common to curves of one kind, from the
- * assumptions on drift and spectrum, is given separately. */
-typedef struct wt_dwell_moduli {
-    double angular_frequency;  /* [rad/s] */
-    wt_estimate storage, loss; /* [Pa] */
-    double storage_common_error, loss_common_error;
-} wt_dwell_moduli;
-enum { WT_DWELL_POINTS = 32, WT_DWELL_FREQUENCIES = 32 };
-typedef struct wt_dwell {
-    bool found, creep;          /* creep: the force was held, else the height */
-    const char *reason;         /* "", or why there are no moduli; static */
-    double load_time, duration; /* contact to dwell, and the dwell [s] */
-    double contact_point, baseline_offset, baseline_tilt; /* as in a history */
-    double drift, drift_start;       /* of the force [N/s], since that time [s] */
-    double indentation_common_error; /* systematic error of the indentation at the end [m], common
-                                        to curves of one kind; NaN as below */
-    double misfit, misfit_p; /* sum of squares over its degrees of freedom, which widens the errors
-                                if it is above 1; its p value for noise alone: below 0.01 the errors
-                                are unknown (NaN) */
-    size_t n, n_points;
-    wt_dwell_moduli moduli[WT_DWELL_FREQUENCIES]; /* four per decade, 10^(i/4) rad/s, between the
-                                                     inverse times from contact of the dwell */
-    wt_dwell_point point[WT_DWELL_POINTS];
-} wt_dwell;
-/* Fits the relaxation modulus to approach and dwell, with contact point, baseline and drift. It
- * uses the hereditary integral of Lee and Radok with the measured heights; the indentation must not
- * fall. It returns the storage and loss modulus of the fit. */
-WT_API wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *history,
-                              wt_dwell *dwell, wt_error *err) WT_NODISCARD;
-
-/* A sine in height and force: complex amplitudes A (real and imaginary part) of A exp(i omega (t -
- * start)). */
-typedef struct wt_modulation {
-    bool found;
-    const char *reason;        /* "" or the reason why there is none; static */
-    double angular_frequency;  /* [rad/s] */
-    double start;              /* [s] */
-    double amplitude[4];       /* of height [m] and force [N] */
-    double mean_time, mean[2]; /* weighted means: time [s], height [m] and force [N] */
-} wt_modulation;
-/* Fits the modulation by least squares with Hann weights, together with a cubic polynomial and a
- * logarithm of the time. angular_frequency: drive frequency [rad/s], or NaN: the strongest of the
- * height. A height that moves no more than its noise has no modulation. */
-WT_API wt_status wt_modulation_fit(const double *time, const double *position, const double *force,
-                                   size_t n, double angular_frequency, wt_modulation *modulation,
-                                   wt_error *err) WT_NODISCARD;
-/* Subtracts the modulation from its samples. */
-WT_API void wt_modulation_remove(const wt_modulation *modulation, const double *time, size_t n,
-                                 double *position, double *force);
-/* Computes E* = k* / slope with the dynamic contact stiffness k*; slope = dF/ddelta of the tip over
- * the modulus at the mean depth [m]. air: the same drive away from the sample, for the correction
- * of drag and crosstalk; NULL: none. The errors are NaN, as those of noise and depth covered the
- * truth in only 88 % of simulated curves. The scatter of several modulations gives them. */
-WT_API wt_status wt_modulation_moduli(const wt_modulation *modulation, const wt_modulation *air,
-                                      double spring_constant, double slope, wt_dwell_moduli *moduli,
-                                      wt_error *err) WT_NODISCARD;
-
-typedef struct wt_dwell_tables {
-    wt_table *dwell, *dwell_points, *dwell_moduli;
-} wt_dwell_tables;
-/* Evaluates the first dwell after the approach of every curve, with the tip and options of an
- * indentation job. WT_E_EMPTY if no curve has one. */
-WT_API wt_status wt_dwell_compute(const wt_indent_job *job, const wt_job *work,
-                                  wt_dwell_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* ---- images of a spot ----------------------------------------------------------------------- */
 

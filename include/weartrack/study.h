@@ -122,11 +122,6 @@ WT_API wt_status wt_track_layer_compute(const wt_compare_job *job, const wt_tabl
                                         const wt_job *work, wt_table **table,
                                         wt_error *err) WT_NODISCARD;
 
-/* Creates the table "dwell_dma": moduli of dwells (tables dwell_moduli as job->bulk and job->track;
- * the track may be NULL) relative to those of job->rubber at the same frequency and temperature. */
-WT_API wt_status wt_compare_dwells(const wt_compare_job *job, const wt_job *work, wt_table **table,
-                                   wt_error *err) WT_NODISCARD;
-
 /* ---- results of cases side by side ---------------------------------------------------------- */
 
 /* A result of wt_run_case, identified by the sample and condition of the case, or by `file` and "";

@@ -31,7 +31,6 @@ int cmd_convert(int argc, char **argv);
 int cmd_formats(int argc, char **argv);
 int cmd_indent(int argc, char **argv);
 int cmd_sensitivity(int argc, char **argv);
-int cmd_dwell(int argc, char **argv);
 int cmd_spot(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
 int cmd_master(int argc, char **argv);

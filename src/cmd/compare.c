@@ -110,41 +110,6 @@ static void run_group_comparison(compare_call *call, const char *master)
     wt_result_free(dma);
 }
 
-/* Finds the table of dwell moduli of an input. */
-static wt_status find_dwell_table(const compare_input *input, const wt_table **table, wt_error *err)
-{
-    if (input->tables == NULL) {
-        *err = input->failure;
-        return err->status;
-    }
-    return cmd_table_find(input->tables, input->path, "dwell_moduli", "dwell", table, err);
-}
-
-static void run_dwell_comparison(compare_call *call, const char *master)
-{
-    cmd_session *s = &call->s;
-    wt_compare_job *job = &call->groups;
-    wt_result *dma = NULL;
-    wt_rubber rubber = {0};
-    wt_table *made_table = NULL;
-    wt_status status = find_dwell_table(&call->input[0], &job->bulk, &s->err);
-    if (status == WT_OK && s->n_files > 1)
-        status = find_dwell_table(&call->input[1], &job->track, &s->err);
-    if (status == WT_OK && s->n_files > 2)
-        status =
-            wt_fail(&s->err, WT_E_ARG, "BULK and TRACK are two files, %zu are given", s->n_files);
-    if (status == WT_OK)
-        status = cmd_rubber_read(master, NULL, call->master.poisson_ratio, &s->work, &dma, &rubber,
-                                 &s->err);
-    job->rubber = &rubber;
-    if (status == WT_OK)
-        status = wt_compare_dwells(job, &s->work, &made_table, &s->err);
-    wt_table **const made_tables[] = {&made_table};
-    cmd_finish(s, status, made_tables, COUNT_OF(made_tables));
-    wt_rubber_clear(&rubber);
-    wt_result_free(dma);
-}
-
 enum { PART_DMA, PART_GROUPS, PART_RUBBER, PART_READING, N_PARTS };
 
 /* Rejects options that have no effect on this comparison. */
@@ -158,17 +123,14 @@ static bool check_compare_options(compare_call *call, bool master)
 
 static bool fail_two_files(cmd_session *s)
 {
-    return cmd_usage_error(s,
-                           "two files are needed, BULK and TRACK (with --master "
-                           "one output of weartrack dwell will do); %zu given",
-                           s->n_files);
+    return cmd_usage_error(s, "two files are needed, BULK and TRACK; %zu given", s->n_files);
 }
 
 /* Reads the inputs. The content of a file decides its kind. */
-static bool read_compare_inputs(compare_call *call, size_t least)
+static bool read_compare_inputs(compare_call *call)
 {
     cmd_session *s = &call->s;
-    if (s->n_files < least)
+    if (s->n_files < 2)
         return fail_two_files(s);
     call->input = wt_alloc(s->n_files, sizeof *call->input);
     if (!cmd_begin(s))
@@ -188,14 +150,13 @@ int cmd_compare(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "compare",
-        .arguments = "[OPTION]... BULK TRACK | --master FILE DWELLS [DWELLS]",
+        .arguments = "[OPTION]... BULK TRACK",
         .description =
             "Compares the moduli of the wear track with those of the bulk: does it differ (yes, no "
             "or inconclusive), the ratio with its 95 % interval, Welch's and the Mann-Whitney "
             "test, "
             "effect size, and the same rate by rate. BULK and TRACK are outputs of weartrack "
-            "indent; - is standard input. DWELLS are outputs of weartrack dwell: E' and E'' at "
-            "their frequencies over those of the DMA.",
+            "indent; - is standard input.",
         .common = "output provenance",
         .first = "master indentation-temperature track-temperature cantilevers "
                  "spring-constant-error tip-error output",
@@ -211,22 +172,9 @@ int cmd_compare(int argc, char **argv)
         [PART_GROUPS] = {wt_compare_job_params(), &call.groups, NULL, 0},
         [PART_RUBBER] = {wt_master_job_params(), &call.master, "poisson-ratio", 0},
         [PART_READING] = {wt_read_params(), &call.read, "sample", 0}};
-    if (cmd_parse(&call.s, &usage, parts, N_PARTS, argc, argv) &&
-        read_compare_inputs(&call, own.master != NULL ? 1 : 2)) {
-        const bool dwells =
-            own.master != NULL && cmd_tables_contain(call.input[0].tables, "dwell_moduli");
-        if (call.s.n_files < 2 && call.input[0].tables == NULL) {
-            call.s.err = call.input[0].failure; /* the file may be the intended result */
-            cmd_end(&call.s, call.s.err.status);
-        } else if (call.s.n_files < 2 && !dwells) {
-            (void)fail_two_files(&call.s);
-        } else if (check_compare_options(&call, own.master != NULL)) {
-            if (dwells)
-                run_dwell_comparison(&call, own.master);
-            else
-                run_group_comparison(&call, own.master);
-        }
-    }
+    if (cmd_parse(&call.s, &usage, parts, N_PARTS, argc, argv) && read_compare_inputs(&call) &&
+        check_compare_options(&call, own.master != NULL))
+        run_group_comparison(&call, own.master);
     for (size_t i = 0; call.input != NULL && i < call.s.n_files; i++)
         wt_result_free(call.input[i].tables);
     free(call.input);

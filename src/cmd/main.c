@@ -15,7 +15,6 @@ const cmd_command cmd_commands[] = {
     {"formats", cmd_formats, "the formats that are understood; check a description"},
     {"Indentation", NULL, NULL},
     {"indent", cmd_indent, "contact point and modulus of every force curve"},
-    {"dwell", cmd_dwell, "relaxation and creep in the dwells of force curves"},
     {"spot", cmd_spot, "roughness of a spot against the depth; what stayed of an indentation"},
     {"sensitivity", cmd_sensitivity, "deflection sensitivity from curves on a hard surface"},
     {"compare", cmd_compare, "wear track against bulk"},

@@ -58,7 +58,6 @@ slide="$slide --sliding-temperature 30degC --shear-stress 5MPa"
   tables psd "$case/road-1.gsf"
   tables ramp "$fixtures/dma/ramp_storage.csv"
   tables record "$fixtures/record/steps.csv"
-  tables dwell $fit "$fixtures/dwell/modulation.tsv.gz"
   tables sensitivity "$case"/bulk-1.jpk-force-map
   tables layer $slide --specific-wear-rate '1e-3mm^3/(N m)' --critical-energy 2e10J/m^3
 }

@@ -31,8 +31,6 @@ typedef enum quantity {
     Q_GROUP_MODULUS, /* modulus of all curves, with shared errors */
     Q_RATIO,         /* modulus ratio of track and bulk */
     Q_LAYERED_FRICTION,
-    Q_DWELL_STORAGE, /* modulus of one held curve at a frequency */
-    Q_DWELL_LOSS,
     Q_DENSITY, /* C(q) of a surface at a wavenumber */
     Q_HURST,
     Q_ROLL_OFF,

@@ -29,12 +29,6 @@ const place place_budget[2] = {
     {"modulus_budget", "modulus_bulk", NULL, "low_bulk", "high_bulk"},
     {"modulus_budget", "modulus_track", NULL, "low_track", "high_track"}};
 const place place_ratio = {"comparison", "ratio", NULL, "ratio_low", "ratio_high"};
-const place place_dwell[2] = {
-    {"dwell_moduli", "storage_modulus", "storage_modulus_standard_error", NULL, NULL},
-    {"dwell_moduli", "loss_modulus", "loss_modulus_standard_error", NULL, NULL}};
-const place place_dwell_mean[2] = {
-    {"dwell_dma", "storage_modulus", NULL, "storage_modulus_low", "storage_modulus_high"},
-    {"dwell_dma", "loss_modulus", NULL, "loss_modulus_low", "loss_modulus_high"}};
 const place place_layered_friction = {friction, "friction_with_layer_at_reference",
                                       "standard_error", NULL, NULL};
 

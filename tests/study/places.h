@@ -17,12 +17,11 @@ typedef struct place {
 extern const place place_shift, place_law, place_storage, place_loss;
 extern const place place_hysteresis, place_area, place_friction;
 extern const place place_c1, place_c2, place_equilibrium, place_thickness;
-extern const place place_modulus, place_factor;         /* of curves */
-extern const place place_depth;                         /* of all curves, a row for each depth */
-extern const place place_budget[2];                     /* of bulk and track */
-extern const place place_ratio;                         /* over all rates, the first row */
-extern const place place_dwell[2], place_dwell_mean[2]; /* E' and E'', a row for each frequency */
-extern const place place_layered_friction;              /* at the reference velocity */
+extern const place place_modulus, place_factor; /* of curves */
+extern const place place_depth;                 /* of all curves, a row for each depth */
+extern const place place_budget[2];             /* of bulk and track */
+extern const place place_ratio;                 /* over all rates, the first row */
+extern const place place_layered_friction;      /* at the reference velocity */
 
 extern const place place_density; /* of a surface, a row for each bin */
 extern const place place_hurst, place_roll_off, place_c0;

@@ -6,7 +6,6 @@
 #include "afm_observe.h"
 #include "collection_observe.h"
 #include "dma_observe.h"
-#include "dwell_observe.h"
 #include "growth_observe.h"
 #include "identify_observe.h"
 #include "lever_observe.h"
@@ -230,10 +229,10 @@ int main(int argc, char **argv)
         return bad;
     if (!o.stage.keep && (o.stage.folder = mkdtemp(made)) == NULL)
         return usage("no folder to work in");
-    const family families[] = {dma_family(),        track_family(),      afm_family(),
-                               dwell_family(),      lever_family(),      surface_family(),
-                               record_family(),     validation_family(), identify_family(),
-                               collection_family(), growth_family(),     thickness_family()};
+    const family families[] = {dma_family(),        track_family(),    afm_family(),
+                               lever_family(),      surface_family(),  record_family(),
+                               validation_family(), identify_family(), collection_family(),
+                               growth_family(),     thickness_family()};
     job *jobs = NULL;
     const int n = make_jobs(&o, families, sizeof families / sizeof families[0], &jobs);
     work w = {.options = &o, .jobs = jobs, .n_jobs = n};

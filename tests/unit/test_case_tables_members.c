@@ -15,8 +15,8 @@
     X(softening) X(contact_area) X(layer) \
     X(error_budget) X(work_precision) X(cost) X(notes) X(data_quality) X(limits) X(answer) X(map_curves) X(map_segments) \
     X(shift_factors) X(master_curve) X(relaxation_spectrum) X(influences) X(material_draws) \
-    X(dwell_dma) X(power_spectrum) X(place_errors) X(angular_spectrum) X(surfaces) X(height_map) X(height_profile) X(prony) X(series_draws) X(prony_reduced) X(roughness) X(energy_density) \
-    X(failures) X(methods) X(map_channels) X(dwell_points) X(dwell_moduli) X(record) X(record_cycles) X(wear) \
+    X(power_spectrum) X(place_errors) X(angular_spectrum) X(surfaces) X(height_map) X(height_profile) X(prony) X(series_draws) X(prony_reduced) X(roughness) X(energy_density) \
+    X(failures) X(methods) X(map_channels) X(record) X(record_cycles) X(wear) \
     X(identification) X(validation) X(validation_running_in) X(validation_course) X(validation_sources) \
     X(anisotropy) X(friction_decades) X(flash) X(collection) X(collected_modulus) \
     X(collected_friction) X(collected_ramp) X(collected_force) X(ratio_pairs) \
@@ -24,7 +24,7 @@
 #define KEYS(X) \
     X(modulus_depth) X(modulus_budget) X(glass_transition) X(spot) X(dma_comparison) \
     X(comparison) X(track_layer) X(friction) X(softening) X(layer) X(master_curve) X(prony) \
-    X(dwell_dma) X(cost) X(power_spectrum) X(angular_spectrum) X(surfaces) X(anisotropy) X(friction_decades) X(flash) \
+    X(cost) X(power_spectrum) X(angular_spectrum) X(surfaces) X(anisotropy) X(friction_decades) X(flash) \
     X(collection) X(collected_friction) X(collected_ramp) X(ratio_pairs)
 /* clang-format on */
 

@@ -895,85 +895,6 @@ static void test_record(void **state)
     (void)remove(disc);
 }
 
-/* Curves with a dwell at their end. */
-static void test_dwell(void **state)
-{
-    (void)state;
-    enum { N = 300, CURVES = 2 };
-    static const char path[] = "test_tables_put_dwell.jpk-force-map";
-    static double height[2][N], force[CURVES][2][N];
-    jpk_writer_segment segments[CURVES][2];
-    jpk_writer_curve curves[CURVES];
-    const char *const patterns[] = {path};
-    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
-    wt_job common = wt_job_defaults();
-    jpk_writer_file file = jpk_writer_defaults();
-    uint64_t seed = 2;
-    for (size_t c = 0; c < CURVES; c++) {
-        for (size_t i = 0; i < N; i++) {
-            const double at = 2e-9 * ((double)i - 150), deep = 2e-9 * 149, g = 3e-3 / 0.75;
-            const double noise = 1e-9 * truth_normal(&seed);
-            force[c][0][i] = at > 0 ? 1e6 * g * pow(at, 1.5) + noise : noise;
-            force[c][1][i] = 1e6 * g * pow(deep, 1.5) + noise;
-            height[0][i] = 5e-6 - at - force[c][0][i] / 10;
-            const double sine = 2e-9 * sin(0.8 * (double)i);
-            force[c][1][i] += 1e6 * 1.5 * g * sqrt(deep) * sine;
-            height[1][i] = 5e-6 - deep - sine * (1 + 1e5 * 1.5 * g * sqrt(deep)) -
-                           1e6 * g * pow(deep, 1.5) / 10;
-        }
-        segments[c][0] = (jpk_writer_segment){"extend", N, 1, height[0], force[c][0], NULL};
-        segments[c][1] = (jpk_writer_segment){"pause", N, 5, height[1], force[c][1], NULL};
-        curves[c] = (jpk_writer_curve){c, 1e-6 * (double)c, 0, 2, segments[c]};
-    }
-    file.path = path;
-    file.map = true;
-    file.n_curves = CURVES;
-    file.curves = curves;
-    file.spring_constant = 10;
-    file.sensitivity = 50e-9;
-    assert_int_equal(jpk_write(&file), 0);
-    common.formats = formats;
-    wt_indent_job job = wt_indent_job_defaults();
-    wt_dwell_tables tables = {0};
-    wt_error err = WT_ERROR_INIT;
-    job.sets = &set;
-    job.n_sets = 1;
-    job.tip = (wt_tip){.shape = WT_TIP_PARABOLOID, .radius = 5e-6};
-    if (wt_dwell_compute(&job, &common, &tables, &err) != WT_OK)
-        fail_msg("%s %s", err.message, err.found);
-    see(tables.dwell);
-    see(tables.dwell_points);
-    see(tables.dwell_moduli);
-    const char *const dma[] = {WT_SOURCE_DIR "/fixtures/case/dma.txt"};
-    const wt_file_set measured = {.patterns = dma, .n_patterns = 1, .read = wt_read_defaults()};
-    wt_master_job master = wt_master_job_defaults();
-    wt_master_tables fitted = {0};
-    wt_rubber made = {0};
-    wt_compare_job compared = wt_compare_job_defaults();
-    wt_table *table = NULL;
-    master.sets = &measured;
-    master.n_sets = 1;
-    if (wt_master_compute(&master, &common, &fitted, &made, &err) != WT_OK)
-        fail_msg("%s %s", err.message, err.found);
-    compared.bulk = compared.track = tables.dwell_moduli;
-    compared.rubber = &made;
-    const size_t n_draws = made.n_draws;
-    if (wt_compare_dwells(&compared, &common, &table, &err) != WT_OK)
-        fail_msg("%s %s", err.message, err.found);
-    see(table);
-    wt_table_free(table);
-    made.n_draws = 0; /* no error, and a temperature outside the range */
-    compared.temperature.value = compared.track_temperature.value = 100;
-    assert_int_equal(wt_compare_dwells(&compared, &common, &table, NULL), WT_OK);
-    see(table);
-    wt_table_free(table);
-    made.n_draws = n_draws;
-    wt_master_tables_clear(&fitted);
-    wt_rubber_clear(&made);
-    wt_tables_clear(&tables, sizeof tables);
-    (void)remove(path);
-}
-
 static void test_files(void **state)
 {
     (void)state;
@@ -1282,7 +1203,6 @@ int main(void)
         cmocka_unit_test(test_record),
         cmocka_unit_test(test_validation),
         cmocka_unit_test(test_identification),
-        cmocka_unit_test(test_dwell),
         cmocka_unit_test(test_transverse_isotropy),
         cmocka_unit_test(test_spot),
         cmocka_unit_test(test_surface),

@@ -15,7 +15,6 @@
 #include "friction/tables.h"
 #include "indentation/tables.h"
 #include "indentation/tables_calibration.h"
-#include "indentation/tables_dwell.h"
 #include "layer/tables.h"
 #include "record/tables.h"
 #include "record/tables_measured.h"
@@ -79,10 +78,6 @@
     X(curves, CURVES, "curves", "Curves to look at", "indent")                                     \
     X(overrides, OVERRIDES, "overrides", "What was chosen by hand", "indent")                      \
     X(modulus_depth, MODULUS_DEPTH, "modulus_depth", "Modulus against depth", "indent")            \
-    X(dwell, DWELL, "dwell", "Dwells", "dwell")                                                    \
-    X(dwell_points, DWELL_POINTS, "dwell_points", "Modulus against time in the dwells", "dwell")   \
-    X(dwell_moduli, DWELL_MODULI, "dwell_moduli", "Moduli against frequency in the dwells",        \
-      "dwell")                                                                                     \
     X(sensitivity, SENSITIVITY, "sensitivity", "Deflection sensitivity", "sensitivity")            \
     X(sensitivity_curves, SENSITIVITY_CURVES, "sensitivity_curves",                                \
       "Deflection sensitivity of every curve", "sensitivity")                                      \
@@ -94,7 +89,6 @@
     X(comparison, COMPARISON, "comparison", "Wear track against bulk", "compare")                  \
     X(track_layer, TRACK_LAYER, "track_layer", "Thickness of the layer by the curves", "compare")  \
     X(dma_comparison, DMA_COMPARISON, "dma_comparison", "Indentation against DMA", "compare")      \
-    X(dwell_dma, DWELL_DMA, "dwell_dma", "Dwells against DMA", "compare")                          \
     X(collection, COLLECTION, "collection", "Cases side by side", "collect")                       \
     X(collected_modulus, COLLECTED_MODULUS, "collected_modulus",                                   \
       "Modulus against indentation rate, of all cases", "collect")                                 \

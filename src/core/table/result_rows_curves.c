@@ -110,66 +110,6 @@ static void add_ratio(rows_source *s, const table_view *v)
                 comparison_key_text(v, COMPARISON_KEY_WOULD_EXPLAIN));
 }
 
-static void add_dwells(rows_source *s, const table_view *v)
-{
-    const wt_estimate at = dwell_value(v, DWELL_KEY_ANGULAR_FREQUENCY);
-    char text[64];
-    size_t n = 0;
-    for (size_t i = 0; i < v->n_rows; i++)
-        n += isnan(dwell_get(v, i, DWELL_STORAGE)) ? 0 : 1;
-    snprintf(text, sizeof text, "%zu of %zu", n, v->n_rows);
-    rows_add_text(s, 0, text, "dwells with moduli");
-    for (size_t i = 0; i < v->n_rows && n == 0; i++)
-        if (*dwell_text(v, i, DWELL_NOTE) != '\0') {
-            rows_note(&s->rows->rows[s->rows->n - 1], "%s", dwell_text(v, i, DWELL_NOTE));
-            break;
-        }
-    if (isnan(at.value))
-        return;
-    result_row *row = rows_add_number(s, 0, rows_estimate(dwell_value(v, DWELL_KEY_STORAGE)),
-                                      "storage modulus E'");
-    rows_note(row, "at %s", rows_short(at.value, "rad/s").value);
-    rows_add_number(s, 0, rows_estimate(dwell_value(v, DWELL_KEY_LOSS)), "loss modulus E''");
-}
-
-/* Each group has the middle row of those inside the frequency range of the DMA. */
-static void add_dwell_ratios(rows_source *s, const table_view *v)
-{
-    for (size_t from = 0, to; from < v->n_rows; from = to) {
-        const char *group = dwell_dma_text(v, from, DWELL_DMA_GROUP);
-        size_t first = SIZE_MAX, last = 0;
-        for (to = from;
-             to < v->n_rows && strcmp(dwell_dma_text(v, to, DWELL_DMA_GROUP), group) == 0; to++)
-            if (dwell_dma_get(v, to, DWELL_DMA_EXTRAPOLATED) == 0 &&
-                !isnan(dwell_dma_get(v, to, DWELL_DMA_STORAGE_RATIO))) {
-                first = first == SIZE_MAX ? to : first;
-                last = to;
-            }
-        if (first == SIZE_MAX) {
-            result_row *none = rows_add_text(s, 0, "not known", "%s: E' over DMA", group);
-            rows_note(none, "no dwell at a frequency of the DMA");
-            continue;
-        }
-        const size_t i = (first + last) / 2;
-        const char *lacks = dwell_dma_key_text(v, DWELL_DMA_KEY_ERROR_LACKS);
-        result_row *row =
-            rows_add_number(s, 0,
-                            rows_number(dwell_dma_get(v, i, DWELL_DMA_STORAGE_RATIO),
-                                        dwell_dma_get(v, i, DWELL_DMA_STORAGE_RATIO_LOW),
-                                        dwell_dma_get(v, i, DWELL_DMA_STORAGE_RATIO_HIGH), "1"),
-                            "%s: E' over DMA", group);
-        rows_note(row, "at %s",
-                  rows_short(dwell_dma_get(v, i, DWELL_DMA_ANGULAR_FREQUENCY), "rad/s").value);
-        row = rows_add_number(s, 1,
-                              rows_number(dwell_dma_get(v, i, DWELL_DMA_LOSS_RATIO),
-                                          dwell_dma_get(v, i, DWELL_DMA_LOSS_RATIO_LOW),
-                                          dwell_dma_get(v, i, DWELL_DMA_LOSS_RATIO_HIGH), "1"),
-                              "E'' over DMA");
-        if (lacks != NULL)
-            rows_note(row, "without the error of: %s", lacks);
-    }
-}
-
 static void add_sensitivity(rows_source *s, const table_view *v)
 {
     const wt_estimate value = sensitivity_value(v, SENSITIVITY_KEY_SENSITIVITY),
@@ -235,9 +175,7 @@ void rows_of_curves(rows_source *s)
     static const struct {
         const table_schema *schema;
         void (*add)(rows_source *s, const table_view *view);
-    } parts[] = {{&dwell_schema, add_dwells},
-                 {&dwell_dma_schema, add_dwell_ratios},
-                 {&sensitivity_schema, add_sensitivity},
+    } parts[] = {{&sensitivity_schema, add_sensitivity},
                  {&spot_schema, add_spot},
                  {&comparison_schema, add_ratio}};
     table_view view;

@@ -146,7 +146,7 @@ helps master --poisson-ratio 0.5 --sheet all sweeps.xlsx -o a.h5
 cause 'choose one with --sheet NAME' info sweeps.xlsx
 helps info --sheet first sweeps.xlsx
 says '^next: weartrack master --sheet first sweeps.xlsx'
-for command in master ramp payne indent dwell sensitivity psd spot record convert info; do
+for command in master ramp payne indent sensitivity psd spot record convert info; do
   "$weartrack" $command --help all > help
   grep -q -e '--sheet ' help || fail "weartrack $command has no --sheet"
 done
