@@ -826,17 +826,14 @@ WT_API wt_status wt_stream_read(FILE *in, const char *name, wt_table **table,
 /* ---- for other programs --------------------------------------------------------------------- */
 
 /* Export formats. TSV and CSV have one header line, name[unit]. JSON has keys, columns and rows.
- * STREAM is the text stream. SQLITE is a database with the table under its name, the units and
- * descriptions of columns in weartrack_columns and the keys in weartrack_keys; unknown values are
- * NULL. A table with several blocks has a first column "block".
+ * STREAM is the text stream. A table with several blocks has a first column "block".
  * In TSV and CSV an apostrophe precedes a text that a spreadsheet would evaluate (it begins with =
  * + - @ and is not a number), unless formulas are requested. */
 typedef enum wt_export_form {
     WT_EXPORT_TSV,
     WT_EXPORT_CSV,
     WT_EXPORT_JSON,
-    WT_EXPORT_STREAM,
-    WT_EXPORT_SQLITE /* binary */
+    WT_EXPORT_STREAM
 } wt_export_form;
 WT_API wt_status wt_table_export(FILE *out, const wt_table *table, wt_export_form form,
                                  bool formulas, wt_error *err) WT_NODISCARD;

@@ -97,7 +97,7 @@ typedef struct cmd_usage {
     const char *master; /* options that weartrack master documents; NULL: none */
     const char *notes;  /* text after the options; NULL if none */
     const char *next;   /* call that follows with the result, shown on a terminal; NULL: none */
-    bool exports;       /* writes tables for other programs, including databases */
+    bool exports;       /* writes tables for other programs */
     bool one_by_one;    /* writes each table when it is read: no CSV and no JSON */
     int n_files;        /* required number of files; CMD_ONE_OR_MORE: one or more; 0: any */
     const char *files;  /* message for another number: "two files are needed" */

@@ -34,7 +34,7 @@ const cmd_command cmd_commands[] = {
     {"accuracy", cmd_accuracy, "error budget and error against run time of a case"},
     {"view", cmd_view, "a case in the browser: curves, master curve, friction; local only"},
     {"report", cmd_report, "plots and one page from a result file"},
-    {"table", cmd_table, "a table of a result as TSV, CSV, JSON or SQLite"},
+    {"table", cmd_table, "a table of a result as TSV, CSV or JSON"},
     {"collect", cmd_collect, "cases of several samples and conditions side by side"},
     {"summary", cmd_summary, "one row for each of many results"},
     {NULL, NULL, NULL}};

@@ -281,31 +281,26 @@ static bool report_bad_option(cmd_session *s, const struct option *longs, int co
 /* Rejects output suffixes of formats that are not supported. */
 static bool check_output_suffix(cmd_session *s, const cmd_usage *usage)
 {
-    static const char of_sheet[] = "TABLE.csv` gives a table that one opens";
-    static const char of_database[] = "TABLE.sqlite` gives a table as a database";
+    static const char of_sheet[] = "TABLE.csv` gives a table that one opens",
+                      of_json[] = "TABLE.json` gives a table in it";
     static const struct {
         const char *ending, *what, *instead;
-        bool exported, whole;
-    } others[] = {{".xlsx", "spreadsheet", of_sheet, false, false},
-                  {".xlsm", "spreadsheet", of_sheet, false, false},
-                  {".xls", "spreadsheet", of_sheet, false, false},
-                  {".ods", "spreadsheet", of_sheet, false, false},
-                  {".parquet", "Parquet file", of_database, false, false},
-                  {".sqlite", "database", of_database, true, false},
-                  {".sqlite3", "database", of_database, true, false},
-                  {".db", "database", of_database, true, false},
-                  {".csv", "CSV file", of_sheet, false, true},
-                  {".json", "JSON file", "TABLE.json` gives a table in it", false, true}};
+        bool whole;
+    } others[] = {
+        {".xlsx", "spreadsheet", of_sheet, false},     {".xlsm", "spreadsheet", of_sheet, false},
+        {".xls", "spreadsheet", of_sheet, false},      {".ods", "spreadsheet", of_sheet, false},
+        {".parquet", "Parquet file", of_sheet, false}, {".sqlite", "database", of_sheet, false},
+        {".sqlite3", "database", of_sheet, false},     {".db", "database", of_sheet, false},
+        {".csv", "CSV file", of_sheet, true},          {".json", "JSON file", of_json, true}};
     const char *const output = s->common.output;
     const char *const dot = output != NULL ? strrchr(output, '.') : NULL;
     for (size_t i = 0; dot != NULL && i < COUNT_OF(others); i++) {
-        if (strcasecmp(dot, others[i].ending) != 0 || (others[i].exported && usage->exports) ||
-            (others[i].whole && !usage->one_by_one))
+        if (strcasecmp(dot, others[i].ending) != 0 || (others[i].whole && !usage->one_by_one))
             continue;
         if (usage->exports)
             return cmd_usage_error(s,
                                    "-o %s: no %s is written; -o TABLE.csv is what a spreadsheet "
-                                   "opens, -o TABLE.sqlite a database",
+                                   "opens",
                                    output, others[i].what);
         return cmd_usage_error(s,
                                "-o %s: no %s is written; write the result as .h5, then "

@@ -154,9 +154,7 @@ wt_export_form export_form_of_suffix(const char *output, wt_export_form otherwis
     static const struct {
         const char *ending;
         wt_export_form form;
-    } known[] = {{".csv", WT_EXPORT_CSV},        {".tsv", WT_EXPORT_TSV},
-                 {".json", WT_EXPORT_JSON},      {".sqlite", WT_EXPORT_SQLITE},
-                 {".sqlite3", WT_EXPORT_SQLITE}, {".db", WT_EXPORT_SQLITE}};
+    } known[] = {{".csv", WT_EXPORT_CSV}, {".tsv", WT_EXPORT_TSV}, {".json", WT_EXPORT_JSON}};
     const char *dot = output != NULL ? strrchr(output, '.') : NULL;
     for (size_t i = 0; dot != NULL && i < COUNT_OF(known); i++)
         if (strcasecmp(dot, known[i].ending) == 0)

@@ -2,7 +2,6 @@
 #include "cmd/table_output.h"
 
 #include <string.h>
-#include <unistd.h>
 
 bool cmd_tables_contain(const wt_result *tables, const char *prefix)
 {
@@ -162,10 +161,9 @@ static export_options export_options_defaults(void)
 }
 
 static const wt_param rows[] = {
-    {PARAM_CHOICE_OF("format", export_options, form, "tsv|csv|json|stream|sqlite"), .former = "as",
+    {PARAM_CHOICE_OF("format", export_options, form, "tsv|csv|json|stream"), .former = "as",
      .help =
-         "how it is written; default: as the name after -o ends in .csv, .tsv, .json, .sqlite or "
-         ".db, else tsv"},
+         "how it is written; default: as the name after -o ends in .csv, .tsv or .json, else tsv"},
     {PARAM_FLAG_OF("formulas", export_options, formulas),
      .help = "leave a text of tsv and csv that begins with = + - or @ as it is; without this an "
              "apostrophe before it keeps a spreadsheet from taking it for a formula"},
@@ -183,12 +181,6 @@ wt_status export_table(cmd_session *s, const cmd_option_group *part, const wt_ta
 {
     cmd_sink sink;
     const wt_export_form form = select_export_form(s->common.output, part);
-    if (form == WT_EXPORT_SQLITE && cmd_is_standard_stream(s->common.output) &&
-        isatty(STDOUT_FILENO)) {
-        (void)wt_fail(&s->err, WT_E_ARG, "a terminal cannot show a database");
-        wt_error_advice(&s->err, "give it a name: -o NAME.sqlite");
-        return WT_E_ARG;
-    }
     wt_status status = cmd_sink_open(s->common.output, &sink, &s->err);
     if (status == WT_OK)
         cmd_show_first_lines(s, &sink);

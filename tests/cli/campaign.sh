@@ -79,9 +79,6 @@ echo "no curves" >maps/notes.txt
 by_file --keep-going && fail "a text is taken for curves"
 [ "$(indents)" = 2 ] || fail "not the new files alone"
 rm maps/notes.txt
-by_file form=sqlite || fail "no database"
-[ "$(indents)" = 0 ] || fail "files were indented again for another form of the table"
-[ "$(head -c 15 by-file/files.sqlite)" = "SQLite format 3" ] || fail "not a database"
 [ ! -e by-file/summary.tsv ] || fail "the cases were run, too"
 indent='--tip pyramid:half-angle=21deg,radius=20nm --no-provenance'
 by_file || fail "curves of another tip fail"

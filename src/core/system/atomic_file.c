@@ -74,16 +74,8 @@ static bool has_binary_bytes(const unsigned char *block, size_t n)
     return false;
 }
 
-static bool is_weartrack_database(const unsigned char *begin, size_t n)
-{
-    return n >= SQLITE_APPLICATION_ID_OFFSET + SQLITE_APPLICATION_ID_SIZE &&
-           memcmp(begin, SQLITE_SIGNATURE, sizeof SQLITE_SIGNATURE) == 0 &&
-           memcmp(begin + SQLITE_APPLICATION_ID_OFFSET, SQLITE_APPLICATION_ID,
-                  SQLITE_APPLICATION_ID_SIZE) == 0;
-}
-
-/* True if the file was probably written by an instrument: it is neither text nor HDF5 or a
- * database of this program. Files of instruments may have a text header. Therefore the middle and
+/* True if the file was probably written by an instrument: it is neither text nor HDF5 of
+ * this program. Files of instruments may have a text header. Therefore the middle and
  * the end of the file are also checked. */
 static bool is_foreign(const char *path, off_t size)
 {
@@ -99,9 +91,8 @@ static bool is_foreign(const char *path, off_t size)
     for (size_t i = 0; i < sizeof places / sizeof *places && !own && !foreign; i++) {
         const size_t n =
             fseeko(file, places[i], SEEK_SET) == 0 ? fread(block, 1, sizeof block, file) : 0;
-        own = i == 0 &&
-              (contains_text(block, n, STORE_FORMAT_ATTRIBUTE) ||
-               contains_text(block, n, STORE_MAP_ATTRIBUTE) || is_weartrack_database(block, n));
+        own = i == 0 && (contains_text(block, n, STORE_FORMAT_ATTRIBUTE) ||
+                         contains_text(block, n, STORE_MAP_ATTRIBUTE));
         foreign = !own && (has_binary_bytes(block, n) ||
                            (i == 0 && n > 3 && memcmp(block, nanoscope, 3) == 0));
     }

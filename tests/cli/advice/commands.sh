@@ -47,8 +47,6 @@ piece 'no %s is written; write the result as .h5, then `weartrack table RESULT N
 cause 'then `weartrack table RESULT NAME -o TABLE.csv`' master --poisson-ratio 0.5 three.csv -o a.xlsx
 helps master --poisson-ratio 0.5 three.csv -o a.h5
 helps table a.h5 prony -o a.csv
-cause 'a table as a database' master --poisson-ratio 0.5 three.csv -o a.sqlite
-helps table a.h5 prony -o a.sqlite
 piece '--files-from %s: it names no file'
 : > names
 cause '--files-from names: it names no file' info --files-from names
