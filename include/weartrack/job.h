@@ -132,8 +132,6 @@ WT_API wt_status wt_cost_table(wt_cost *cost, wt_table **table, wt_error *err) W
 typedef struct wt_convert_job {
     unsigned kind; /* WT_KIND_* for a file of several kinds; 0: the first with data in the order
                       force, sweep, spectrum, image */
-    const char *contact; /* result of weartrack indent: force curves are relative to its contact
-                            points and baselines, with the indentation; NULL = as measured */
     wt_read_options read;
 } wt_convert_job;
 WT_API wt_convert_job wt_convert_job_defaults(void);

@@ -147,8 +147,3 @@ for g in bulk track; do
 done
 leads collect median-bulk.h5 median-track.h5
 says 'a result of weartrack run, beside which'
-piece 'what weartrack indent or weartrack run wrote of these curves' 'give the result that weartrack indent made of this file'
-cause 'what weartrack indent or weartrack run wrote' convert --contact empty.txt "$curve"
-leads convert --contact bulk.h5 "$curve"
-cause 'give the result that weartrack indent made of this file' convert --contact bulk.h5 "$track"
-leads convert --contact track.h5 "$track"
