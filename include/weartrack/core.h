@@ -873,19 +873,6 @@ WT_API wt_status wt_store_read_memory(const void *bytes, size_t length, const ch
 WT_API wt_status wt_store_read_main_values(const char *path, wt_result **result,
                                            wt_error *err) WT_NODISCARD;
 
-/* Writes a map of force curves to an HDF5 result curve by curve, so that memory hardly grows with
- * the map. The path is borrowed until the end. */
-typedef struct wt_map_writer wt_map_writer;
-WT_API wt_status wt_map_open(const char *path, wt_map_writer **writer, wt_error *err) WT_NODISCARD;
-WT_API wt_status wt_map_add_curve(wt_map_writer *writer, const wt_force_curve *curve,
-                                  wt_error *err) WT_NODISCARD;
-/* Adds the tables "force_map/..." to the result, writes it with the samples and renames the file.
- * Frees the writer. */
-WT_API wt_status wt_map_commit(wt_map_writer *writer, wt_result *result, bool with_provenance,
-                               wt_error *err) WT_NODISCARD;
-WT_API void
-wt_map_discard(wt_map_writer *writer); /* Removes the temporary file and frees. Accepts NULL. */
-
 #ifdef __cplusplus
 }
 #endif

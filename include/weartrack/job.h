@@ -139,14 +139,11 @@ WT_API const wt_params *wt_convert_job_params(void);
 
 /* Callback that takes ownership of one table (also on failure) as soon as it exists. */
 typedef wt_status (*wt_table_sink)(void *user, wt_table *table, wt_error *err);
-/* Callback for one curve, which it borrows. */
-typedef wt_status (*wt_curve_sink)(void *user, const wt_force_curve *curve, wt_error *err);
 /* Converts a file to tables in SI units: "force_curve/I" for each curve, "sweep", "roughness",
- * "image/I". The file is in the provenance before the first table. Curves go to `curves` instead,
- * unless it is NULL. WT_E_EMPTY if there are no data of that kind. */
+ * "image/I". The file is in the provenance before the first table. WT_E_EMPTY if there are no data
+ * of that kind. */
 WT_API wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_job *work,
-                                 wt_table_sink sink, wt_curve_sink curves, void *user,
-                                 wt_error *err) WT_NODISCARD;
+                                 wt_table_sink sink, void *user, wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

@@ -3,21 +3,12 @@
  */
 #include "cmd/cmd.h"
 
-/* Destination of the tables. A text stream receives them as they come. For the HDF5 store they are
- * collected, but force curves are written as they come. Memory hardly grows with a map. */
+/* Destination of the tables. A text stream receives them as they come, so that memory hardly grows
+ * with a map; for the HDF5 store they are collected. */
 typedef struct destination {
     cmd_session *session;
-    cmd_sink sink;      /* its stream is NULL before the first table */
-    wt_map_writer *map; /* NULL before the first curve of a store */
+    cmd_sink sink; /* its stream is NULL before the first table */
 } destination;
-
-static wt_status write_curve(void *user, const wt_force_curve *curve, wt_error *err)
-{
-    destination *d = user;
-    const wt_status status =
-        d->map == NULL ? wt_map_open(d->session->common.output, &d->map, err) : WT_OK;
-    return status == WT_OK ? wt_map_add_curve(d->map, curve, err) : status;
-}
 
 static wt_status write_converted_table(void *user, wt_table *table, wt_error *err)
 {
@@ -55,20 +46,15 @@ int cmd_convert(int argc, char **argv)
     cmd_session s = cmd_session_defaults();
     destination d = {.session = &s};
     if (cmd_parse(&s, &usage, &group, 1, argc, argv) && cmd_begin_reading(&s, job.read.format)) {
-        const bool store = cmd_is_hdf5_path(s.common.output);
         cmd_record_command(wt_result_provenance(s.result));
-        wt_status status = wt_convert_file(&job, s.files[0], &s.work, write_converted_table,
-                                           store ? write_curve : NULL, &d, &s.err);
+        wt_status status =
+            wt_convert_file(&job, s.files[0], &s.work, write_converted_table, &d, &s.err);
         if (status == WT_OK)
             status = cmd_write_record(&s, write_converted_table, &d);
         if (d.sink.stream != NULL)
             status = cmd_sink_close(&d.sink, status, &s.err);
-        else if (status == WT_OK && d.map != NULL)
-            status = wt_map_commit(d.map, s.result, s.common.provenance, &s.err);
-        else if (status == WT_OK && store)
+        else if (status == WT_OK)
             status = cmd_write_result(&s);
-        else
-            wt_map_discard(d.map);
         cmd_end(&s, status);
     }
     return cmd_session_free(&s);

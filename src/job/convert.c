@@ -15,7 +15,6 @@ typedef struct conversion {
     wt_input *input;
     wt_read_options read;
     wt_table_sink sink;
-    wt_curve_sink curves; /* NULL if curves are converted to tables */
     void *user;
 } conversion;
 
@@ -106,7 +105,7 @@ static wt_status convert_force(const conversion *c, wt_error *err)
             status = wt_job_add_failure(c->work, wt_input_name(c->input), got, &failure, err);
             continue;
         }
-        status = c->curves != NULL ? c->curves(c->user, &curve, err) : send_curve(c, &curve, err);
+        status = send_curve(c, &curve, err);
         n++;
     }
     if (status == WT_OK && n == 0)
@@ -347,13 +346,12 @@ PARAM_TABLE(wt_convert_job_params, wt_convert_job, rows, wt_convert_job_defaults
             PARAM_PART(wt_read_params, wt_convert_job, read))
 
 wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_job *work,
-                          wt_table_sink sink, wt_curve_sink curves, void *user, wt_error *err)
+                          wt_table_sink sink, void *user, wt_error *err)
 {
     const wt_file_set set = {.read = job->read};
     conversion c = {.work = work,
                     .file = {.path = path, .name = path, .set = &set},
                     .sink = sink,
-                    .curves = curves,
                     .user = user};
     wt_error failure = WT_ERROR_INIT;
     wt_status status = flow_open(work, &c.file, "input", job->kind, &c.input, err);

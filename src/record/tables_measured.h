@@ -13,38 +13,6 @@
     X(FORCE_CURVE_KEY_SENSITIVITY, "sensitivity", SI(SENSITIVITY), OPTIONAL)                       \
     X(FORCE_CURVE_KEY_CURVE, "curve", PLAIN)
 
-/* A map in HDF5: its curves and segments, and the quantities of the arrays of samples. */
-#define MAP_CURVES_COLUMNS(X)                                                                      \
-    X(MAP_CURVES_CURVE, "curve", "number of the curve in its file", UNIT("1"), SHOWS(curve.index)) \
-    X(MAP_CURVES_SEGMENTS, "segments", "how many segments it has", UNIT("1"),                      \
-      SHOWS(curve.n_segments))                                                                     \
-    X(MAP_CURVES_POSITION_X, "position_x", "position along x", SI(POSITION_X), SHOWS(curve.x),     \
-      SPARSE)                                                                                      \
-    X(MAP_CURVES_POSITION_Y, "position_y", "position along y", SI(POSITION_Y), SHOWS(curve.y),     \
-      SPARSE)                                                                                      \
-    X(MAP_CURVES_GRID_X, AS(grid_x), "place in the grid along x, from 0; -1: none", UNIT("1"))     \
-    X(MAP_CURVES_GRID_Y, AS(grid_y), "place in the grid along y, from 0; -1: none", UNIT("1"))     \
-    X(MAP_CURVES_SPRING_CONSTANT, IN(curve.cantilever, spring_constant), "spring constant",        \
-      SI(SPRING_CONSTANT), SPARSE)                                                                 \
-    X(MAP_CURVES_SENSITIVITY, IN(curve.cantilever, sensitivity), "deflection sensitivity",         \
-      SI(SENSITIVITY), SPARSE)                                                                     \
-    X(MAP_CURVES_CHECKSUM, AS(checksum), "CRC-32 of its samples", UNIT("1"))
-#define MAP_CURVES_KEYS(X)
-#define MAP_SEGMENTS_COLUMNS(X)                                                                    \
-    X(MAP_SEGMENTS_SEGMENT, "segment", "kind of segment", TEXT, SHOWS(kind))                       \
-    X(MAP_SEGMENTS_NUMBER, "number", "number of the segment in its file", UNIT("1"),               \
-      SHOWS(of.index))                                                                             \
-    X(MAP_SEGMENTS_SAMPLES, "samples", "how many samples it has", UNIT("1"), SHOWS(of.n_points))   \
-    X(MAP_SEGMENTS_DURATION, IN(of, duration), "duration", SI(TIME), SPARSE)                       \
-    X(MAP_SEGMENTS_VELOCITY, IN(of, velocity), "velocity of the piezo", SI(VELOCITY), SPARSE)      \
-    X(MAP_SEGMENTS_SETPOINT, IN(of, setpoint), "force at which it ended", SI(FORCE), SPARSE)
-#define MAP_SEGMENTS_KEYS(X)
-#define MAP_CHANNELS_COLUMNS(X)                                                                    \
-    X(MAP_CHANNELS_QUANTITY, AS(quantity), "quantity, the name of its array", TEXT)                \
-    X(MAP_CHANNELS_NAME, AS(name), "channel as it was exported", TEXT)                             \
-    X(MAP_CHANNELS_UNIT, AS(unit), "its unit there", TEXT)
-#define MAP_CHANNELS_KEYS(X)
-
 /* Measured moduli in tension or in shear. */
 #define SWEEP_COLUMNS(X)                                                                           \
     X(SWEEP_TEMPERATURE, "temperature", "temperature", SI(TEMPERATURE))                            \

@@ -97,14 +97,14 @@ typedef struct trial {
     const char *files[2][2]; /* pairs of identical files */
 } trial;
 
-/* One file of a format, read and converted. The trial "text" covers the text format. */
+/* One file of a format, read and converted. */
 #define ONE_FILE(map, n)                                                                           \
     .small = 1536, .large = 4096, .samples = (n),                                                  \
     .calls = {{FIT, map, "-o", "moduli.txt"},                                                      \
               {"info", map},                                                                       \
-              {CONVERT, map, "-o", "map.h5"},                                                      \
-              {FIT, "map.h5", "-o", "h5.txt"}},                                                    \
-    .moduli = {"h5.txt"}
+              {CONVERT, map, "-o", "map.tsv"},                                                     \
+              {FIT, "map.tsv", "-o", "text.txt"}},                                                 \
+    .moduli = {"text.txt"}
 
 static const trial trials[] = {
     {.name = "files",
@@ -112,15 +112,7 @@ static const trial trials[] = {
      .small = 1024,
      .large = 8192,
      .samples = 200,
-     .calls = {{"info", MAP},
-               {INDENT, MAP, "-o", "moduli.txt"},
-               {CONVERT, MAP, "-o", "map.h5"},
-               {"info", "map.h5"},
-               {INDENT, "map.h5", "-o", "h5.txt"},
-               {CONVERT, "map.h5", "-o", "again.h5"},
-               {INDENT, MAP, "-o", "rows.h5"}},
-     .moduli = {"h5.txt"},
-     .files = {{"map.h5", "again.h5"}}},
+     .calls = {{"info", MAP}, {INDENT, MAP, "-o", "moduli.txt"}, {INDENT, MAP, "-o", "rows.h5"}}},
     {.name = "text",
      .write = write_map,
      .small = 512,
@@ -131,13 +123,9 @@ static const trial trials[] = {
                {"info", "map.tsv"},
                {INDENT, "map.tsv", "-o", "text.txt"},
                {CONVERT, "map.tsv", "-o", "again.tsv"},
-               {CONVERT, "-", "-o", "text.h5"},
-               {INDENT, "text.h5", "-o", "h5.txt"},
-               {CONVERT, "text.h5", "-o", "back.tsv"},
-               {CONVERT, MAP, "-o", "map.h5"},
-               {CONVERT, "map.h5", "-o", "direct.tsv"}},
-     .moduli = {"text.txt", "h5.txt"},
-     .files = {{"again.tsv", "back.tsv"}, {"map.tsv", "direct.tsv"}}},
+               {CONVERT, "-", "-o", "pipe.tsv"}},
+     .moduli = {"text.txt"},
+     .files = {{"again.tsv", "pipe.tsv"}, {"map.tsv", "again.tsv"}}},
     {.name = "blocks",
      .write = write_blocks,
      .small = 1024,
@@ -145,13 +133,11 @@ static const trial trials[] = {
      .samples = 200,
      .calls = {{INDENT, "map.spm", "-o", "moduli.txt"},
                {"info", "map.spm"},
-               {CONVERT, "map.spm", "-o", "map.h5"},
-               {INDENT, "map.h5", "-o", "h5.txt"},
+               {CONVERT, "map.spm", "-o", "map.tsv"},
+               {INDENT, "map.tsv", "-o", "text.txt"},
                {INDENT, "map.nid", "-o", "nid.txt"},
-               {"info", "map.nid"},
-               {CONVERT, "map.nid", "-o", "nid.h5"},
-               {INDENT, "nid.h5", "-o", "nid-h5.txt"}},
-     .moduli = {"h5.txt"}},
+               {"info", "map.nid"}},
+     .moduli = {"text.txt"}},
     {.name = "lines", .write = write_lines, ONE_FILE("map.nid", 200)},
     {.name = "studio_1", .write = write_studio_1, ONE_FILE("map.nhf", 100)},
     {.name = "studio_2", .write = write_studio_2, ONE_FILE("map.nhf", 100)},
@@ -163,11 +149,10 @@ static const trial trials[] = {
      .samples = 200,
      .calls = {{INDENT, "map.zip", "-o", "moduli.txt"},
                {"info", "map.zip"},
-               {CONVERT, "map.zip", "-o", "map.h5"},
                {CONVERT, "map.zip", "-o", "map.tsv"},
-               {INDENT, "map.h5", "-o", "h5.txt"},
+               {INDENT, "map.tsv", "-o", "text.txt"},
                {INDENT, "map.waves", "-o", "waves.txt"}},
-     .moduli = {"h5.txt"},
+     .moduli = {"text.txt"},
      .only_moduli = "waves.txt"},
 };
 enum { TRIALS = sizeof trials / sizeof *trials };

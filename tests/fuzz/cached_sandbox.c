@@ -308,31 +308,12 @@ static wt_status final_status(const sandbox_stream *stream, wt_error *err)
     return stream->err.status;
 }
 
-wt_status sandbox_receive(sandbox_stream *stream, void *to, size_t n, wt_error *err)
-{
-    if (n > stream->length - stream->at) {
-        const wt_status status = final_status(stream, err);
-        return status != WT_OK ? status : wt_fail(err, WT_E_CORRUPT, "less than it says");
-    }
-    memcpy(to, stream->bytes + stream->at, n);
-    stream->at += n;
-    return WT_OK;
-}
-
 wt_status sandbox_drain(sandbox_stream *stream, sandbox_sink *sink, void *user, wt_error *err)
 {
     const size_t n = stream->length - stream->at;
     const wt_status status = n > 0 ? sink(user, stream->bytes + stream->at, n, err) : WT_OK;
     stream->at = stream->length;
     return status == WT_OK ? final_status(stream, err) : status;
-}
-
-wt_status sandbox_finish(sandbox_stream *stream, wt_error *err)
-{
-    const wt_status status = final_status(stream, err);
-    return status == WT_OK && stream->at < stream->length
-               ? wt_fail(err, WT_E_CORRUPT, "more than it says")
-               : status;
 }
 
 void sandbox_close(sandbox_stream *stream)

@@ -13,10 +13,10 @@
     X(payne_sweep) X(payne) X(ramp) X(glass_transition) X(moduli_at) X(spot) \
     X(modulus_groups) X(modulus_rate) X(dma_comparison) X(comparison) X(track_layer) X(friction) X(transverse_isotropy) \
     X(softening) X(contact_area) X(layer) \
-    X(error_budget) X(work_precision) X(cost) X(notes) X(data_quality) X(limits) X(answer) X(map_curves) X(map_segments) \
+    X(error_budget) X(work_precision) X(cost) X(notes) X(data_quality) X(limits) X(answer) \
     X(shift_factors) X(master_curve) X(relaxation_spectrum) X(influences) X(material_draws) \
     X(power_spectrum) X(place_errors) X(angular_spectrum) X(surfaces) X(height_map) X(height_profile) X(prony) X(series_draws) X(prony_reduced) X(roughness) X(energy_density) \
-    X(failures) X(methods) X(map_channels) X(record) X(record_cycles) X(wear) \
+    X(failures) X(methods) X(record) X(record_cycles) X(wear) \
     X(identification) X(validation) X(validation_running_in) X(validation_course) X(validation_sources) \
     X(anisotropy) X(friction_decades) X(flash) X(collection) X(collected_modulus) \
     X(collected_friction) X(collected_ramp) X(collected_force) X(ratio_pairs) \

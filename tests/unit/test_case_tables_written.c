@@ -543,39 +543,13 @@ static void convert_with(const char *path, unsigned kind, wt_table_sink sink)
     wt_error err = WT_ERROR_INIT;
     common.formats = formats;
     job.kind = kind;
-    if (wt_convert_file(&job, path, &common, sink, NULL, NULL, &err) != WT_OK)
+    if (wt_convert_file(&job, path, &common, sink, NULL, &err) != WT_OK)
         fail_msg("%s: %s", path, err.message);
 }
 
 static void convert(const char *path, unsigned kind)
 {
     convert_with(path, kind, see_and_free);
-}
-
-static wt_status take_curve(void *user, const wt_force_curve *curve, wt_error *err)
-{
-    curve->segments[0].setpoint = 1e-9; /* the files of the case state none */
-    return wt_map_add_curve(user, curve, err);
-}
-
-/* Curves that form a map. */
-static void convert_map(const char *path)
-{
-    static const char made[] = "test_tables_put.h5";
-    wt_convert_job job = wt_convert_job_defaults();
-    wt_job common = wt_job_defaults();
-    wt_error err = WT_ERROR_INIT;
-    wt_map_writer *map = NULL;
-    wt_result *const result = wt_result_new();
-    common.formats = formats;
-    if (wt_map_open(made, &map, &err) != WT_OK ||
-        wt_convert_file(&job, path, &common, NULL, take_curve, map, &err) != WT_OK ||
-        wt_map_commit(map, result, true, &err) != WT_OK)
-        fail_msg("%s: %s", path, err.message);
-    for (size_t i = 0; i < wt_result_n_tables(result); i++)
-        see(wt_result_table(result, i));
-    wt_result_free(result);
-    (void)remove(made);
 }
 
 /* A column without a width to divide by. */
@@ -617,7 +591,6 @@ static void test_conversions(void **state)
     convert_with(path, WT_KIND_IMAGE, one_column);
     (void)remove(path);
     convert(CASE "bulk-1.jpk-force-map", WT_KIND_FORCE);
-    convert_map(CASE "bulk-1.jpk-force-map");
     convert(CASE "dma.txt", WT_KIND_SWEEP);
     convert(FORMATS "stare/isotherm.txt", WT_KIND_SWEEP);
     convert(FORMATS "table-units/loss-factor-only.csv", WT_KIND_SWEEP);

@@ -10,7 +10,7 @@
 /* Version of the layout, in the root attribute "weartrack_format". A file with a map of force
  * curves has one of its own, so that a program that knows none does not lose the curves. Layouts 3
  * and 4 differ from 5 and 6 by names of tables and columns alone. */
-enum { STORE_FORMAT_OLDEST = 3, STORE_FORMAT = 5, STORE_FORMAT_MAP };
+enum { STORE_FORMAT_OLDEST = 3, STORE_FORMAT = 5 };
 
 #define STORE_VERSION_ATTRIBUTE "weartrack_version"
 #define STORE_COMMAND_ATTRIBUTE "command"
@@ -52,9 +52,6 @@ wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err
 /* Reads the tables with headlines. WT_END without an abstract or with another set of tables. */
 wt_status store_abstract_read(int file, size_t size, const char *name, wt_result **result,
                               wt_error *err) WT_NODISCARD;
-/* Prints the samples of a map in blocks of all channels (core/store/force_map.h). Also an
- * hdf5_read_function. */
-wt_status store_extract_samples(hid_t file, size_t size, FILE *out, wt_error *err);
 /* Reads a result from memory or from a descriptor, with store_extract or store_extract_headlines.
  */
 wt_status store_read_bytes(const hdf5_bytes *from, hdf5_read_function *pass, const char *name,
@@ -66,30 +63,5 @@ struct stat;
 wt_status store_corrupt_error(wt_error *err, const char *place, const char *message);
 /* Decodes the data from the sandbox into a result. All bytes are validated. */
 wt_status store_decode(const char *bytes, size_t length, wt_result *result, wt_error *err);
-
-typedef struct store_file {
-    const char *path; /* borrowed */
-    wt_atomic_file *out;
-    hdf5_bytes to;
-    hid_t file;
-    hid_t scalar;         /* scalar dataspace */
-    hid_t group_creation; /* without times, with all links and attributes in the header */
-    hid_t dataset_creation;
-} store_file;
-
-/* The path is borrowed until the end. WT_E_IO if it is not a regular file. */
-wt_status store_begin(const char *path, store_file **file, wt_error *err) WT_NODISCARD;
-/* Writes the result and gives the file its name. Frees `file`. */
-wt_status store_end(store_file *file, const wt_result *result, bool with_provenance,
-                    wt_error *err) WT_NODISCARD;
-void store_discard(store_file *file); /* removes the incomplete file */
-/* Creates the error of HDF5 or of the disk. */
-wt_status store_write_error(const store_file *file, wt_error *err);
-/* The following functions must be called within hdf5_enter and hdf5_leave. */
-hid_t store_create_group(const store_file *file,
-                         const char *path); /* creates missing parent groups */
-bool store_write_text_attribute(const store_file *file, hid_t object, const char *name,
-                                const char *text);
-bool store_write_text_list(hid_t object, const char *name, const char *const *words, size_t n);
 
 #endif

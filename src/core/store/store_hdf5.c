@@ -2,7 +2,6 @@
  * damaged or malicious. Types, ranks and lengths are checked before memory is allocated, and links
  * to other files are rejected. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/memory.h"
-#include "core/store/force_map.h"
 #include "core/store/hdf5_sandbox.h"
 #include "core/store/store.h"
 #include "core/table/table.h"
@@ -178,10 +177,9 @@ static hid_t open_group(hdf5_reader *r, const char *path)
     return group;
 }
 
-/* Opens a data set whose values are all stored in this file: contiguous, or for a map in chunks of
- * MAP_BLOCK. */
+/* Opens a data set whose values are all stored in this file. */
 static hid_t open_stored_dataset(const hdf5_reader *r, hid_t group, const char *name, int rank,
-                                 H5D_layout_t layout, hsize_t *n)
+                                 hsize_t *n)
 {
     bool good = false;
     if (!is_internal_link(group, name))
@@ -193,18 +191,12 @@ static hid_t open_stored_dataset(const hdf5_reader *r, hid_t group, const char *
     const hid_t space = H5Dget_space(dataset);
     const hid_t type = H5Dget_type(dataset);
     if (creation >= 0 && space >= 0 && type >= 0 && H5Sget_simple_extent_ndims(space) == rank &&
-        H5Pget_layout(creation) == layout && H5Pget_external_count(creation) == 0) {
+        H5Pget_layout(creation) == H5D_CONTIGUOUS && H5Pget_external_count(creation) == 0) {
         const hssize_t points = H5Sget_simple_extent_npoints(space);
         const hsize_t size = H5Tget_size(type);
         const hsize_t stored = H5Dget_storage_size(dataset);
-        hsize_t piece = 0;
-        if (layout == H5D_CONTIGUOUS)
-            good = points >= 0 && size > 0 && stored <= r->file_size &&
-                   stored / size == (hsize_t)points;
-        else
-            good = points >= 0 && (hsize_t)points <= r->file_size / sizeof(double) &&
-                   H5Pget_nfilters(creation) == 0 && H5Tget_class(type) == H5T_FLOAT &&
-                   H5Pget_chunk(creation, 1, &piece) == 1 && piece == MAP_BLOCK;
+        good =
+            points >= 0 && size > 0 && stored <= r->file_size && stored / size == (hsize_t)points;
         *n = (hsize_t)points;
     }
     hdf5_close(type);
@@ -263,7 +255,7 @@ static bool read_column(hdf5_reader *r, hid_t group, const char *name, hsize_t n
                         wt_table *table, hid_t *opened)
 {
     hsize_t n = 0;
-    const hid_t dataset = open_stored_dataset(r, group, name, 1, H5D_CONTIGUOUS, &n);
+    const hid_t dataset = open_stored_dataset(r, group, name, 1, &n);
     *opened = dataset;
     if (dataset < 0 || n != n_rows)
         return fail_corrupt_object(r, name,
@@ -323,8 +315,7 @@ static bool read_table_columns(hdf5_reader *r, hid_t group, wt_table *table)
     hsize_t n_rows = 0;
     char **columns = NULL;
     size_t n = 0, n_opened = 0;
-    const hid_t blocks =
-        open_stored_dataset(r, group, STORE_BLOCK_DATASET, 1, H5D_CONTIGUOUS, &n_rows);
+    const hid_t blocks = open_stored_dataset(r, group, STORE_BLOCK_DATASET, 1, &n_rows);
     if (blocks < 0)
         return fail_corrupt_object(r, STORE_BLOCK_DATASET, "blocks missing");
     bool good = read_name_list(r, group, STORE_COLUMNS_ATTRIBUTE, TABLE_COLUMNS_MAX, &columns, &n);
@@ -380,8 +371,7 @@ static bool write_case_text(hdf5_reader *r, uint64_t *passed)
     char *text = NULL;
     if (H5Lexists(r->file, STORE_CASE_DATASET, H5P_DEFAULT) == 0)
         return true;
-    const hid_t dataset =
-        open_stored_dataset(r, r->file, STORE_CASE_DATASET, 0, H5D_CONTIGUOUS, &n);
+    const hid_t dataset = open_stored_dataset(r, r->file, STORE_CASE_DATASET, 0, &n);
     const hid_t type = dataset >= 0 ? H5Dget_type(dataset) : -1;
     const bool is_text =
         type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
@@ -413,9 +403,9 @@ static bool check_store_format(hdf5_reader *r)
         H5Aread(attribute, H5T_NATIVE_INT, &format) < 0) {
         r->status = wt_fail(r->err, WT_E_FORMAT, "not a result file of weartrack");
         wt_error_expected(r->err, "the attribute \"%s\"", STORE_FORMAT_ATTRIBUTE);
-    } else if (format < STORE_FORMAT_OLDEST || format > STORE_FORMAT_MAP) {
+    } else if (format < STORE_FORMAT_OLDEST || format > STORE_FORMAT) {
         r->status = wt_fail(r->err, WT_E_UNSUPPORTED, "result file of another version");
-        wt_error_expected(r->err, "layout %d to %d", STORE_FORMAT_OLDEST, STORE_FORMAT_MAP);
+        wt_error_expected(r->err, "layout %d to %d", STORE_FORMAT_OLDEST, STORE_FORMAT);
         wt_error_found(r->err, "%d", format);
         wt_error_advice(
             r->err,
@@ -498,50 +488,4 @@ wt_status store_extract_headlines(hid_t file, size_t size, FILE *out, wt_error *
 {
     hdf5_reader r = {.file = file, .file_size = size, .out = out, .err = err};
     return write_store(&r, store_has_headlines);
-}
-
-/* Writes the samples [from, from + n) of an array. */
-static bool write_sample_block(hdf5_reader *r, hid_t dataset, const char *name, hsize_t from,
-                               hsize_t n, double *block)
-{
-    const hid_t in_memory = H5Screate_simple(1, &n, NULL);
-    const hid_t in_file = H5Dget_space(dataset);
-    const bool good =
-        in_memory >= 0 && in_file >= 0 &&
-        H5Sselect_hyperslab(in_file, H5S_SELECT_SET, &from, NULL, &n, NULL) >= 0 &&
-        H5Dread(dataset, H5T_NATIVE_DOUBLE, in_memory, in_file, H5P_DEFAULT, block) >= 0;
-    hdf5_close(in_memory);
-    hdf5_close(in_file);
-    return good ? fwrite(block, sizeof *block, (size_t)n, r->out) == n
-                : fail_corrupt_object(r, name, "samples cannot be read");
-}
-
-wt_status store_extract_samples(hid_t file, size_t size, FILE *out, wt_error *err)
-{
-    static double block[MAP_BLOCK];
-    hdf5_reader r = {
-        .file = file, .file_size = size, .table = MAP_SAMPLES_GROUP, .out = out, .err = err};
-    char **names = NULL;
-    size_t n = 0;
-    hid_t arrays[WT_Q_COUNT];
-    hsize_t n_samples = 0;
-    const hid_t group = open_group(&r, MAP_SAMPLES_GROUP);
-    bool good = group >= 0
-                    ? read_name_list(&r, group, STORE_COLUMNS_ATTRIBUTE, WT_Q_COUNT, &names, &n)
-                    : fail_corrupt_object(&r, "", "the samples are missing");
-    for (size_t i = 0; good && i < n; i++) {
-        hsize_t again = 0;
-        arrays[i] = open_stored_dataset(&r, group, names[i], 1, H5D_CHUNKED, &again);
-        n_samples = i == 0 ? again : n_samples;
-        if (arrays[i] < 0 || again != n_samples)
-            good = fail_corrupt_object(&r, names[i],
-                                       "array missing, of another length or not stored as it is");
-    }
-    for (hsize_t at = 0; good && at < n_samples; at += MAP_BLOCK)
-        for (size_t i = 0; good && i < n; i++)
-            good =
-                write_sample_block(&r, arrays[i], names[i], at,
-                                   n_samples - at < MAP_BLOCK ? n_samples - at : MAP_BLOCK, block);
-    wt_strings_free(names, n);
-    return r.status; /* the process ends with the file open */
 }

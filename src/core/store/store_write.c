@@ -9,6 +9,15 @@
 #include <sys/stat.h>
 #include <time.h>
 
+typedef struct store_file {
+    wt_atomic_file *out;
+    hdf5_bytes to;
+    hid_t file;
+    hid_t scalar;         /* scalar dataspace */
+    hid_t group_creation; /* without times, with all links and attributes in the header */
+    hid_t dataset_creation;
+} store_file;
+
 static bool write_attribute(hid_t object, const char *name, hid_t file_type, hid_t memory_type,
                             hid_t space, const void *value)
 {
@@ -32,8 +41,8 @@ static hid_t create_text_type(size_t length)
     return type;
 }
 
-bool store_write_text_attribute(const store_file *w, hid_t object, const char *name,
-                                const char *text)
+static bool write_text_attribute(const store_file *w, hid_t object, const char *name,
+                                 const char *text)
 {
     const hid_t type = create_text_type(strlen(text));
     const bool good = type >= 0 && write_attribute(object, name, type, type, w->scalar, text);
@@ -62,7 +71,7 @@ static bool write_number_attribute(const store_file *w, hid_t object, const char
 }
 
 /* Writes a list of names. An empty list is not written. */
-bool store_write_text_list(hid_t object, const char *name, const char *const *words, size_t n)
+static bool write_text_list(hid_t object, const char *name, const char *const *words, size_t n)
 {
     const hsize_t size = n;
     size_t width = 0;
@@ -93,15 +102,15 @@ static bool write_dataset(const store_file *w, hid_t group, const char *name, hi
     bool good = dataset >= 0;
     if (good && n > 0)
         good = H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
-    good = good && store_write_text_attribute(w, dataset, STORE_UNITS_ATTRIBUTE, units) &&
-           store_write_text_attribute(w, dataset, STORE_LONG_NAME_ATTRIBUTE, long_name);
+    good = good && write_text_attribute(w, dataset, STORE_UNITS_ATTRIBUTE, units) &&
+           write_text_attribute(w, dataset, STORE_LONG_NAME_ATTRIBUTE, long_name);
     if (dataset >= 0)
         good = H5Dclose(dataset) >= 0 && good;
     return space >= 0 && H5Sclose(space) >= 0 && good;
 }
 
 /* Opens a group by its path and creates missing groups. */
-hid_t store_create_group(const store_file *w, const char *path)
+static hid_t create_group(const store_file *w, const char *path)
 {
     char *const partial = wt_strdup(path);
     hid_t group = -1;
@@ -132,7 +141,7 @@ static bool write_keys(const store_file *w, hid_t group, const wt_table *table)
         const table_key *const key = &table->keys[i];
         words[i] = key->name;
         if (!key->is_estimate) {
-            good = store_write_text_attribute(w, group, key->name, key->text);
+            good = write_text_attribute(w, group, key->name, key->text);
             continue;
         }
         char *names[KEY_PARTS] = {NULL};
@@ -142,11 +151,11 @@ static bool write_keys(const store_file *w, hid_t group, const wt_table *table)
                                       key->parsed.standard_error) &&
                write_number_attribute(w, group, names[KEY_NUMERICAL_ERROR],
                                       key->parsed.numerical_error) &&
-               store_write_text_attribute(w, group, names[KEY_UNITS], key->unit);
+               write_text_attribute(w, group, names[KEY_UNITS], key->unit);
         for (size_t k = 0; k < KEY_PARTS; k++)
             free(names[k]);
     }
-    good = good && store_write_text_list(group, STORE_KEYS_ATTRIBUTE, words, table->n_keys);
+    good = good && write_text_list(group, STORE_KEYS_ATTRIBUTE, words, table->n_keys);
     free(words);
     return good;
 }
@@ -158,7 +167,7 @@ static bool write_hdf5_columns(const store_file *w, hid_t group, const wt_table 
     uint64_t *const blocks = wt_alloc(table->n_rows, sizeof *blocks);
     for (size_t i = 0; i < table->n_columns; i++)
         words[i] = table->columns[i].name;
-    bool good = store_write_text_list(group, STORE_COLUMNS_ATTRIBUTE, words, table->n_columns);
+    bool good = write_text_list(group, STORE_COLUMNS_ATTRIBUTE, words, table->n_columns);
     for (size_t i = 0; good && i < table->n_columns; i++) {
         const table_column *const column = &table->columns[i];
         if (column->kind == WT_COLUMN_NUMBER) {
@@ -187,10 +196,10 @@ static bool write_hdf5_columns(const store_file *w, hid_t group, const wt_table 
 
 static bool write_hdf5_table(const store_file *w, const wt_table *table)
 {
-    const hid_t group = store_create_group(w, table->name);
+    const hid_t group = create_group(w, table->name);
     if (group < 0)
         return false;
-    const bool good = store_write_text_attribute(w, group, STORE_TITLE_ATTRIBUTE, table->title) &&
+    const bool good = write_text_attribute(w, group, STORE_TITLE_ATTRIBUTE, table->title) &&
                       write_keys(w, group, table) && write_hdf5_columns(w, group, table);
     return H5Gclose(group) >= 0 && good;
 }
@@ -213,10 +222,10 @@ static bool write_origin(const store_file *w, const wt_provenance *provenance,
     if (gmtime_r(&now, &utc) == NULL ||
         strftime(created, sizeof created, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0)
         return false;
-    return store_write_text_attribute(w, w->file, STORE_VERSION_ATTRIBUTE, wt_version()) &&
-           store_write_text_attribute(w, w->file, STORE_COMMAND_ATTRIBUTE,
-                                      wt_provenance_command(provenance)) &&
-           store_write_text_attribute(w, w->file, STORE_CREATED_ATTRIBUTE, created) &&
+    return write_text_attribute(w, w->file, STORE_VERSION_ATTRIBUTE, wt_version()) &&
+           write_text_attribute(w, w->file, STORE_COMMAND_ATTRIBUTE,
+                                wt_provenance_command(provenance)) &&
+           write_text_attribute(w, w->file, STORE_CREATED_ATTRIBUTE, created) &&
            write_hdf5_table(w, inputs);
 }
 
@@ -241,8 +250,7 @@ static bool write_result_objects(const store_file *w, const wt_result *result,
                                  const wt_table *inputs, char (*digests)[STORE_DIGEST_SIZE],
                                  size_t n_digests)
 {
-    const int format =
-        wt_result_find(result, map_curves_schema.name) != NULL ? STORE_FORMAT_MAP : STORE_FORMAT;
+    const int format = STORE_FORMAT;
     const size_t n = wt_result_n_tables(result);
     size_t case_length = 0;
     const char *const case_file = wt_result_case(result, &case_length);
@@ -251,10 +259,10 @@ static bool write_result_objects(const store_file *w, const wt_result *result,
                                 w->scalar, &format);
     for (size_t i = 0; good && i < n; i++)
         words[i] = wt_table_name(wt_result_table(result, i));
-    good = good && store_write_text_list(w->file, STORE_TABLES_ATTRIBUTE, words, n);
+    good = good && write_text_list(w->file, STORE_TABLES_ATTRIBUTE, words, n);
     for (size_t i = 0; good && i < n_digests; i++)
         words[i] = digests[i];
-    good = good && store_write_text_list(w->file, STORE_DIGESTS_ATTRIBUTE, words, n_digests);
+    good = good && write_text_list(w->file, STORE_DIGESTS_ATTRIBUTE, words, n_digests);
     if (inputs != NULL)
         good = good && write_origin(w, wt_result_provenance_const(result), inputs);
     for (size_t i = 0; good && i < n; i++)
@@ -277,7 +285,7 @@ static bool set_group_creation_options(hid_t list)
            H5Pset_link_phase_change(list, UINT16_MAX, 0) >= 0;
 }
 
-static void free_store_file(store_file *w)
+static void close_store_file(store_file *w)
 {
     hdf5_scope scope;
     hdf5_enter(&scope);
@@ -287,7 +295,6 @@ static void free_store_file(store_file *w)
     hdf5_close(w->dataset_creation);
     hdf5_leave(&scope);
     wt_outfile_discard(w->out);
-    free(w);
 }
 
 static bool create_store_file(store_file *w)
@@ -309,52 +316,40 @@ static bool create_store_file(store_file *w)
     return w->file >= 0;
 }
 
-wt_status store_write_error(const store_file *w, wt_error *err)
+/* Creates the error of HDF5 or of the disk. */
+static wt_status write_error(const store_file *w, wt_error *err)
 {
-    const wt_status status =
-        w->to.failed != 0
-            ? wt_fail(err, WT_E_IO, "cannot write the file: %s", strerror(w->to.failed))
-            : wt_fail(err, WT_E_INTERNAL, "HDF5 cannot make the file");
-    wt_error_file(err, w->path);
-    return status;
+    return w->to.failed != 0
+               ? wt_fail(err, WT_E_IO, "cannot write the file: %s", strerror(w->to.failed))
+               : wt_fail(err, WT_E_INTERNAL, "HDF5 cannot make the file");
 }
 
-wt_status store_begin(const char *path, store_file **file, wt_error *err)
+static wt_status begin_store(const char *path, store_file *w, wt_error *err)
 {
     struct stat info;
     hdf5_scope scope;
-    store_file *const w = wt_alloc(1, sizeof *w);
-    *w = (store_file){
-        .path = path, .file = -1, .scalar = -1, .group_creation = -1, .dataset_creation = -1};
-    wt_status status = wt_outfile_open(path, &w->out, err);
-    if (status == WT_OK) {
-        w->to.file = fileno(wt_outfile_stream(w->out));
-        if (fstat(w->to.file, &info) != 0 || !S_ISREG(info.st_mode))
-            status = wt_fail(err, WT_E_IO, "not a regular file: HDF5 writes no pipe and no device");
-    }
-    if (status == WT_OK) {
-        hdf5_enter(&scope);
-        const bool good = create_store_file(w);
-        hdf5_leave(&scope);
-        status = good ? WT_OK : store_write_error(w, err);
-    }
-    if (status != WT_OK) {
-        wt_error_file(err, path);
-        free_store_file(w);
+    const wt_status status = wt_outfile_open(path, &w->out, err);
+    if (status != WT_OK)
         return status;
-    }
-    *file = w;
-    return WT_OK;
+    w->to.file = fileno(wt_outfile_stream(w->out));
+    if (fstat(w->to.file, &info) != 0 || !S_ISREG(info.st_mode))
+        return wt_fail(err, WT_E_IO, "not a regular file: HDF5 writes no pipe and no device");
+    hdf5_enter(&scope);
+    const bool good = create_store_file(w);
+    hdf5_leave(&scope);
+    return good ? WT_OK : write_error(w, err);
 }
 
-wt_status store_end(store_file *w, const wt_result *result, bool with_provenance, wt_error *err)
+wt_status wt_store_write(const char *path, const wt_result *result, bool with_provenance,
+                         wt_error *err)
 {
+    store_file w = {.file = -1, .scalar = -1, .group_creation = -1, .dataset_creation = -1};
     size_t n_digests = 0;
     wt_table *inputs = NULL;
     char(*const digests)[STORE_DIGEST_SIZE] =
         wt_alloc(wt_result_n_tables(result) + 2, sizeof *digests);
-    wt_status status = WT_OK;
-    if (with_provenance)
+    wt_status status = begin_store(path, &w, err);
+    if (status == WT_OK && with_provenance)
         status = wt_provenance_table(wt_result_provenance_const(result), STORE_INPUTS_TABLE,
                                      &inputs, err);
     if (status == WT_OK)
@@ -362,36 +357,22 @@ wt_status store_end(store_file *w, const wt_result *result, bool with_provenance
     if (status == WT_OK) {
         hdf5_scope scope;
         hdf5_enter(&scope);
-        bool good = write_result_objects(w, result, inputs, digests, n_digests);
-        good = H5Fclose(w->file) >= 0 && good && w->to.failed == 0;
-        w->file = -1;
+        bool good = write_result_objects(&w, result, inputs, digests, n_digests);
+        good = H5Fclose(w.file) >= 0 && good && w.to.failed == 0;
+        w.file = -1;
         hdf5_leave(&scope);
-        status = good ? WT_OK : store_write_error(w, err);
+        status = good ? WT_OK : write_error(&w, err);
     }
     if (status == WT_OK)
-        status = store_abstract_write(wt_outfile_stream(w->out), result, err);
+        status = store_abstract_write(wt_outfile_stream(w.out), result, err);
     if (status == WT_OK) {
-        status = wt_outfile_commit(w->out, err);
-        w->out = NULL;
+        status = wt_outfile_commit(w.out, err);
+        w.out = NULL;
     }
     if (status != WT_OK)
-        wt_error_file(err, w->path);
+        wt_error_file(err, path);
     wt_table_free(inputs);
     free(digests);
-    free_store_file(w);
+    close_store_file(&w);
     return status;
-}
-
-void store_discard(store_file *w)
-{
-    if (w != NULL)
-        free_store_file(w);
-}
-
-wt_status wt_store_write(const char *path, const wt_result *result, bool with_provenance,
-                         wt_error *err)
-{
-    store_file *file = NULL;
-    const wt_status status = store_begin(path, &file, err);
-    return status == WT_OK ? store_end(file, result, with_provenance, err) : status;
 }

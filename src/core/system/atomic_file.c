@@ -91,8 +91,7 @@ static bool is_foreign(const char *path, off_t size)
     for (size_t i = 0; i < sizeof places / sizeof *places && !own && !foreign; i++) {
         const size_t n =
             fseeko(file, places[i], SEEK_SET) == 0 ? fread(block, 1, sizeof block, file) : 0;
-        own = i == 0 && (contains_text(block, n, STORE_FORMAT_ATTRIBUTE) ||
-                         contains_text(block, n, STORE_MAP_ATTRIBUTE));
+        own = i == 0 && contains_text(block, n, STORE_FORMAT_ATTRIBUTE);
         foreign = !own && (has_binary_bytes(block, n) ||
                            (i == 0 && n > 3 && memcmp(block, nanoscope, 3) == 0));
     }

@@ -7,9 +7,7 @@
 #include <stddef.h>
 
 #define STORE_FORMAT_ATTRIBUTE "weartrack_format"
-/* First attribute of a file with a force map, which identifies the file without HDF5. */
-#define STORE_MAP_ATTRIBUTE "weartrack_force_map"
-#define STORE_HEADER_SIZE ((size_t)4096) /* number of bytes that contain one of the attributes */
+#define STORE_HEADER_SIZE ((size_t)4096) /* number of bytes that contain the attribute */
 typedef struct embedded_text {
     const char *name; /* file name without its folder; NULL ends the list */
     const char *text; /* followed by a terminating zero that `length` does not count */

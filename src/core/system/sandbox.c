@@ -354,35 +354,9 @@ static wt_status end_child(sandbox_stream *stream, wt_error *err)
     return explain_failure(stream, state, err);
 }
 
-static wt_status fail_output_length(const sandbox_stream *stream, const char *outcome,
-                                    wt_error *err)
-{
-    (void)wt_fail(err, WT_E_CORRUPT, "the %s file gives %s than it says", stream->what, outcome);
-    return advise_damaged(err);
-}
-
-wt_status sandbox_receive(sandbox_stream *stream, void *to, size_t n, wt_error *err)
-{
-    if (stream->child < 0)
-        return fail_output_length(stream, "less", err);
-    /* The error object at the end must not be taken as output. */
-    collect_output(stream, n + sizeof(wt_error));
-    if (stream->length < n + sizeof(wt_error)) {
-        const wt_status status = end_child(stream, err);
-        return status != WT_OK ? status : fail_output_length(stream, "less", err);
-    }
-    memcpy(to, stream->bytes, n);
-    stream->length -= n;
-    stream->taken += n;
-    memmove(stream->bytes, stream->bytes + n, stream->length);
-    return WT_OK;
-}
-
 wt_status sandbox_drain(sandbox_stream *stream, sandbox_sink *sink, void *user, wt_error *err)
 {
     wt_status status = WT_OK;
-    if (stream->child < 0)
-        return fail_output_length(stream, "less", err);
     while (status == WT_OK && stream->outcome == STREAM_OPEN) {
         collect_output(stream, ANSWER_BUFFER + sizeof(wt_error));
         /* The error object at the end is not output. */
@@ -393,17 +367,6 @@ wt_status sandbox_drain(sandbox_stream *stream, sandbox_sink *sink, void *user, 
         memmove(stream->bytes, stream->bytes + n, stream->length);
     }
     return status == WT_OK ? end_child(stream, err) : status;
-}
-
-wt_status sandbox_finish(sandbox_stream *stream, wt_error *err)
-{
-    if (stream->child < 0)
-        return fail_output_length(stream, "less", err);
-    collect_output(stream, SIZE_MAX);
-    const wt_status status = end_child(stream, err);
-    return status == WT_OK && stream->length != sizeof(wt_error)
-               ? fail_output_length(stream, "more", err)
-               : status;
 }
 
 void sandbox_close(sandbox_stream *stream)

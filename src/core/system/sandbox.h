@@ -47,14 +47,10 @@ wt_status sandbox_read(const sandbox_call *request, const sandbox_limits *limits
 typedef struct sandbox_stream sandbox_stream;
 wt_status sandbox_start(const sandbox_call *request, const sandbox_limits *limits,
                         sandbox_stream **stream, wt_error *err) WT_NODISCARD;
-/* Reads the next n bytes; WT_E_CORRUPT if there are fewer. After a failure nothing can be read. */
-wt_status sandbox_receive(sandbox_stream *stream, void *to, size_t n, wt_error *err) WT_NODISCARD;
-/* Passes the remaining output to `sink`, piece by piece. */
+/* Passes the output to `sink`, piece by piece, and ends the process. */
 typedef wt_status sandbox_sink(void *user, const void *piece, size_t n, wt_error *err);
 wt_status sandbox_drain(sandbox_stream *stream, sandbox_sink *sink, void *user,
                         wt_error *err) WT_NODISCARD;
-/* Ends the stream. It fails if output remains, or with the error of the process. */
-wt_status sandbox_finish(sandbox_stream *stream, wt_error *err) WT_NODISCARD;
 void sandbox_close(sandbox_stream *stream); /* also before the end of the output; accepts NULL */
 
 #endif

@@ -155,9 +155,6 @@
     X(error_budget, ERROR_BUDGET, "error_budget", "Error budget", "accuracy")                      \
     X(work_precision, WORK_PRECISION, "work_precision", "Error against run time", "accuracy")      \
     X(force_curve, FORCE_CURVE, "force_curve/", "force curve", "convert")                          \
-    X(map_curves, MAP_CURVES, "force_map/curves", "force curves", "convert")                       \
-    X(map_segments, MAP_SEGMENTS, "force_map/segments", "segments of the force curves", "convert") \
-    X(map_channels, MAP_CHANNELS, "force_map/channels", "channels of the segments", "convert")     \
     X(sweep, SWEEP, "sweep", "DMA frequency sweeps", "convert")                                    \
     X(spectrum, SPECTRUM, "roughness", "power spectrum", "convert")                                \
     X(image, IMAGE, "image/", "name of the image", "convert")                                      \

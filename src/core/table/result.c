@@ -282,6 +282,7 @@ wt_status wt_result_add(wt_result *result, wt_table *table, wt_error *err)
         wt_error_found(err, "\"%s\"", table->name);
     } else if (result->n >= RESULT_TABLES_MAX) {
         status = wt_fail(err, WT_E_ARG, "more than %d tables", (int)RESULT_TABLES_MAX);
+        wt_error_advice(err, "write a text stream (-o NAME.tsv), which holds any number");
     }
     for (size_t i = 0; status == WT_OK && i < result->n; i++)
         if (names_collide(result->tables[i]->name, table->name))

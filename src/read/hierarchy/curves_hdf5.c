@@ -187,24 +187,14 @@ double *hdf5_read_values(hid_t data, size_t size, size_t *n)
 
 /* ---- outside of the sandbox ------------------------------------------------------------------ */
 
-/* True for a file of this program: the first attributes of its root have these names, which end
- * with a zero. */
-static bool is_weartrack_file(const file_peek *peek)
-{
-    static const char *const marks[] = {STORE_FORMAT_ATTRIBUTE, STORE_MAP_ATTRIBUTE};
-    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
-        if (peek_contains(peek, marks[i], strlen(marks[i]) + 1))
-            return true;
-    return false;
-}
-
 recognition hdf5_detect(const file_reader *self, file_peek *peek)
 {
     const char *const keywords = self->hdf5->keywords;
     return recognition_result(
         PEEK_BEGINS(peek, HDF5_SIGNATURE) &&
             (peek_contains(peek, keywords, strlen(keywords)) ||
-             (!peek->whole && !is_weartrack_file(peek) && input_contains(peek->input, keywords))),
+             (!peek->whole && !PEEK_CONTAINS(peek, STORE_FORMAT_ATTRIBUTE "\0") &&
+              input_contains(peek->input, keywords))),
         85);
 }
 

@@ -15,9 +15,7 @@
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     (void)self;
-    return recognition_result(PEEK_BEGINS(peek, HDF5_SIGNATURE) &&
-                                  PEEK_CONTAINS(peek, "weartrack") &&
-                                  !PEEK_CONTAINS(peek, STORE_MAP_ATTRIBUTE "\0"),
+    return recognition_result(PEEK_BEGINS(peek, HDF5_SIGNATURE) && PEEK_CONTAINS(peek, "weartrack"),
                               90);
 }
 
