@@ -59,13 +59,6 @@ WT_API wt_status wt_plan(const wt_case *c, wt_table **plan, wt_error *err) WT_NO
  * still exists, with the status WT_RESULT_EMPTY. */
 WT_API wt_status wt_run_case(const wt_case *c, const wt_run_options *options, wt_log *log,
                              wt_result **result, size_t *n_failed, wt_error *err) WT_NODISCARD;
-/* Tests if `result`, read from its file, is up to date with the case and `command` (as returned by
- * wt_provenance_command). *current is false if version, command line, case or a file that was read
- * has changed, a file is new or missing, or the result is partial; `why` has the first difference.
- * Files that nothing requested, and descriptions of --formats, are not tested. */
-WT_API wt_status wt_run_is_current(const wt_case *c, const wt_result *result, const char *command,
-                                   bool *current, char *why, size_t size,
-                                   wt_error *err) WT_NODISCARD;
 
 /* ---- a result in words ---------------------------------------------------------------------- */
 

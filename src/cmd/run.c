@@ -61,7 +61,7 @@ static void print_answer(cmd_session *s)
 }
 
 typedef struct run_flags {
-    bool plan, no_report, keep;
+    bool plan, no_report;
     const char *report;
 } run_flags;
 
@@ -80,10 +80,6 @@ static const wt_param run_flag_rows[] = {
      .help = "place of the report: one page if the name ends in .html, else a folder; an existing "
              "report is replaced, and anything else is not"},
     {PARAM_FLAG_OF("no-report", run_flags, no_report), .help = "write no report"},
-    {PARAM_FLAG_OF("keep", run_flags, keep),
-     .help = "do not repeat a run with the same outcome: the result exists, was complete, was made "
-             "without --formats, and neither the version, the command line, the case nor any file "
-             "that was read has changed"},
 };
 CMD_OPTIONS(run_flag_params, run_flags, run_flag_rows)
 
@@ -135,49 +131,6 @@ static wt_status run_case_and_report(run_call *r)
         cmd_print_failures(s, wt_result_find(s->result, "failures"));
     cmd_print_log(s, s->log, false);
     return status;
-}
-
-/* True if the existing result is up to date; it then becomes the result of the session. */
-static bool is_result_current(run_call *r)
-{
-    wt_result *before = NULL;
-    bool current = false;
-    char why[256] = "";
-    cmd_session *s = &r->s;
-    if (!r->call_flags.keep || access(r->result_name, F_OK) != 0)
-        return false;
-    wt_provenance *const now = wt_provenance_new();
-    cmd_record_command(now);
-    if (s->common.formats != NULL) /* its descriptions are not in the provenance */
-        snprintf(why, sizeof why, "--formats");
-    else if (wt_store_read(r->result_name, &before, NULL) != WT_OK)
-        snprintf(why, sizeof why, "it cannot be read");
-    else if (wt_run_is_current(r->case_file, before, wt_provenance_command(now), &current, why,
-                               sizeof why, NULL) != WT_OK)
-        snprintf(why, sizeof why, "it cannot be compared with the case");
-    if (!current && !s->common.quiet)
-        cmd_message("%s: made again: %s\n", r->result_name, why);
-    if (current) {
-        s->result = before;
-        before = NULL;
-    }
-    wt_result_free(before);
-    wt_provenance_free(now);
-    return current;
-}
-
-/* True if the page is complete, that is, not older than the result. */
-static bool is_page_current(const run_call *r)
-{
-    struct stat page, result;
-    char *name = wt_report_page_path(r->folder_name);
-    const bool kept = name != NULL && stat(name, &page) == 0 &&
-                      stat(r->result_name, &result) == 0 &&
-                      (page.st_mtim.tv_sec > result.st_mtim.tv_sec ||
-                       (page.st_mtim.tv_sec == result.st_mtim.tv_sec &&
-                        page.st_mtim.tv_nsec >= result.st_mtim.tv_nsec));
-    free(name);
-    return kept;
 }
 
 static wt_status draw_page(run_call *r)
@@ -232,19 +185,13 @@ static wt_status run_whole_case(run_call *r, const cmd_option_group *report_give
     }
     if (status == WT_OK)
         status = cmd_check_output(r->result_name, &r->s.err);
-    const bool kept = status == WT_OK && is_result_current(r);
-    if (kept) {
-        cmd_apply_strict(&r->s, r->result_name, cmd_count_remarks(r->s.result));
-        print_answer(&r->s);
-    } else if (status == WT_OK) {
+    if (status == WT_OK)
         status = run_case_and_report(r);
-    }
     if (status != WT_OK)
         return status;
     if (!r->s.common.quiet)
-        cmd_message("result: %s%s\n", r->result_name,
-                    kept ? " (kept: nothing that it was made of has changed)" : "");
-    return r->call_flags.no_report || (kept && is_page_current(r)) ? WT_OK : draw_page(r);
+        cmd_message("result: %s\n", r->result_name);
+    return r->call_flags.no_report ? WT_OK : draw_page(r);
 }
 
 static bool check_run_output(run_call *r)

@@ -160,7 +160,6 @@ static const struct {
     {NULL, "no-report", "the base has it"},
     {NULL, "verbose", "reasons behind the short table: tests/cli/tribometers.txt"},
     {"case", "scan-lines", "for height maps with line faults: unit_job_conditioning, cli_psd"},
-    {"run", "keep", "the result that is there, of the same command: cli_run_keep"},
     {NULL, "style", "of the pictures: test_report"},
     {NULL, "figures", "of the pictures: unit_report_paper, tests/cli/bad_input.txt"},
     {NULL, "figure", "of the pictures: tests/cli/options.txt"},
