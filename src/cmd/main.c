@@ -132,8 +132,5 @@ int main(int argc, char **argv)
     if (wt_sandbox_limitations() !=
         NULL) /* about the system, not the data: no remark of a result */
         cmd_message("weartrack: warning: %s\n", wt_sandbox_limitations());
-    status = close_stdout(status);
-    const cmd_json_member last = {"status", NULL, (size_t)status};
-    cmd_log_event("end", &last, 1);
-    return status;
+    return close_stdout(status);
 }
