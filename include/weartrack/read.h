@@ -14,8 +14,8 @@ extern "C" {
 /* ---- input ---------------------------------------------------------------------------------- */
 
 /* Input bytes. A file is read into memory only as far as needed; a pipe is buffered. Detection and
- * readers unpack gzip archives and spreadsheets and read a ZIP archive of force-curve files as one
- * file. The functions here return the bytes of the file itself. */
+ * readers unpack gzip archives and spreadsheets. The functions here return the bytes of the file
+ * itself. */
 typedef struct wt_input wt_input;
 /* Opens an input; path "-" is standard input. A named pipe and a device are rejected, as reading
  * them could take for ever. */

@@ -43,7 +43,7 @@ typedef struct file_signature {
     "(weartrack-format(5)) and give its folder with --formats"
 static const file_signature signatures[] = {
     SIGNATURE_MEASURED("PK\3\4",
-                       "a ZIP archive without force curves that is no spreadsheet, or a cut one",
+                       "a ZIP archive that is no JPK file and no spreadsheet, or a cut one",
                        "copy a JPK file or a spreadsheet again, unpack any other archive"),
     SIGNATURE_MEASURED("PK\5\6", "an empty ZIP archive", ADVICE_EXPORT),
     SIGNATURE_MEASURED(HDF5_SIGNATURE, "an HDF5 file of another program", ADVICE_TEXT),
@@ -58,8 +58,7 @@ static const file_signature signatures[] = {
                        "export each curve as text from Nova: height, approach and retract"),
     SIGNATURE_MEASURED("Experiment\t", "a Nanonis (SPECS) spectrum", ADVICE_CURVES),
     SIGNATURE(":NANONIS_VERSION:", "a Nanonis (SPECS) image", ADVICE_TEXT),
-    SIGNATURE_AT(257, "ustar", "a tar archive",
-                 "unpack it (tar -xf), and give its files or a ZIP archive of them", true),
+    SIGNATURE_AT(257, "ustar", "a tar archive", "unpack it (tar -xf), and give its files", true),
     SIGNATURE_AT(4, "1AY&SY", "a bzip2 archive", ADVICE_UNPACK("bunzip2"), true),
     SIGNATURE_MEASURED("\3757zXZ", "an xz archive", ADVICE_UNPACK("unxz")),
     SIGNATURE_MEASURED("\50\265\57\375", "a Zstandard archive", ADVICE_UNPACK("unzstd")),

@@ -2,7 +2,6 @@
  * spreadsheet as text. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/memory.h"
 #include "read/bytes/input.h"
-#include "read/collection.h"
 #include "read/formats.h"
 #include "read/packed/packed.h"
 #include "read/text/text.h"
@@ -219,62 +218,6 @@ static wt_status unpack_layer(const wt_formats *formats, wt_input *input,
 /* Maximum nesting of archives, such as a gzip archive of a gzip archive of a spreadsheet. */
 enum { MAX_ARCHIVE_DEPTH = 3 };
 
-/* ---- an archive of force curves -------------------------------------------------------------- */
-
-/* Maximum number of files without a curve before the first file with one. */
-enum { MAX_FILES_WITHOUT_CURVE = 64 };
-
-typedef struct curve_search {
-    const wt_formats *formats;
-    bool found;
-    size_t n;
-} curve_search;
-
-static wt_status detect_entry_curves(wt_input *entry, void *user, bool *is_done, wt_error *err)
-{
-    curve_search *s = user;
-    const file_reader *reader = NULL;
-    wt_error cause = WT_ERROR_INIT;
-    const wt_status status = detect_reader(s->formats, entry, NULL, WT_KIND_FORCE, &reader, &cause);
-    s->found = status == WT_OK;
-    *is_done = s->found || ++s->n == MAX_FILES_WITHOUT_CURVE;
-    return status == WT_E_MEMORY ? wt_fail(err, status, "%s", cause.message) : WT_OK;
-}
-
-static bool is_zip(wt_input *input)
-{
-    const unsigned char *bytes = NULL;
-    size_t length = 0;
-    bool whole = false;
-    return wt_input_peek(input, PACKED_PEEK, &bytes, &length, &whole, NULL) == WT_OK &&
-           length >= 4 && memcmp(bytes, "PK\3\4", 4) == 0;
-}
-
-/* Finds the reader of an unpacked input. A ZIP archive counts as an archive of curves in two cases:
- * no reader recognises it but its entries are curves, or the user states a text format. */
-static wt_status detect_content(const wt_formats *formats, wt_input *in, const char *format,
-                                unsigned kinds, const file_reader **reader, wt_error *err)
-{
-    curve_search s = {.formats = formats};
-    const bool zip = (kinds == 0 || (kinds & WT_KIND_FORCE) != 0) && is_zip(in);
-    const file_reader *given = format != NULL ? formats_find_reader(formats, format) : NULL;
-    wt_status status = WT_OK;
-    if (zip && format != NULL)
-        s.found = strcmp(format, reader_collection.info.id) == 0 ||
-                  (given != NULL && reader_is_text(given));
-    if (!s.found)
-        status = detect_reader(formats, in, format, kinds, reader, err);
-    if ((status == WT_E_FORMAT || status == WT_E_UNSUPPORTED) && zip && format == NULL) {
-        wt_error damaged = WT_ERROR_INIT;
-        const wt_status looked = collection_visit(in, detect_entry_curves, &s, &damaged);
-        if (looked == WT_E_MEMORY)
-            return wt_fail(err, looked, "%s", damaged.message);
-    }
-    if (s.found)
-        *reader = &reader_collection;
-    return s.found ? WT_OK : status;
-}
-
 wt_status find_reader(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                       unsigned kinds, const file_reader **reader, wt_input **content, wt_error *err)
 {
@@ -290,7 +233,7 @@ wt_status find_reader(const wt_formats *formats, wt_input *input, const wt_read_
     }
     *content = in;
     if (status == WT_OK)
-        status = detect_content(formats, in, options->format, kinds, reader, err);
+        status = detect_reader(formats, in, options->format, kinds, reader, err);
     if (status != WT_OK)
         wt_error_file(err, wt_input_name(input));
     return status;

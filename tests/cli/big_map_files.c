@@ -15,7 +15,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <zip.h>
 
 enum { KINDS = 64 };
 
@@ -270,15 +269,13 @@ void write_park(size_t n, size_t samples)
 
 /* ---- one file for each curve ---------------------------------------------------------------- */
 
-/* Writes a folder of waves, or an archive of them. */
+/* Writes a folder of waves. */
 void write_waves(size_t n, size_t samples)
 {
     static const char *const labels[] = {"Raw", "Defl"};
     double *const heights = all_values(n, samples, -1, height_of);
     double *const bent = all_values(n, samples, -1, force_of);
-    int failed = 0;
-    zip_t *const zip = zip_open("map.zip", ZIP_CREATE | ZIP_TRUNCATE, &failed);
-    if (zip == NULL || (mkdir("map.waves", 0777) != 0 && access("map.waves", W_OK) != 0))
+    if (mkdir("map.waves", 0777) != 0 && access("map.waves", W_OK) != 0)
         abort();
     for (size_t i = 0; i < 2 * samples * n; i++) {
         heights[i] = -heights[i]; /* towards the sample */
@@ -302,14 +299,7 @@ void write_waves(size_t n, size_t samples)
                                       .note = note};
         if (ibw_write(&file) != 0)
             abort();
-        zip_source_t *const source = zip_source_file(zip, path, 0, -1);
-        const zip_int64_t entry = zip_file_add(zip, path, source, 0);
-        if (source == NULL || entry < 0 ||
-            zip_set_file_compression(zip, (zip_uint64_t)entry, ZIP_CM_STORE, 0) != 0)
-            abort();
     }
-    if (zip_close(zip) != 0)
-        abort();
     free(heights);
     free(bent);
 }

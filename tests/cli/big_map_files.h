@@ -18,6 +18,6 @@ void write_lines(size_t n, size_t samples);    /* map.nid of version 3 */
 void write_studio_1(size_t n, size_t samples); /* map.nhf */
 void write_studio_2(size_t n, size_t samples);
 void write_park(size_t n, size_t samples);  /* map.tiff */
-void write_waves(size_t n, size_t samples); /* map.waves/, map.zip */
+void write_waves(size_t n, size_t samples); /* map.waves/ */
 
 #endif
