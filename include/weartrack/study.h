@@ -181,10 +181,9 @@ typedef struct wt_accuracy_job {
 WT_API wt_accuracy_job wt_accuracy_job_defaults(void);
 WT_API const wt_params *wt_accuracy_job_params(void);
 /* Creates the table "work_precision" of a sliding contact at the reference velocity: friction and
- * layer for a sweep of the tolerance (reference 1e-13; textbook method for comparison), standard
- * errors for a sweep of the number of replicates, and values with fewer isotherms, each with its
- * processor time on one thread. Times are NaN if the cost of `work` has none. `layer` and
- * `observation` as above. */
+ * layer for a sweep of the tolerance (reference 1e-13; textbook method for comparison), and
+ * standard errors for a sweep of the number of replicates, each with its processor time on one
+ * thread. Times are NaN if the cost of `work` has none. `layer` and `observation` as above. */
 WT_API wt_status wt_case_precision_compute(const wt_sliding *sliding, const wt_layer_job *layer,
                                            const wt_layer_observation *observation,
                                            const wt_accuracy_job *job, const wt_job *work,

@@ -1,6 +1,5 @@
 /* Error against run time of the numbers of a case: numerical error as the tolerance is swept, with
- * the textbook method; standard error against the number of replicates; values with fewer
- * isotherms.
+ * the textbook method; standard error against the number of replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/master.h"
 #include "friction/numerics/angular.h"
@@ -51,7 +50,6 @@ typedef enum precision_sweep {
     BY_TOLERANCE,
     BY_WAVENUMBERS,
     BY_REPLICATES,
-    BY_ISOTHERMS,
     SWEEPS
 } precision_sweep;
 
@@ -60,13 +58,11 @@ enum { SETS = 4, REFERENCE_SET = 2400, MOST_REPLICATES = 400 };
 enum { ALL_DRAWS = REFERENCE_SET + SETS * MOST_REPLICATES };
 /* Tolerance of the reference. */
 static const double tightest = 1e-13;
-/* Fewest isotherms for shifts, a law and its lack of fit. */
-enum { LEAST_ISOTHERMS = 4 };
 
 static const struct {
     const char *before, *after; /* text before and after the name of the number */
     const char *method, *case_variant, *words;
-    double values[ACCURACY_VALUES]; /* for isotherms: fractions of their number; ends with 0 */
+    double values[ACCURACY_VALUES]; /* ends with 0 */
 } sweeps[SWEEPS] = {
     [BY_TOLERANCE] = {"",
                       " by tolerance",
@@ -88,13 +84,6 @@ static const struct {
                        "The standard error of the number, rms of 4 sets of replicates; reference: "
                        "2400 others",
                        {25, 50, 100, 200, MOST_REPLICATES}},
-    [BY_ISOTHERMS] = {"",
-                      " by isotherms",
-                      "weartrack",
-                      "isotherms",
-                      "The number with so many of the isotherms fitted again; stated: the standard "
-                      "error that the material gives it; reference: all isotherms",
-                      {0.25, 1 / 3., 0.5, 0.75, 1}},
 };
 
 typedef struct sweep_point {
@@ -115,7 +104,6 @@ typedef struct precision_problem {
     sliding_contact contact;   /* for the textbook method */
     wt_rubber extended_rubber; /* the material with ALL_DRAWS draws, if it was fitted */
     const wt_rubber *drawn;    /* the same, or as stated */
-    size_t n_isotherms;        /* number of isotherms to be fitted */
     sweep_point cells[CASE_QUANTITIES][SWEEPS][ACCURACY_VALUES];
     double reference_error[CASE_QUANTITIES][SWEEPS];
     double standard_error[CASE_QUANTITIES]; /* relative, with the most replicates */
@@ -176,13 +164,12 @@ static void set_cells(precision_problem *o, precision_sweep by, size_t i, double
 {
     for (unsigned k = o->first; k < o->last; k++) {
         const wt_estimate e = o->number[k];
-        const double stated = by == BY_ISOTHERMS ? e.standard_error : e.numerical_error,
-                     off = fabs(e.value - reference[k].value); /* two zeros differ by 0 */
-        set_cell(
-            o, k, by, i,
-            (sweep_point){value,
-                          {off > 0 ? off / fabs(reference[k].value) : off, stated / fabs(e.value)},
-                          time});
+        const double off = fabs(e.value - reference[k].value); /* two zeros differ by 0 */
+        set_cell(o, k, by, i,
+                 (sweep_point){value,
+                               {off > 0 ? off / fabs(reference[k].value) : off,
+                                e.numerical_error / fabs(e.value)},
+                               time});
     }
 }
 
@@ -338,94 +325,6 @@ static wt_status sweep_replicates(precision_problem *o, wt_error *err)
     return status;
 }
 
-/* ---- isotherms ------------------------------------------------------------------------------- */
-
-/* Selects n isotherms at even spacing, with the reference isotherm. The arrays stay owned by the
- * sweep. */
-static void select_isotherms(const wt_sweep *all, size_t n, double reference, wt_isotherm *taken)
-{
-    size_t near = 0;
-    for (size_t i = 1; i < all->n_isotherms; i++)
-        if (fabs(all->isotherms[i].temperature - reference) <
-            fabs(all->isotherms[near].temperature - reference))
-            near = i;
-    for (size_t i = 0; i < n; i++) {
-        const size_t from = i * all->n_isotherms / n, to = (i + 1) * all->n_isotherms / n;
-        taken[i] = all->isotherms[near >= from && near < to ? near : (from + to - 1) / 2];
-    }
-}
-
-static wt_status solve_isotherms(precision_problem *o, double value, wt_error *err)
-{
-    const wt_rubber *own = &o->given->rubber;
-    const size_t n = (size_t)value;
-    wt_sweep part = {.deformation = own->sweep.deformation, .n_isotherms = n};
-    wt_master_options options = own->fit;
-    wt_master fit = {0};
-    wt_rubber rubber = {0};
-    part.isotherms = wt_alloc(n, sizeof *part.isotherms);
-    options.reference_temperature = own->prony.reference_temperature;
-    select_isotherms(&own->sweep, n, options.reference_temperature, part.isotherms);
-    wt_status status = flow_rubber_fit(&part, &options, own->poisson_ratio, FLOW_STORED_DRAWS,
-                                       &o->work, &fit, &rubber, err);
-    if (status == WT_OK) {
-        rubber.is_transverse = own->is_transverse;
-        rubber.transverse = own->transverse;
-        o->current.rubber = rubber;
-        o->current.given = NULL;
-        status = case_variant_compute(&o->current, &o->work, o->number, err);
-    }
-    wt_rubber_clear(&rubber);
-    wt_master_clear(&fit);
-    free(part.isotherms);
-    return status;
-}
-
-/* Sets the errors of all inputs but the material to 0. */
-static void fix_inputs(case_variant *s)
-{
-    wt_estimate *const inputs[] = {&s->sliding.pressure,
-                                   &s->sliding.temperature,
-                                   &s->sliding.shear_stress,
-                                   &s->surface.c0,
-                                   &s->layer.specific_wear_rate,
-                                   &s->layer.critical_energy,
-                                   &s->layer.observed_thickness,
-                                   &s->layer_observation.thickness,
-                                   &s->layer_observation.modulus_ratio,
-                                   &s->layer_observation.ratio_slope};
-    for (size_t i = 0; i < COUNT_OF(inputs); i++)
-        if (inputs[i]->standard_error > 0)
-            inputs[i]->standard_error = 0;
-    s->strain_softening.storage_error = s->strain_softening.loss_error = NULL;
-}
-
-/* Too few isotherms may not determine a shift law that reaches the sliding temperature. They are
- * skipped. */
-static void sweep_isotherms(precision_problem *o)
-{
-    const double *shares = sweeps[BY_ISOTHERMS].values, all = (double)o->n_isotherms;
-    wt_estimate reference[CASE_QUANTITIES];
-    accuracy_timing time;
-    double before = LEAST_ISOTHERMS - 1;
-    begin_sweep(o);
-    fix_inputs(&o->current);
-    if (solve_isotherms(o, all, NULL) != WT_OK)
-        return;
-    memcpy(reference, o->number, sizeof reference);
-    for (unsigned k = o->first; k < o->last; k++)
-        o->reference_error[k][BY_ISOTHERMS] =
-            reference[k].standard_error / fabs(reference[k].value);
-    for (size_t i = 0; shares[i] > 0; i++) {
-        const double n = round(shares[i] * all);
-        if (!(n > before))
-            continue;
-        before = n;
-        if (solve_and_time(o, solve_isotherms, n, &time, NULL) == WT_OK)
-            set_cells(o, BY_ISOTHERMS, i, n, reference, time);
-    }
-}
-
 /* ---- job ------------------------------------------------------------------------------------- */
 
 /* Sweeps the numbers of friction, or those that the layer adds. */
@@ -439,8 +338,6 @@ static wt_status sweep_numbers(precision_problem *o, unsigned first, unsigned la
     wt_status status = sweep_tolerance(o, err);
     if (status == WT_OK)
         status = sweep_replicates(o, err);
-    if (status == WT_OK && o->n_isotherms > LEAST_ISOTHERMS)
-        sweep_isotherms(o);
     return status;
 }
 
@@ -449,8 +346,7 @@ static wt_status prepare_draws(precision_problem *o, wt_error *err)
     const wt_rubber *own = &o->given->rubber;
     wt_master fit = {0};
     o->drawn = own;
-    o->n_isotherms = own->kind == WT_RUBBER_SERIES ? own->sweep.n_isotherms : 0;
-    if (o->n_isotherms == 0)
+    if (own->kind != WT_RUBBER_SERIES || own->sweep.n_isotherms == 0)
         return WT_OK;
     const wt_status status = flow_rubber_fit(&own->sweep, &own->fit, own->poisson_ratio, ALL_DRAWS,
                                              o->job_settings, &fit, &o->extended_rubber, err);
@@ -485,7 +381,7 @@ static void add_precision_rows(const precision_problem *o, table_writer *t)
 }
 
 /* Indices of the values that the summary line reports. */
-enum { LOOSE = 0, TIGHT = 4, USUAL_REPLICATES = 3, HALF_THE_ISOTHERMS = 2 };
+enum { LOOSE = 0, TIGHT = 4, USUAL_REPLICATES = 3 };
 
 /* Returns " in 37 us", or an empty text without a time. */
 static const char *format_time(const sweep_point *c, char text[48])
@@ -512,8 +408,7 @@ static void write_precision_summary(const precision_problem *o, table_writer *t)
     const case_quantity k = about[i];
     const sweep_point *loose = &o->cells[k][BY_TOLERANCE][LOOSE],
                       *tight = &o->cells[k][BY_TOLERANCE][TIGHT],
-                      *drawn = &o->cells[k][BY_REPLICATES][USUAL_REPLICATES],
-                      *half = &o->cells[k][BY_ISOTHERMS][HALF_THE_ISOTHERMS];
+                      *drawn = &o->cells[k][BY_REPLICATES][USUAL_REPLICATES];
     if (!(loose->value > 0 && tight->value > 0))
         return;
     clocale_append(
@@ -527,14 +422,6 @@ static void write_precision_summary(const precision_problem *o, table_writer *t)
     if (drawn->value > 0)
         clocale_append(text, sizeof text, ", which %.0f replicates determine to %.1g %%%s",
                        drawn->value, 100 * drawn->errors.stated_error, format_time(drawn, first));
-    if (half->value > 0)
-        clocale_append(
-            text, sizeof text,
-            "; %.0f of %zu isotherms are within %.2g %% of all of them, with a standard error by "
-            "the material of %.2g %% instead of %.2g %%",
-            half->value, o->n_isotherms,
-            100 * fmax(half->errors.true_error, o->reference_error[k][BY_ISOTHERMS]),
-            100 * half->errors.stated_error, 100 * o->reference_error[k][BY_ISOTHERMS]);
     work_precision_set_text(t, WORK_PRECISION_KEY_ANSWER, text);
 }
 

@@ -139,17 +139,14 @@ static void test_times(void **state)
     wt_table_free(timed);
 }
 
-/* The bundled case: fewer isotherms have a larger error, as stated, and all numbers have rows. */
-static void test_isotherms(void **state)
+/* The bundled case: all numbers have rows, and the answer is of the friction with the layer. */
+static void test_bundled_case(void **state)
 {
     (void)state;
     wt_case *c = NULL;
     wt_result *result = NULL;
     wt_run_options options = wt_run_defaults();
     size_t found = 0, failed = 0;
-    double before = (double)INFINITY, fewest = 0;
-    /* 50 draws determine a standard error to 10 %, so that equal ones may be in either order */
-    const double resolution = 1 + 1 / sqrt(2 * 49.);
     options.no_provenance = true;
     options.threads = 1;
     options.replicates = 50;
@@ -164,25 +161,20 @@ static void test_isotherms(void **state)
     const wt_table *table = wt_result_find(result, "work_precision");
     assert_non_null(table);
     for (size_t i = 0; i < wt_table_n_rows(table); i++) {
-        const double error = number_cell(table, i, "true_error"),
-                     stated = number_cell(table, i, "stated_error"),
-                     reference = number_cell(table, i, "reference_error");
-        if (!is(table, i, "layer thickness by isotherms", "weartrack"))
+        if (!is(table, i, "layer thickness by tolerance", "weartrack"))
             continue;
-        assert_true(stated <= resolution * before && error <= 4 * hypot(stated, reference));
-        fewest = found == 0 ? stated : fewest;
-        before = stated;
+        assert_true(number_cell(table, i, "true_error") <=
+                    number_cell(table, i, "stated_error") +
+                        number_cell(table, i, "reference_error"));
         found++;
     }
-    assert_true(before < 0.5 * fewest);
-    assert_int_equal(found, 4); /* 4, 6, 9 and 12 of 12; a quarter determines no law */
+    assert_int_equal(found, 6);
     const char *answer = wt_table_key(table, "answer");
     assert_non_null(answer);
     assert_int_equal(strncmp(answer, "friction coefficient with layer: ", 33), 0);
     assert_non_null(strstr(answer, "at a tolerance of 0.01 and of "));
-    assert_non_null(strstr(answer, "; 6 of 12 isotherms are within "));
     assert_null(strstr(answer, "s at a tolerance")); /* no times */
-    assert_true(wt_table_n_rows(table) > 80);
+    assert_true(wt_table_n_rows(table) > 60);
     wt_result_free(result);
     wt_case_free(c);
 }
@@ -190,9 +182,9 @@ static void test_isotherms(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tolerance),  cmocka_unit_test(test_textbook),
-        cmocka_unit_test(test_replicates), cmocka_unit_test(test_times),
-        cmocka_unit_test(test_isotherms),
+        cmocka_unit_test(test_tolerance),    cmocka_unit_test(test_textbook),
+        cmocka_unit_test(test_replicates),   cmocka_unit_test(test_times),
+        cmocka_unit_test(test_bundled_case),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
