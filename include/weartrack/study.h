@@ -45,6 +45,10 @@ typedef struct wt_log_ratio_difference {
     double p;                /* two-sided, for no difference */
 } wt_log_ratio_difference;
 WT_API wt_log_ratio_difference wt_log_ratio_compare(const wt_log_ratio *a, const wt_log_ratio *b);
+/* Chance of at least the scatter of n >= 2 values if one value is behind them: Welch's test
+ * (Biometrika 38 (1951) 330) with the stated degrees of freedom, or chi-squared if all errors are
+ * normal. */
+WT_API double wt_log_ratio_test(const wt_log_ratio *of, size_t n);
 
 /* Effect of tip wear: a curve of a pyramid or cone with another cap radius [m], fitted by the law
  * of the stated tip. depth [m]; bending: cantilever deflection at that depth [m]. Result: ln of the

@@ -5,7 +5,6 @@
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "study/collect.h"
-#include "study/numerics/log_ratio.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -139,7 +138,7 @@ static void compare_at_common_rates(ratio_pair *q)
             low = fmin(low, of[i].value);
             high = fmax(high, of[i].value);
         }
-        q->interaction_p = log_ratios_test(of, n);
+        q->interaction_p = wt_log_ratio_test(of, n);
         if (q->interaction_p < level) {
             const double df = q->difference.df, half = (q->difference.high - q->difference.low) / 2;
             difference =

@@ -578,20 +578,14 @@ static bool first_row(const wt_table *table, size_t row)
     return row == 0;
 }
 
-static void long_name(wt_table *copy, size_t row)
-{
-    (void)row;
-    fixture_text(copy, "member", "a_name_of_a_result_that_has_no_room_below_a_panel.h5, bulk");
-}
-
 static void half_area(wt_table *copy, size_t row)
 {
     (void)row;
     fixture_put(copy, "isotropic_area_ratio", 0.5);
 }
 
-/* A case of one velocity is a point, not a line. Long names keep their distinguishing end. The
- * isotropic rubber is dashed in the colour of its velocity. */
+/* A case of one velocity is a point, not a line. The isotropic rubber is dashed in the colour of
+ * its velocity. */
 static void test_cases_side_by_side(void **state)
 {
     static const struct {

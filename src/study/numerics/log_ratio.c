@@ -1,7 +1,7 @@
 /* Comparison of two or more logarithms of ratios with their errors.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/numerics/log_ratio.h"
 #include "core/math/students_t.h"
+#include "weartrack/study.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -34,7 +34,7 @@ wt_log_ratio_difference wt_log_ratio_compare(const wt_log_ratio *a, const wt_log
 
 /* ---- several ratios -------------------------------------------------------------------------- */
 
-double log_ratios_test(const wt_log_ratio *of, size_t n)
+double wt_log_ratio_test(const wt_log_ratio *of, size_t n)
 {
     const double k = (double)n;
     double sum = 0, mean = 0, chi_squared = 0, spread = 0;
