@@ -867,11 +867,6 @@ WT_API wt_status wt_store_read(const char *path, wt_result **result, wt_error *e
 /* Reads a result from memory. Errors show `name`. */
 WT_API wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
                                       wt_result **result, wt_error *err) WT_NODISCARD;
-/* Reads only the tables that wt_result_main_values uses. If the file has them appended at its end,
- * neither HDF5 nor a process is needed; tables whose keys suffice then have no rows. WT_E_FORMAT if
- * it is not an HDF5 file. */
-WT_API wt_status wt_store_read_main_values(const char *path, wt_result **result,
-                                           wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus
 }

@@ -21,7 +21,8 @@ static wt_status read_result(void *user, size_t i, unsigned worker)
     wt_error err = WT_ERROR_INIT;
     wt_result *result = NULL;
     (void)worker;
-    wt_status read = wt_tables_read_main_values(r->files[i], &result, &err);
+    wt_status read = wt_tables_read(r->files[i], r->files[i], NULL,
+                                    (wt_tables_role){.instead = NULL}, &result, &err);
     if (read == WT_OK)
         read = wt_result_main_values(result, &one->headlines, &err);
     if (read == WT_OK) {

@@ -81,15 +81,3 @@ wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
     wt_input_close(input);
     return status;
 }
-
-wt_status wt_tables_read_main_values(const char *path, wt_result **tables, wt_error *err)
-{
-    const bool named = strcmp(path, "-") != 0;
-    const wt_status status = named ? wt_store_read_main_values(path, tables, err) : WT_E_FORMAT;
-    if (status != WT_E_FORMAT && status != WT_E_IO && status != WT_E_NOT_FOUND)
-        return status;
-    /* Standard input, a text stream or a compressed file; wt_tables_read reports other errors. */
-    if (err != NULL)
-        *err = (wt_error)WT_ERROR_INIT;
-    return wt_tables_read(path, path, NULL, (wt_tables_role){.instead = NULL}, tables, err);
-}

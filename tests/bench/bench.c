@@ -108,6 +108,5 @@ int main(int argc, char **argv)
     bench_friction();
     bench_layer();
     bench_shift();
-    bench_summary();
     return 0;
 }

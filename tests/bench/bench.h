@@ -31,6 +31,5 @@ void bench_indent(double textbook);
 void bench_friction(void);
 void bench_layer(void);
 void bench_shift(void);
-void bench_summary(void);
 
 #endif

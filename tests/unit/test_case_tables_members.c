@@ -141,22 +141,6 @@ static void test_parts(void **state)
         }
 }
 
-/* `summary` reads the main values. */
-static void test_headlines(void **state)
-{
-    (void)state;
-    size_t n = 0;
-    for (size_t s = 0; s < table_n_schemas; s++)
-        for (size_t i = 0; i < table_schemas[s]->n_keys; i++) {
-            n += table_schemas[s]->keys[i].headline != NULL;
-            if (table_schemas[s]->keys[i].headline != NULL &&
-                !store_has_headlines(table_schemas[s]->name))
-                fail_msg("%s: %s is a headline that summary does not read", table_schemas[s]->name,
-                         table_schemas[s]->keys[i].name);
-        }
-    assert_true(n > 10);
-}
-
 /* A program error is found where it occurs. */
 static void test_writer(void **state)
 {
@@ -179,8 +163,7 @@ static void test_writer(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bindings), cmocka_unit_test(test_parts),
-        cmocka_unit_test(test_headlines), cmocka_unit_test(test_writer)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bindings),
+                                       cmocka_unit_test(test_parts), cmocka_unit_test(test_writer)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

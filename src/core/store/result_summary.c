@@ -164,87 +164,52 @@ static wt_result_status result_completeness(const table_view *failures, const ta
     return lost ? WT_RESULT_PARTIAL : WT_RESULT_COMPLETE;
 }
 
-/* Further tables with headlines. Those from WITH_KEYS on have headlines in their keys. */
-enum { ANSWER, NOTES, FAILURES, WITH_KEYS };
-static const table_schema *const sources[] = {[ANSWER] = &answer_schema,
-                                              [NOTES] = &notes_schema,
-                                              [FAILURES] = &failures_schema,
-                                              [WITH_KEYS] = &shift_factors_schema,
-                                              &glass_transition_schema,
-                                              &friction_schema,
-                                              &layer_schema,
-                                              &sensitivity_schema,
-                                              &ratio_pairs_schema,
-                                              &identification_schema,
-                                              &validation_schema,
-                                              &validation_running_in_schema,
-                                              &record_schema,
-                                              &wear_schema,
-                                              &power_spectrum_schema};
-enum { N_TABLES = sizeof sources / sizeof *sources };
-
-bool store_has_headlines(const char *table)
+/* Adds the headlines of the keys of all tables, in the order of the registry. */
+static wt_status add_table_headlines(table_writer *t, const wt_result *result,
+                                     const result_value_tables *found, wt_error *err)
 {
-    for (size_t i = 0; i < N_TABLES; i++)
-        if (strcmp(sources[i]->name, table) == 0)
-            return true;
-    return result_values_use_table(table);
-}
-
-bool store_has_headline_rows(const char *table)
-{
-    return result_values_use_table(table) || strcmp(table, notes_schema.name) == 0 ||
-           strcmp(table, failures_schema.name) == 0;
-}
-
-/* Extends the digest by a table name, and by whether its rows or only its keys are used. */
-static void add_name_digest(const char *table, char hex[STORE_DIGEST_SIZE])
-{
-    char words[STORE_DIGEST_SIZE + SCHEMA_NAME_SIZE];
-    const int n = snprintf(words, sizeof words, "%s%c%s", hex,
-                           store_has_headline_rows(table) ? 'r' : 'k', table);
-    wt_sha256(words, (size_t)n < sizeof words ? (size_t)n : sizeof words - 1, hex);
-}
-
-void store_headlines_digest(char hex[STORE_DIGEST_SIZE])
-{
-    hex[0] = '\0';
-    for (size_t i = 0; result_values_table(i) != NULL; i++)
-        add_name_digest(result_values_table(i), hex);
-    for (size_t i = 0; i < N_TABLES; i++)
-        add_name_digest(sources[i]->name, hex);
+    wt_status status = WT_OK;
+    for (size_t s = 0; status == WT_OK && s < table_n_schemas; s++) {
+        table_view view;
+        if (wt_result_find(result, table_schemas[s]->name) == NULL)
+            continue;
+        status = table_bind_result(result, table_schemas[s], "", &view, err);
+        if (status == WT_OK)
+            add_key_headlines(t, found, &view);
+    }
+    return status;
 }
 
 wt_status wt_result_main_values(const wt_result *result, wt_table **headlines, wt_error *err)
 {
+    static const table_schema *const schemas[] = {&answer_schema, &notes_schema, &failures_schema,
+                                                  &shift_factors_schema};
     result_value_tables found;
-    table_view views[N_TABLES];
+    table_view answer, notes, failures, shifts;
+    table_view *const views[] = {&answer, &notes, &failures, &shifts};
     wt_status status = result_values_bind(result, &found, err);
-    for (size_t i = 0; status == WT_OK && i < N_TABLES; i++)
-        status = table_bind_result(result, sources[i], "", &views[i], err);
+    for (size_t i = 0; status == WT_OK && i < COUNT_OF(views); i++)
+        status = table_bind_result(result, schemas[i], "", views[i], err);
     if (status != WT_OK)
         return status;
     double n_remarks = 0;
-    for (size_t row = 0; row < views[NOTES].n_rows; row++)
-        n_remarks += notes_enum(&views[NOTES], row, NOTES_SEVERITY) != WT_NOTE;
+    for (size_t row = 0; row < notes.n_rows; row++)
+        n_remarks += notes_enum(&notes, row, NOTES_SEVERITY) != WT_NOTE;
     table_writer t = table_begin(&keys_schema, err);
-    add_number_headline(&t, "status", "", result_completeness(&views[FAILURES], &views[NOTES]),
-                        "1");
-    if (views[ANSWER].table != NULL &&
-        answer_key_text(&views[ANSWER], ANSWER_KEY_CASE_TITLE) != NULL)
-        add_text_headline(&t, "case_title", answer_key_text(&views[ANSWER], ANSWER_KEY_CASE_TITLE));
+    add_number_headline(&t, "status", "", result_completeness(&failures, &notes), "1");
+    if (answer.table != NULL && answer_key_text(&answer, ANSWER_KEY_CASE_TITLE) != NULL)
+        add_text_headline(&t, "case_title", answer_key_text(&answer, ANSWER_KEY_CASE_TITLE));
     add_ratio_headlines(&t, &found);
     add_group_headlines(&t, &found);
-    for (size_t i = WITH_KEYS; i < N_TABLES; i++)
-        add_key_headlines(&t, &found, &views[i]);
+    if (t.status == WT_OK)
+        t.status = add_table_headlines(&t, result, &found, err);
     /* the misfit of the common spectrum, on which the verdict on superposition is based */
-    const table_view *const shifts = &views[WITH_KEYS];
     add_bounds(&t, "superposition_misfit", bound_suffixes,
-               parse_number_or_nan(shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_MISFIT_LOW)),
-               parse_number_or_nan(shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_MISFIT_HIGH)),
+               parse_number_or_nan(shift_factors_key_text(&shifts, SHIFT_FACTORS_KEY_MISFIT_LOW)),
+               parse_number_or_nan(shift_factors_key_text(&shifts, SHIFT_FACTORS_KEY_MISFIT_HIGH)),
                "1");
     add_number_headline(&t, "remarks", "", n_remarks, "1");
-    add_number_headline(&t, "failures", "", (double)views[FAILURES].n_rows, "1");
+    add_number_headline(&t, "failures", "", (double)failures.n_rows, "1");
     return table_end(&t, headlines);
 }
 

@@ -1,4 +1,4 @@
-/* Reads results from the HDF5 store, or only their headlines. The data from the sandbox must be
+/* Reads results from the HDF5 store. The data from the sandbox must be
  * complete and agree with their digests. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/store.h"
 #include "core/table/registry.h"
@@ -165,13 +165,13 @@ static wt_status decode_result(const char *bytes, size_t length, const char *nam
     return status;
 }
 
-wt_status store_read_bytes(const hdf5_bytes *from, hdf5_read_function *pass, const char *name,
-                           wt_result **result, wt_error *err)
+static wt_status store_read_bytes(const hdf5_bytes *from, const char *name, wt_result **result,
+                                  wt_error *err)
 {
     const sandbox_limits limits = sandbox_limits_for(from->size);
     size_t n = 0;
     char *answer = NULL;
-    wt_status status = hdf5_sandbox_read(from, &limits, pass, &answer, &n, err);
+    wt_status status = hdf5_sandbox_read(from, &limits, store_extract, &answer, &n, err);
     if (status == WT_OK)
         status = decode_result(answer, n, name, result, err);
     else
@@ -185,7 +185,7 @@ wt_status wt_store_read_memory(const void *bytes, size_t length, const char *nam
 {
     /* A file without bytes must not be mistaken for a descriptor. */
     const hdf5_bytes from = {.bytes = length > 0 ? bytes : (const void *)"", .size = length};
-    return store_read_bytes(&from, store_extract, name, result, err);
+    return store_read_bytes(&from, name, result, err);
 }
 
 /* Opens a regular file. On failure *file is -1 or open; the caller closes it.
@@ -215,138 +215,7 @@ wt_status wt_store_read(const char *path, wt_result **result, wt_error *err)
     wt_status status = store_open_regular(path, &file, &info, err);
     if (status == WT_OK) {
         const hdf5_bytes from = {.file = file, .size = (size_t)info.st_size};
-        status = store_read_bytes(&from, store_extract, path, result, err);
-    }
-    if (file >= 0)
-        (void)close(file);
-    return status;
-}
-
-/* ---- abstract --------------------------------------------------------------------------------
- *
- * A copy of the tables with headlines after the end of the HDF5 data, encoded as in store.h. It is
- * read without HDF5 and without a process, so that the headlines of thousands of files are read
- * fast. Its bytes are validated like the output of the sandbox. A program that opens the file for
- * writing truncates the abstract, so that it is never outdated. Without an abstract, or with one
- * for another set of tables, the file is read with HDF5. */
-
-/* The last bytes of the file: the length of the abstract before them, and a mark. A new layout gets
- * a new mark. */
-typedef struct abstract_trailer {
-    uint64_t length; /* little-endian */
-    char mark[8];
-} abstract_trailer;
-
-static const char mark[8] = {'W', 'T', 'A', 'B', 'S', 'T', '2', '\n'};
-
-static wt_status write_table_abstract(FILE *out, const wt_table *table, char *digest, wt_error *err)
-{
-    /* Most tables have headlines in their keys only, and some of these tables are long. */
-    wt_table part = *table;
-    if (!store_has_headline_rows(table->name)) {
-        part.n_rows = 0;
-        part.n_blocks = 0;
-    }
-    const wt_status status = table_bytes_digest(&part, digest, err);
-    return status == WT_OK ? table_bytes_write(out, &part, err) : status;
-}
-
-wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err)
-{
-    store_tail tail = {.n_tables = 0};
-    const size_t n = wt_result_n_tables(result);
-    char(*const digests)[STORE_DIGEST_SIZE] = wt_alloc(n, sizeof *digests);
-    const long from = fseek(out, 0, SEEK_END) == 0 ? ftell(out) : -1;
-    wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < n; i++) {
-        const wt_table *const table = wt_result_table(result, i);
-        if (store_has_headlines(table->name))
-            status = write_table_abstract(out, table, digests[tail.n_tables++], err);
-    }
-    if (status == WT_OK) {
-        (void)fwrite(digests, sizeof *digests, tail.n_tables, out);
-        store_tail_write(out, &tail);
-        char of[STORE_DIGEST_SIZE];
-        store_headlines_digest(of);
-        (void)fwrite(of, sizeof of, 1, out);
-        const long to = ftell(out);
-        abstract_trailer end = {.length = htole64((uint64_t)(to - from))};
-        memcpy(end.mark, mark, sizeof mark);
-        if (from < 0 || to < from || fwrite(&end, sizeof end, 1, out) != 1 || fflush(out) != 0)
-            status = wt_fail(err, WT_E_IO, "cannot write the file: %s", strerror(errno));
-    }
-    free(digests);
-    return status;
-}
-
-static bool read_exactly(int file, size_t at, void *to, size_t n)
-{
-    for (size_t got = 0; got < n;) {
-        const ssize_t more = pread(file, (char *)to + got, n - got, (off_t)(at + got));
-        if (more == 0 || (more < 0 && errno != EINTR))
-            return false;
-        got += more > 0 ? (size_t)more : 0;
-    }
-    return true;
-}
-
-/* Larger abstracts are ignored. A malicious abstract needs at most some twenty times this memory: a
- * text of two bytes needs a pointer and an allocation. The abstract of a whole case has about 40
- * kB. */
-#define ABSTRACT_SIZE_MAX ((size_t)2 << 20)
-
-/* Returns the bytes of the abstract, which the caller frees. NULL without a usable abstract. */
-static char *read_abstract_bytes(int file, size_t size, size_t *length)
-{
-    abstract_trailer end;
-    char of[STORE_DIGEST_SIZE]; /* of the current set of tables with headlines */
-    if (size < sizeof end)
-        return NULL;
-    const size_t before = size - sizeof end;
-    if (!read_exactly(file, before, &end, sizeof end) || memcmp(end.mark, mark, sizeof mark) != 0)
-        return NULL;
-    *length = (size_t)le64toh(end.length);
-    const bool whole = *length > 0 && *length <= before && *length <= ABSTRACT_SIZE_MAX;
-    char *const bytes = whole ? wt_alloc(*length, 1) : NULL;
-    store_headlines_digest(of);
-    if (whole && *length >= sizeof of && read_exactly(file, before - *length, bytes, *length) &&
-        memcmp(bytes + *length - sizeof of, of, sizeof of) == 0) {
-        *length -= sizeof of;
-        return bytes;
-    }
-    free(bytes);
-    return NULL;
-}
-
-wt_status store_abstract_read(int file, size_t size, const char *name, wt_result **result,
-                              wt_error *err)
-{
-    size_t length = 0;
-    char *const bytes = read_abstract_bytes(file, size, &length);
-    if (bytes == NULL)
-        return WT_END;
-    const wt_status status = decode_result(bytes, length, name, result, err);
-    free(bytes);
-    return status;
-}
-
-wt_status wt_store_read_main_values(const char *path, wt_result **result, wt_error *err)
-{
-    static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
-    unsigned char begin[sizeof signature];
-    struct stat info;
-    int file = -1;
-    wt_status status = store_open_regular(path, &file, &info, err);
-    if (status == WT_OK && (pread(file, begin, sizeof begin, 0) != (ssize_t)sizeof begin ||
-                            memcmp(begin, signature, sizeof begin) != 0)) {
-        status = wt_fail(err, WT_E_FORMAT, "not an HDF5 file");
-        wt_error_file(err, path);
-    }
-    if (status == WT_OK)
-        status = store_abstract_read(file, (size_t)info.st_size, path, result, err);
-    if (status == WT_END) {
-        const hdf5_bytes from = {.file = file, .size = (size_t)info.st_size};
-        status = store_read_bytes(&from, store_extract_headlines, path, result, err);
+        status = store_read_bytes(&from, path, result, err);
     }
     if (file >= 0)
         (void)close(file);

@@ -7,9 +7,8 @@
 #include "core/system/file_signatures.h"
 #include "core/table/table.h"
 
-/* Version of the layout, in the root attribute "weartrack_format". A file with a map of force
- * curves has one of its own, so that a program that knows none does not lose the curves. Layouts 3
- * and 4 differ from 5 and 6 by names of tables and columns alone. */
+/* Version of the layout, in the root attribute "weartrack_format". Layout 3 differs from 5 by names
+ * of tables and columns alone; 4 and 6 had a layout of force maps. */
 enum { STORE_FORMAT_OLDEST = 3, STORE_FORMAT = 5 };
 
 #define STORE_VERSION_ATTRIBUTE "weartrack_version"
@@ -41,24 +40,6 @@ void store_tail_write(FILE *out,
                       const store_tail *tail); /* writes 8 bytes for each member, little-endian */
 wt_status store_extract(hid_t file, size_t size, FILE *out,
                         wt_error *err); /* an hdf5_read_function */
-/* Variant for the tables with headlines. */
-wt_status store_extract_headlines(hid_t file, size_t size, FILE *out, wt_error *err);
-bool store_has_headlines(const char *table);
-bool store_has_headline_rows(
-    const char *table); /* False if only the keys of the table have headlines */
-void store_headlines_digest(char hex[STORE_DIGEST_SIZE]); /* digest of the names of these tables */
-/* Appends the tables with headlines to a result file that HDF5 has closed. */
-wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err) WT_NODISCARD;
-/* Reads the tables with headlines. WT_END without an abstract or with another set of tables. */
-wt_status store_abstract_read(int file, size_t size, const char *name, wt_result **result,
-                              wt_error *err) WT_NODISCARD;
-/* Reads a result from memory or from a descriptor, with store_extract or store_extract_headlines.
- */
-wt_status store_read_bytes(const hdf5_bytes *from, hdf5_read_function *pass, const char *name,
-                           wt_result **result, wt_error *err);
-
-struct stat;
-
 /* Creates the error WT_E_CORRUPT for a damaged file of this program, with advice. */
 wt_status store_corrupt_error(wt_error *err, const char *place, const char *message);
 /* Decodes the data from the sandbox into a result. All bytes are validated. */

@@ -440,52 +440,32 @@ static bool read_store_index(hdf5_reader *r, store_index *w)
                                                      "not as many digests as there are tables"));
 }
 
-void store_tail_write(FILE *out, const store_tail *tail)
+/* Writes all tables. */
+wt_status store_extract(hid_t file, size_t size, FILE *out, wt_error *err)
 {
-    const uint64_t words[] = {htole64(tail->has_origin), htole64(tail->n_tables),
-                              htole64(tail->case_length), htole64(tail->origin_length)};
-    (void)fwrite(words, sizeof words, 1, out);
-}
-
-/* Writes all tables, or those that `wanted` selects. A selection has no origin and no case. */
-static wt_status write_store(hdf5_reader *r, bool (*wanted)(const char *name))
-{
+    hdf5_reader r = {.file = file, .file_size = size, .out = out, .err = err};
     store_index w = {.tables = NULL};
-    store_tail tail = {.n_tables = 0};
-    bool good = read_store_index(r, &w);
+    bool good = read_store_index(&r, &w);
+    store_tail tail = {.has_origin = w.command != NULL, .n_tables = w.n_tables};
     for (size_t i = 0; good && i < w.n_tables; i++)
-        if (wanted == NULL || wanted(w.tables[i])) {
-            good = write_stored_table(r, w.tables[i]);
-            tail.n_tables++;
-        }
-    tail.has_origin = wanted == NULL && w.command != NULL;
-    good = good && (!tail.has_origin || write_stored_table(r, STORE_INPUTS_TABLE)) &&
-           (wanted != NULL || write_case_text(r, &tail.case_length));
+        good = write_stored_table(&r, w.tables[i]);
+    good = good && (!tail.has_origin || write_stored_table(&r, STORE_INPUTS_TABLE)) &&
+           write_case_text(&r, &tail.case_length);
     if (good && tail.has_origin)
-        tail.origin_length = (uint64_t)fprintf(r->out, "%s\n%s", w.version, w.command);
-    for (size_t i = 0; good && i < w.n_digests; i++)
-        if (wanted == NULL || (i < w.n_tables && wanted(w.tables[i]))) {
-            char padded[STORE_DIGEST_SIZE] = "";
-            (void)snprintf(padded, sizeof padded, "%s", w.digests[i]);
-            (void)fwrite(padded, sizeof padded, 1, r->out);
-        }
-    if (good)
-        store_tail_write(r->out, &tail);
+        tail.origin_length = (uint64_t)fprintf(out, "%s\n%s", w.version, w.command);
+    for (size_t i = 0; good && i < w.n_digests; i++) {
+        char padded[STORE_DIGEST_SIZE] = "";
+        (void)snprintf(padded, sizeof padded, "%s", w.digests[i]);
+        (void)fwrite(padded, sizeof padded, 1, out);
+    }
+    if (good) {
+        const uint64_t words[] = {htole64(tail.has_origin), htole64(tail.n_tables),
+                                  htole64(tail.case_length), htole64(tail.origin_length)};
+        (void)fwrite(words, sizeof words, 1, out);
+    }
     wt_strings_free(w.tables, w.n_tables);
     wt_strings_free(w.digests, w.n_digests);
     free(w.version);
     free(w.command);
-    return r->status;
-}
-
-wt_status store_extract(hid_t file, size_t size, FILE *out, wt_error *err)
-{
-    hdf5_reader r = {.file = file, .file_size = size, .out = out, .err = err};
-    return write_store(&r, NULL);
-}
-
-wt_status store_extract_headlines(hid_t file, size_t size, FILE *out, wt_error *err)
-{
-    hdf5_reader r = {.file = file, .file_size = size, .out = out, .err = err};
-    return write_store(&r, store_has_headlines);
+    return r.status;
 }

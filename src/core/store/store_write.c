@@ -363,8 +363,6 @@ wt_status wt_store_write(const char *path, const wt_result *result, bool with_pr
         hdf5_leave(&scope);
         status = good ? WT_OK : write_error(&w, err);
     }
-    if (status == WT_OK)
-        status = store_abstract_write(wt_outfile_stream(w.out), result, err);
     if (status == WT_OK) {
         status = wt_outfile_commit(w.out, err);
         w.out = NULL;

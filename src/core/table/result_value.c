@@ -20,19 +20,6 @@ static const struct {
                    {&what_if_schema, offsetof(result_value_tables, what_if)},
                    {&track_layer_schema, offsetof(result_value_tables, track_layer)}};
 
-const char *result_values_table(size_t i)
-{
-    return i < COUNT_OF(table_views) ? table_views[i].schema->name : NULL;
-}
-
-bool result_values_use_table(const char *table)
-{
-    for (size_t i = 0; i < COUNT_OF(table_views); i++)
-        if (strcmp(table_views[i].schema->name, table) == 0)
-            return true;
-    return false;
-}
-
 wt_status result_values_bind(const wt_result *result, result_value_tables *tables, wt_error *err)
 {
     wt_status status = WT_OK;

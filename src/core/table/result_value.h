@@ -43,10 +43,6 @@ typedef struct result_value_tables {
     table_view groups, budget, rates, comparison, friction, layer, what_if, track_layer;
 } result_value_tables;
 
-/* Returns the name of table i, NULL after the last one. */
-const char *result_values_table(size_t i);
-/* Returns true if result values use the table. */
-bool result_values_use_table(const char *table);
 /* Binds the tables of a result. A table that cannot be bound is an error and is then absent. */
 wt_status result_values_bind(const wt_result *result, result_value_tables *tables,
                              wt_error *err) WT_NODISCARD;
