@@ -74,12 +74,14 @@ typedef struct cmd_option_group {
     PARAM_LOCAL_TABLE(name, type, rows, name##_unset, NO_PARTS)
 
 /* Common options. A subcommand names those that it supports. */
+typedef enum cmd_log { CMD_LOG_TEXT, CMD_LOG_JSON } cmd_log;
 typedef struct cmd_common_options {
     const char *output;         /* -o, NULL = standard output */
     const char *formats;        /* folder of further descriptions */
     const char *const *columns; /* columns of plain tables */
     size_t n_columns;
     const char *files_from; /* file with file names, NULL = none */
+    cmd_log log;
     bool provenance, cost;
     bool quiet, verbose, strict, help;
 } cmd_common_options;
@@ -89,8 +91,8 @@ typedef struct cmd_usage {
     const char *name;        /* name of the subcommand */
     const char *arguments;   /* "[OPTION]... FILE..." */
     const char *description; /* description, a few lines */
-    const char *common; /* names of common options, as `only`; quiet, verbose, strict and help are
-                           always included */
+    const char *common; /* names of common options, as `only`; quiet, verbose, strict, help and log
+                           are always included */
     const char *first;  /* most important options, for --help without "all"; NULL: all */
     const char *master; /* options that weartrack master documents; NULL: none */
     const char *notes;  /* text after the options; NULL if none */
@@ -107,6 +109,7 @@ enum { CMD_ONE_OR_MORE = -1 };
 /* Progress on stderr, shown after one second if it is a terminal. */
 typedef struct cmd_progress {
     double start, shown;
+    double interval; /* time between updates [s] */
     bool active;
 } cmd_progress;
 
@@ -197,6 +200,21 @@ size_t cmd_text_fit(const char *text, size_t length, size_t width);
 void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text);
 
 /* ---- messages ----------------------------------------------------------------------------- */
+
+/* Switches messages to one JSON object per line with an event: message, note, warning, loss, error,
+ * failed, progress or end (log.c). */
+void cmd_log_json(const char *name);
+bool cmd_log_is_json(void);
+/* A member of such an object: a text, or a number if the text is NULL. */
+typedef struct cmd_json_member {
+    const char *name, *text;
+    size_t number;
+} cmd_json_member;
+/* Writes an event; no effect without --log json. Empty texts are omitted. */
+void cmd_log_event(const char *event, const cmd_json_member *words, size_t n);
+
+/* Writes a row of a result as the event "row"; no effect without --log json. */
+void cmd_log_row(const wt_result_row *row);
 
 /* Prints on standard error. Control characters, such as in file names, are shown as \\x1b. Only the
  * format itself may end a line. */

@@ -132,5 +132,8 @@ int main(int argc, char **argv)
     if (wt_sandbox_limitations() !=
         NULL) /* about the system, not the data: no remark of a result */
         cmd_message("weartrack: warning: %s\n", wt_sandbox_limitations());
-    return close_stdout(status);
+    status = close_stdout(status);
+    const cmd_json_member last = {"status", NULL, (size_t)status};
+    cmd_log_event("end", &last, 1);
+    return status;
 }

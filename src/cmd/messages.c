@@ -50,6 +50,13 @@ void cmd_message(const char *format, ...)
     if (written < 0)
         cmd_exit_without_memory(strlen(format));
     size_t length = (size_t)written;
+    if (cmd_log_is_json()) {
+        text[length - (length > 0 && text[length - 1] == '\n')] = '\0';
+        const cmd_json_member word = {"text", text, 0};
+        cmd_log_event("message", &word, 1);
+        free(text);
+        return;
+    }
     cmd_erase_progress();
     const bool line = *format != '\0' && format[strlen(format) - 1] == '\n';
     length -= line;
@@ -88,9 +95,21 @@ void cmd_set_partial(cmd_session *s)
 
 void cmd_report_failure(cmd_session *s)
 {
+    const wt_error *e = &s->err;
     char line[2048];
-    wt_error_format(&s->err, line, sizeof line);
-    cmd_message("weartrack %s: %s\n", s->name, line);
+    wt_error_format(e, line, sizeof line);
+    const cmd_json_member words[] = {
+        {"status", wt_status_text(e->status), 0},
+        {"file", e->file, 0},
+        {"place", e->place, 0},
+        {"text", e->message[0] != '\0' ? e->message : wt_status_text(e->status), 0},
+        {"expected", e->expected, 0},
+        {"found", e->found, 0},
+        {"advice", e->advice, 0}};
+    if (cmd_log_is_json())
+        cmd_log_event("error", words, COUNT_OF(words));
+    else
+        cmd_message("weartrack %s: %s\n", s->name, line);
     cmd_set_partial(s);
 }
 
@@ -139,10 +158,16 @@ static bool print_progress(void *user, const char *what, size_t done, size_t tot
     const double now = wt_time_wall();
     if (interrupted != 0)
         return false;
-    /* Progress is shown after one second, ten times a second. */
-    if (!state->active || now - state->start < 1 || now - state->shown < 0.1)
+    /* Progress is shown after one second. */
+    if (!state->active || now - state->start < 1 || now - state->shown < state->interval)
         return true;
     state->shown = now;
+    if (cmd_log_is_json()) {
+        const cmd_json_member words[] = {
+            {"text", what, 0}, {"done", NULL, done}, {"total", NULL, total}};
+        cmd_log_event("progress", words, total > 0 ? 3 : 2);
+        return true;
+    }
     progress_is_shown = true;
     if (total > 0)
         fprintf(stderr, "\r\033[K%s: %zu of %zu", what, done, total);
@@ -155,7 +180,10 @@ static bool print_progress(void *user, const char *what, size_t done, size_t tot
 wt_progress cmd_progress_start(cmd_session *s)
 {
     const double now = wt_time_wall();
-    s->progress = (cmd_progress){now, now, !s->common.quiet && isatty(STDERR_FILENO)};
+    const bool is_json = cmd_log_is_json();
+    /* JSON has one line per second, a terminal ten updates */
+    s->progress = (cmd_progress){now, now, is_json ? 1 : 0.1,
+                                 !s->common.quiet && (is_json || isatty(STDERR_FILENO))};
     return (wt_progress){print_progress, &s->progress};
 }
 

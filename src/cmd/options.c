@@ -35,6 +35,9 @@ static const wt_param common_rows[] = {
      .help = "version, command line, digests and times in what is written"},
     {PARAM_FLAG_OF("cost", cmd_common_options, cost),
      .help = "also write the table cost: time, nodes, files and errors of each stage"},
+    {PARAM_CHOICE_OF("log", cmd_common_options, log, "text|json"),
+     .help = "form of standard error: text for people, or JSON with one object in each line for "
+             "every message, every failure, the progress once a second, and the exit status"},
     {PARAM_FLAG_OF("quiet", cmd_common_options, quiet), .letter = 'q',
      .help = "print errors only, without the table of the main numbers, progress and warnings"},
     {PARAM_FLAG_OF("verbose", cmd_common_options, verbose), .letter = 'v',
@@ -425,6 +428,8 @@ static bool parse_options(cmd_session *s, const option_list *list, int argc, cha
                 row = &list->rows[i];
         if (!set_option(s, row, optarg))
             return false;
+        if (s->common.log == CMD_LOG_JSON)
+            cmd_log_json(s->name);
         const char *value = row->param->value;
         if (value != NULL && (strcmp(value, "FILE") == 0 || strcmp(value, "R") == 0) &&
             (row->param->flags & PARAM_WRITTEN) == 0)
@@ -456,7 +461,7 @@ bool cmd_parse(cmd_session *s, const cmd_usage *usage, cmd_option_group *parts, 
     char names[TEXT_SIZE];
     size_t n_inputs = 0, n_pipes = 0;
     const char **inputs = wt_alloc((size_t)argc + 1, sizeof *inputs);
-    snprintf(names, sizeof names, "%s quiet verbose strict help", usage->common);
+    snprintf(names, sizeof names, "%s log quiet verbose strict help", usage->common);
     cmd_option_group last = {common_params(), &s->common, names, 0};
     s->name = usage->name;
     s->next = usage->next;

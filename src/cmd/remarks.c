@@ -52,7 +52,7 @@ enum { LABEL_WIDTH = 9, LINES_OF_REMARKS = 2 };
 
 bool cmd_is_brief(const cmd_session *s)
 {
-    return !s->common.verbose && isatty(STDERR_FILENO);
+    return !s->common.verbose && !cmd_log_is_json() && isatty(STDERR_FILENO);
 }
 
 /* Returns the number of bytes that fit into `width` characters, up to the end of a word if the text
@@ -178,6 +178,15 @@ static void print_failures_briefly(cmd_session *s, const wt_table *failures)
 static void print_log_group(const char *name, const log_group *f)
 {
     const wt_log_entry *e = &f->entry;
+    const cmd_json_member words[] = {{"file", e->file, 0},
+                                     {"place", f->n_files > 1 ? "" : e->place, 0},
+                                     {"text", e->text, 0},
+                                     {"files", NULL, f->n_files},
+                                     {"times", NULL, f->n}};
+    if (cmd_log_is_json()) {
+        cmd_log_event(wt_severity_name(e->severity), words, COUNT_OF(words));
+        return;
+    }
     cmd_message("weartrack %s: %s: %s", name, wt_severity_name(e->severity), e->file);
     if (f->n_files > 1)
         cmd_message(" and %zu more", f->n_files - 1);
@@ -223,11 +232,17 @@ bool cmd_print_failures(cmd_session *s, const wt_table *failures)
         return false;
     if (cmd_is_brief(s))
         print_failures_briefly(s, failures);
-    else
+    else if (!cmd_log_is_json())
         cmd_message("weartrack %s: %zu failed:\n", s->name, n);
-    for (size_t i = 0; i < n && !cmd_is_brief(s); i++)
-        cmd_message("  %s: %s\n", wt_table_text(failures, i, FAILURES_FILE),
-                    wt_table_text(failures, i, FAILURES_MESSAGE));
+    for (size_t i = 0; i < n; i++) {
+        const char *where = wt_table_text(failures, i, FAILURES_FILE);
+        const char *what = wt_table_text(failures, i, FAILURES_MESSAGE);
+        const cmd_json_member words[] = {{"file", where, 0}, {"text", what, 0}};
+        cmd_log_event("failed", words, COUNT_OF(words));
+        if (cmd_log_is_json() || cmd_is_brief(s))
+            continue;
+        cmd_message("  %s: %s\n", where, what);
+    }
     const char *answered = wt_table_key(failures, "status");
     cmd_set_partial(s);
     if (answered != NULL && atoi(answered) == CMD_FAILED)

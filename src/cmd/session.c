@@ -149,7 +149,8 @@ void cmd_end(cmd_session *s, wt_status status)
     else
         cmd_print_place_of_rest(s);
     /* a pipe gets tables only */
-    if (status == WT_OK && s->next != NULL && isatty(STDOUT_FILENO) && !s->common.quiet)
+    if (status == WT_OK && s->next != NULL && isatty(STDOUT_FILENO) && !s->common.quiet &&
+        !cmd_log_is_json())
         printf("next     weartrack %s\n", s->next);
 }
 

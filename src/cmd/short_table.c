@@ -217,7 +217,7 @@ static void print_heading(const cmd_session *s, FILE *out, const wt_result_rows 
 void cmd_print_place_of_rest(const cmd_session *s)
 {
     const char *output = s->common.output;
-    if (s->common.quiet || !has_rows(s))
+    if (s->common.quiet || cmd_log_is_json() || !has_rows(s))
         return;
     if (cmd_shows_short_table(s))
         printf("tables   -o FILE, or -o - to print them; --verbose has the reasons\n");
@@ -225,6 +225,14 @@ void cmd_print_place_of_rest(const cmd_session *s)
         cmd_message("result   %s (weartrack report draws it)\n", output);
     else if (!cmd_is_standard_stream(output))
         cmd_message("tables   %s\n", output);
+}
+
+static void log_rows(const wt_result_rows *rows)
+{
+    for (size_t i = 0; i < wt_result_rows_count(rows); i++) {
+        const wt_result_row row = wt_result_rows_get(rows, i);
+        cmd_log_row(&row);
+    }
 }
 
 void cmd_print_short_table(cmd_session *s, bool findings)
@@ -235,7 +243,9 @@ void cmd_print_short_table(cmd_session *s, bool findings)
     const size_t n = wt_result_rows_count(rows);
     const bool on_screen = findings || cmd_shows_short_table(s);
     short_table t = {.rows = rows, .n_shown = n, .brief = !s->common.verbose};
-    if (n > 0) {
+    if (cmd_log_is_json())
+        log_rows(rows);
+    if (n > 0 && (on_screen || !cmd_log_is_json())) {
         if (!s->common.verbose && n > ROWS_SHOWN + 1)
             t.n_shown = ROWS_SHOWN;
         t.out = on_screen ? stdout : stderr;

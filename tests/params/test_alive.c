@@ -123,6 +123,7 @@ static const struct {
 } dead[] = {
     {NULL, "threads", "changes no result: test_case_run"},
     {NULL, "quiet", "words on standard error: tests/cli"},
+    {NULL, "log", "words on standard error: cli_log_json"},
     {NULL, "strict", "changes the exit status where there is a remark: tests/cli/remarks.txt"},
     {NULL, "files-from", "files as in the call: tests/cli/remarks.txt"},
     {NULL, "help", "tests/docs"},

@@ -94,7 +94,6 @@ const char *removed_name_advice(const char *name, size_t length)
         {"layer-material", "give modulus-ratio or layer-comparison"},
         {"loads", "compute each load by a call of its own: the balance forgets those before"},
         {"local-friction", "the table what_if has the thickness by other depth profiles"},
-        {"log", "messages are text; the result has them in its tables notes and failures"},
         {"max-missing", "a scan with a fifth of its heights missing is too poor"},
         {"moduli", "the Prony series gives the same friction to 0.3 %"},
         {"peak-points", "a peak is found by a smooth curve, which follows a wide transition"},
