@@ -36,6 +36,7 @@ enum {
     NODES = SCAN_NODES,
     REACH = SCAN_EXTENT, /* range of contact points before the start, in whole depths */
     PER_OCTAVE = 16,     /* contact points per octave; a power of 2, as for the nodes */
+    COARSE = 4,          /* distance of contact points in a scan for weights alone */
     MAX_DEPTHS = (SCAN_OCTAVES + REACH) * PER_OCTAVE,
     MAX_ITERATIONS = 40, /* of Brent; golden sections alone reach 4e-9 */
     SKIPPED_SAMPLES = 4, /* per 1024 samples; the deepest ones, for spikes and end effects */
@@ -407,19 +408,20 @@ static void add_profile_point(cost_profile *to, double depth, double cost, size_
     to->octave[to->n++] = octave;
 }
 
-static void scan_costs(const projection *p, double shallowest, cost_profile *to)
+/* Costs of one contact point in `stride`, a power of 2. */
+static void scan_costs(const projection *p, double shallowest, size_t stride, cost_profile *to)
 {
     const wt_indent_workspace *w = p->workspace;
     const double *g = w->before_start[0], *gg = w->before_start[1];
     to->n = 0;
     for (size_t octave = REACH * NODES; octave > NODES; octave /= 2)
-        for (size_t i = octave; i > octave / 2; i -= octave / 2 / PER_OCTAVE)
+        for (size_t i = octave; i > octave / 2; i -= octave / 2 / PER_OCTAVE * stride)
             add_profile_point(to, p->top * (double)i / NODES,
                               projected_cost(p, &w->octave[0], 0, g + i - NODES, gg + i - NODES),
                               0);
     for (size_t l = 0; l < p->n_octaves; l++) {
         const scan_octave *o = &w->octave[l];
-        for (size_t node = 0; node < NODES / 2; node += NODES / 2 / PER_OCTAVE) {
+        for (size_t node = 0; node < NODES / 2; node += NODES / 2 / PER_OCTAVE * stride) {
             const double depth = ldexp(p->top, -(int)l) * (1.0 - (double)node / NODES);
             if (depth >= shallowest)
                 add_profile_point(to, depth, projected_cost(p, o, node + 1, o->g + 1, o->gg + 1),
@@ -523,8 +525,8 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *all, bool 
     find_node_positions(&p);
     distribute_samples(&p);
     tabulate_contact_function(&p);
-    scan_costs(&p, shallowest, &points);
-    if (weighted) { /* weights change slowly, so the lowest point of the scan is sufficient */
+    if (weighted) { /* weights change slowly, so the lowest point of a coarse scan is sufficient */
+        scan_costs(&p, shallowest, COARSE, &points);
         size_t lowest = 0;
         for (size_t i = 1; i < points.n; i++)
             lowest = points.cost[i] < points.cost[lowest] ? i : lowest;
@@ -533,11 +535,10 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *all, bool 
             return 0;
         const bool has_weights = compute_weights(table, samples, &first, w) > min_weight_ratio;
         sum_weighted_samples(&p, has_weights);
-        if (has_weights) {
+        if (has_weights)
             distribute_samples(&p);
-            scan_costs(&p, shallowest, &points);
-        }
     }
+    scan_costs(&p, shallowest, 1, &points);
     const size_t n = refine_minima(&p, &points, minima);
     for (size_t i = 0; i < n; i++)
         minima[i].cost *= (double)length;

@@ -399,8 +399,8 @@ static inline void add_equation_row(normal_equations *e, const double row[N], do
 
 /* Adds the rows of curve_model_row for non-viscoelastic contact with all samples compared, four at
  * a time. Returns the next sample. */
-WIDE_REGISTERS static size_t sum_rows_simd(const curve_law *m, const double p[N],
-                                           normal_equations *to)
+WIDE_REGISTERS static size_t sum_rows_simd(const curve_law *m, const double p[N], size_t from,
+                                           size_t end, normal_equations *to)
 {
     const curve_samples *s = m->samples;
     const wt_indent_workspace *w = m->workspace;
@@ -409,8 +409,8 @@ WIDE_REGISTERS static size_t sum_rows_simd(const curve_law *m, const double p[N]
     const double *const by_modulus = m->adhesive ? w->by_modulus : w->g;
     wide ee = {0.0}, ec = ee, ef = ee, et = ee, cc = ee, cf = ee, ct = ee, tf = ee, tt = ee,
          er = ee, cr = ee, fr = ee, tr = ee, ew = ee, cw = ee, fw = ee, tw = ee, ww = ee, wr = ee;
-    size_t i = m->n_baseline;
-    for (; i + WIDE <= s->n; i += WIDE) {
+    size_t i = from;
+    for (; i + WIDE <= end; i += WIDE) {
         wide slope, g, r, z;
         simd_load(&slope, w->slope + i);
         simd_load(&g, by_modulus + i);
@@ -451,7 +451,7 @@ WIDE_REGISTERS static size_t sum_rows_simd(const curve_law *m, const double p[N]
     to->jj[CURVE_C][CURVE_C] += simd_sum(&cc);
     to->jj[CURVE_C][CURVE_F0] += simd_sum(&cf);
     to->jj[CURVE_C][CURVE_T] += simd_sum(&ct);
-    to->jj[CURVE_F0][CURVE_F0] += (double)(i - m->n_baseline);
+    to->jj[CURVE_F0][CURVE_F0] += (double)(i - from);
     to->jj[CURVE_F0][CURVE_T] += simd_sum(&tf);
     to->jj[CURVE_T][CURVE_T] += simd_sum(&tt);
     to->jj[CURVE_E][CURVE_W] += simd_sum(&ew);
@@ -467,13 +467,14 @@ WIDE_REGISTERS static size_t sum_rows_simd(const curve_law *m, const double p[N]
     return i;
 }
 
-static void sum_rows(const curve_law *m, const double p[N], normal_equations *to)
+void curve_model_add_rows(const curve_law *m, const double p[N], size_t from, size_t end,
+                          normal_equations *to)
 {
     const curve_samples *s = m->samples;
     const bool simple = !m->plain && !m->memory && !m->wave && s->gap_to <= s->gap_from;
-    const size_t first = simple ? sum_rows_simd(m, p, to) : m->n_baseline;
+    const size_t first = simple ? sum_rows_simd(m, p, from, end, to) : from;
     normal_equations e = *to; /* a local copy keeps the sums in registers */
-    for (size_t i = first; i < s->n; i++) {
+    for (size_t i = first; i < end; i++) {
         double row[N], r = m->workspace->residual[i];
         curve_model_row(m, p, i, row);
         add_equation_row(&e, row, r, CURVE_W);
@@ -509,7 +510,7 @@ void curve_model_normal(const curve_law *m, const double p[N], normal_equations 
         e->jj[CURVE_T][CURVE_T] = szz;
         e->jr[CURVE_T] = szr;
     }
-    sum_rows(m, p, e);
+    curve_model_add_rows(m, p, m->n_baseline, m->samples->n, e);
     for (size_t a = 0; a < N; a++) {
         for (size_t b = 0; b < a; b++)
             e->jj[a][b] = e->jj[b][a];

@@ -50,6 +50,10 @@ double curve_model_cost(curve_law *model, const double p[CURVE_N_PARAMETERS]);
 /* Computes the normal equations at the parameters of the latest evaluation. */
 void curve_model_normal(const curve_law *model, const double p[CURVE_N_PARAMETERS],
                         normal_equations *equations);
+/* Adds the equations of the samples from `from` to before `to`, none of which the sums represent,
+ * to the upper triangle. */
+void curve_model_add_rows(const curve_law *model, const double p[CURVE_N_PARAMETERS], size_t from,
+                          size_t to, normal_equations *equations);
 /* Computes the samples that the sums represent, at the parameters of the latest evaluation. */
 void curve_model_complete(const curve_law *model, const double p[CURVE_N_PARAMETERS]);
 /* Tests the lack of fit at the parameters of the latest evaluation. `e` has the residuals of the
@@ -109,6 +113,14 @@ static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_
     for (size_t a = 0; a < CURVE_N_PARAMETERS && curve_is_in_gap(m->samples, i); a++)
         row[a] = 0.0;
     return plain;
+}
+
+/* Step between the samples of a block of `length` whose derivatives are evaluated. Derivatives are
+ * smooth, so a few represent a block, except with a wave or with measured indentations. */
+static inline size_t curve_block_step(const curve_law *m, size_t length)
+{
+    enum { PER_BLOCK = 4 };
+    return m->wave || m->plain || length <= PER_BLOCK ? 1 : length / PER_BLOCK;
 }
 
 /* Solves k (z - x) = E (past + now G(x)) for the depth x if k z > E past, and returns G and its

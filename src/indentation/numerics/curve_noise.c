@@ -157,7 +157,7 @@ WIDE_REGISTERS static void average_blocks(const curve_law *m, const double p[N],
     memset(b, 0, sizeof *b);
     b->length = contact / IN_CONTACT > least ? contact / IN_CONTACT : least;
     b->n = s->n / b->length;
-    const size_t start = s->n - b->n * b->length;
+    const size_t start = s->n - b->n * b->length, step = curve_block_step(m, b->length);
     const double length = (double)b->length, share = 1.0 / length;
     for (size_t i = 0; i < b->n; i++) {
         const size_t from = start + i * b->length, to = from + b->length;
@@ -170,12 +170,15 @@ WIDE_REGISTERS static void average_blocks(const curve_law *m, const double p[N],
             b->column[CURVE_T][i] = m->free[CURVE_T] ? position - p[CURVE_C] * length : 0.0;
             continue;
         }
-        for (size_t j = from; j < to; j++) {
+        size_t n_rows = 0;
+        for (size_t j = from + step / 2; j < to; j += step, n_rows++) {
             double row[N];
             const double h = curve_model_row(m, p, j, row);
             for (size_t c = 0; c < N; c++)
                 b->column[c][i] += row[c] * h;
         }
+        for (size_t c = 0; c < N; c++)
+            b->column[c][i] *= length / (double)n_rows;
     }
 }
 

@@ -64,12 +64,13 @@ static const double rounding_tolerance =
 
 /* ---- block means of the residual, and their noise -------------------------------------------- */
 
-/* Adds sample j to block i of the history and window. */
-static void add_block_columns(const curve_law *m, const double p[N], size_t j, size_t i, blocks *b)
+/* Adds a share of sample j to block i of the history and window. */
+static void add_block_columns(const curve_law *m, const double p[N], size_t j, double share,
+                              size_t i, blocks *b)
 {
     const wt_indent_workspace *w = m->workspace;
     double row[N];
-    const double factor = curve_model_row(m, p, j, row), share = 1.0 / (double)b->length;
+    const double factor = curve_model_row(m, p, j, row);
     size_t c = 0;
     for (size_t a = 0; a < N; a++)
         if (m->free[a])
@@ -111,9 +112,11 @@ static WIDE_REGISTERS bool residual_blocks_average(const curve_law *m, const dou
     }
     memset(b->column, 0, b->n_columns * sizeof b->column[0]);
     const size_t history = b->n_before < MAX_ORDER ? b->n_before : MAX_ORDER;
+    const size_t step = curve_block_step(m, length), n_rows = (length - step / 2 + step - 1) / step;
     for (size_t i = MAX_ORDER - history; i < MAX_ORDER + b->n; i++)
-        for (size_t j = 0; j < length; j++)
-            add_block_columns(m, p, first + i * length + j - MAX_ORDER * length, i, b);
+        for (size_t j = step / 2; j < length; j += step)
+            add_block_columns(m, p, first + i * length + j - MAX_ORDER * length,
+                              1.0 / (double)n_rows, i, b);
     return true;
 }
 

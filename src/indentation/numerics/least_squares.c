@@ -285,22 +285,25 @@ static const double part_end[PARTS - 1] = {0.15, 0.3, 0.5, 0.7};
 static const int range_parts[WT_FIT_RANGES][2] = {{0, 3}, {2, PARTS}, {1, 4}};
 
 typedef struct force_parts {
-    normal_equations of[PARTS]; /* lower triangles */
+    normal_equations of[PARTS]; /* upper triangles */
     size_t n[PARTS];
 } force_parts;
 
-static void add_to_part(force_parts *parts, double force_share, const double row[N], double r)
+/* Divides the contact into parts, at the last sample with a modelled force below each limit. */
+static void divide_contact(const curve_law *m, const double p[N], size_t first, force_parts *parts)
 {
-    int part = 0;
-    while (part < PARTS - 1 && force_share > part_end[part])
-        part++;
-    normal_equations *e = &parts->of[part];
-    for (size_t a = 0; a < N; a++) {
-        e->jr[a] += row[a] * r;
-        for (size_t b = 0; b <= a; b++)
-            e->jj[a][b] += row[a] * row[b];
+    const curve_samples *s = m->samples;
+    const double *g = m->workspace->g, largest = g[s->n - 1];
+    size_t to = s->n;
+    for (int part = PARTS; part-- > 0;) {
+        size_t from = part > 0 ? to : first;
+        while (part > 0 && from > first && g[from - 1] > part_end[part - 1] * largest)
+            from--;
+        curve_model_add_rows(m, p, from, to, &parts->of[part]);
+        for (size_t i = from; i < to; i++)
+            parts->n[part] += !curve_is_in_gap(s, i);
+        to = from;
     }
-    parts->n[part]++;
 }
 
 /* Solves for the step of the parameters to a range, and for the inverse of its matrix. */
@@ -317,7 +320,7 @@ static bool solve_range(const force_parts *parts, const normal_equations *all, c
         }
         for (size_t a = 0; a < N; a++) {
             e.jr[a] -= parts->of[part].jr[a];
-            for (size_t b = 0; b <= a; b++)
+            for (size_t b = a; b < N; b++)
                 e.jj[b][a] = e.jj[a][b] -= parts->of[part].jj[a][b];
         }
     }
@@ -389,9 +392,6 @@ WIDE_REGISTERS static void compute_statistics(const curve_law *m, curve_solution
     memcpy(gain, e.jr, sizeof gain);
     s->max_indentation = 0.0;
     force_parts parts = {0};
-    const double max_force = samples->force[n - 1] - p[CURVE_F0] -
-                             p[CURVE_T] * (samples->position[n - 1] - p[CURVE_C]) -
-                             w->residual[n - 1] / curve_model_row(m, p, n - 1, row);
     memcpy(w->scratch, w->residual, m->n_baseline * sizeof *w->scratch);
     for (size_t i = m->n_baseline; i < n; i++) {
         const double r = w->residual[i], h = curve_model_row(m, p, i, row);
@@ -402,8 +402,6 @@ WIDE_REGISTERS static void compute_statistics(const curve_law *m, curve_solution
             s->max_indentation = w->delta[i];
         for (size_t a = 0; a < N; a++)
             gain[a] += row[a] * (h * f - r);
-        if (i >= first && !curve_is_in_gap(samples, i))
-            add_to_part(&parts, (f - w->scratch[i]) / max_force, row, r);
     }
     s->lack = curve_lack_of_fit(m, p, w->scratch);
     s->bent = s->lack.baseline_p < bent_chance;
@@ -426,6 +424,7 @@ WIDE_REGISTERS static void compute_statistics(const curve_law *m, curve_solution
                 variance += inverse[a][b] * noise.scatter[b][c] * inverse[a][c];
         s->standard_error[a] = !m->free[a] ? 0.0 : solved ? sqrt(variance) : (double)NAN;
     }
+    divide_contact(m, p, first, &parts);
     if (solved)
         compute_range_spread(&parts, &e, inverse, s);
     /* A step with a smaller predicted decrease changes the modulus by less. */
