@@ -511,10 +511,8 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *all, bool 
     const curve_samples means = curve_average_samples(all, all->n, length, w), *samples = &means;
     projection p = begin_projection(table, samples, tilt, w);
     const size_t n_skipped = SKIPPED_SAMPLES * ((samples->n + 1023) / 1024);
-    double upper_tip = -(double)INFINITY;
+    const double upper_tip = curve_find_span(w->tip, samples->n - n_skipped + 1).high;
     cost_profile points;
-    for (size_t i = 0; i + n_skipped <= samples->n; i++)
-        upper_tip = w->tip[i] > upper_tip ? w->tip[i] : upper_tip;
     /* invalid data may overflow or be too small for a division */
     if (!isnormal(p.top) || p.top < 0.0)
         return 0;

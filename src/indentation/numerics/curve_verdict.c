@@ -101,15 +101,10 @@ double curve_left_out_error(const wt_indent_fit *fit)
 /* ---- verdict --------------------------------------------------------------------------------- */
 
 /* Decrease of the mean force from the first tenth of the samples to the last. */
-static double force_fall(const curve_samples *s)
+WIDE_REGISTERS static double force_fall(const curve_samples *s)
 {
-    size_t tenth = s->n / 10;
-    double first = 0.0, last = 0.0;
-    for (size_t i = 0; i < tenth; i++) {
-        first += s->force[i] / (double)tenth;
-        last += s->force[s->n - 1 - i] / (double)tenth;
-    }
-    return first - last;
+    const size_t tenth = s->n / 10;
+    return (curve_sum(s->force, tenth) - curve_sum(s->force + s->n - tenth, tenth)) / (double)tenth;
 }
 
 wt_curve_verdict curve_no_contact_verdict(curve_fitting *f, char reason[160])

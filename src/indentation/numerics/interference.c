@@ -85,13 +85,10 @@ WIDE_REGISTERS static bool average_baseline(const curve_fitting *f, baseline_blo
     b->n = n / length;
     b->length = (double)length;
     for (size_t i = 0; i < b->n; i++) {
-        double force = 0.0, position = 0.0;
-        for (size_t j = first + i * length; j < first + (i + 1) * length; j++) {
-            force += s->force[j] - curve_baseline(&f->solution, s->position[j]);
-            position += s->position[j];
-        }
-        b->x[i] = force / b->length;
-        b->z[i] = position / b->length;
+        const size_t from = first + i * length;
+        b->z[i] = curve_sum(s->position + from, length) / b->length;
+        b->x[i] =
+            curve_sum(s->force + from, length) / b->length - curve_baseline(&f->solution, b->z[i]);
     }
     const double middle = 0.5 * (s->position[0] + s->position[n - 1]);
     for (size_t k = 0; k < POWERS; k++) {

@@ -62,12 +62,8 @@ find_prominent_pull(const curve_fitting *f, const double p[CURVE_N_PARAMETERS], 
         end++;
     if (start < CURVE_BASELINE_SAMPLES)
         return false;
-    double elsewhere = 0.0, noise = 0.0;
-    for (size_t i = 0; i < start; i++) {
-        elsewhere = -above[i] > elsewhere ? -above[i] : elsewhere;
-        noise += above[i] * above[i];
-    }
-    noise = sqrt(noise / (double)start);
+    const double elsewhere = fmax(0.0, -curve_find_span(above, start).low),
+                 noise = sqrt(curve_dot(above, above, start) / (double)start);
     const double after_contact = s->position[start] - p[CURVE_C];
     const double max_travel = s->position[s->n - 1] - p[CURVE_C];
     *found = (curve_snap){start, deepest, end, pull};
@@ -298,9 +294,10 @@ static double robust_scatter(const double *x, size_t n, double *scratch_values)
 }
 
 /* Finds the pull-off with medians of three. If there is none, means over more and more samples are
- * used, up to the length of a pull-off, because single samples do not show a weak one. */
-static double find_pull_off(const double *above, size_t n, size_t n_free, double *smooth,
-                            double *scratch_values)
+ * used, up to the length of a pull-off, because single samples do not show a weak one. Adjacent
+ * means share three quarters of their samples. */
+WIDE_REGISTERS static double find_pull_off(const double *above, size_t n, size_t n_free,
+                                           double *restrict smooth, double *scratch_values)
 {
     for (size_t i = 1; i + 1 < n; i++)
         smooth[i - 1] = middle_value(above[i - 1], above[i], above[i + 1]);
@@ -310,13 +307,12 @@ static double find_pull_off(const double *above, size_t n, size_t n_free, double
         const size_t width = (size_t)(part * pull_off_share * (double)n);
         if (width < 4 || n_free < 4 * width)
             continue;
-        const size_t means = n - width + 1, free = n_free - width + 1;
-        double sum = curve_sum(above, width);
-        for (size_t i = 0; i < means; i++) {
-            smooth[i] = sum / (double)width;
-            sum += i + width < n ? above[i + width] - above[i] : 0.0;
-        }
-        pull = find_sudden_pull(smooth, smooth, means, width, free,
+        enum { OVERLAP = 4 };
+        const size_t step = width / OVERLAP, means = (n - width) / step + 1,
+                     free = (n_free - width) / step + 1, from = (n - width) % step;
+        for (size_t i = 0; i < means; i++)
+            smooth[i] = curve_sum(above + from + i * step, width) / (double)width;
+        pull = find_sudden_pull(smooth, smooth, means, OVERLAP, free,
                                 robust_scatter(smooth + means - free, free, scratch_values));
     }
     return pull;
@@ -327,8 +323,13 @@ static double find_pull_off(const double *above, size_t n, size_t n_free, double
 static double branch_work(const double *position, const double *force, size_t n, double from,
                           double to)
 {
-    double sum = 0.0, last = n > 0 ? clamp_value(position[0], from, to) : 0.0;
-    for (size_t i = 1; i < n; i++) {
+    size_t start = 1; /* samples below `from` at either end have no work */
+    while (start < n && !(position[start] > from))
+        start++;
+    while (n > start && !(position[n - 1] > from) && !(position[n - 2] > from))
+        n--;
+    double sum = 0.0, last = n > 0 ? clamp_value(position[start - 1], from, to) : 0.0;
+    for (size_t i = start; i < n; i++) {
         const double first = last;
         last = clamp_value(position[i], from, to);
         if (!(fabs(last - first) > 0.0))
@@ -485,6 +486,7 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
     /* Otherwise the sample received too little work for a result. */
     if (share > 1.0 - max_loss && share < max_loss)
         f->loss = share;
-    if (!curve_has_wave(&f->solution.wave))
+    const bool is_needed = f->snap_in_pull > 0.0 || f->pull_off > 0.0 || f->options->fit_retract;
+    if (is_needed && !curve_has_wave(&f->solution.wave))
         store_unloading(f, n_kept);
 }
