@@ -115,12 +115,11 @@ static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_
     return plain;
 }
 
-/* Step between the samples of a block of `length` whose derivatives are evaluated. Derivatives are
- * smooth, so a few represent a block, except with a wave or with measured indentations. */
-static inline size_t curve_block_step(const curve_law *m, size_t length)
+/* Step between the samples of a block whose derivatives are evaluated. They are smooth, so that
+ * four represent a block. */
+static inline size_t curve_block_step(size_t length)
 {
-    enum { PER_BLOCK = 4 };
-    return m->wave || m->plain || length <= PER_BLOCK ? 1 : length / PER_BLOCK;
+    return length < 4 ? 1 : length / 4;
 }
 
 /* Solves k (z - x) = E (past + now G(x)) for the depth x if k z > E past, and returns G and its
