@@ -30,6 +30,29 @@ static int write_curves(const afm_sample *sample, const afm_scene *s, random_sou
     return fclose(file) != 0 || bad ? -1 : 0;
 }
 
+/* Sample of one position: the common one, or one of its own. */
+static const afm_sample *make_sample(spots *to, int i, const afm_sample *common, afm_scene *here,
+                                     random_source *random)
+{
+    if (here->calibration == CALIBRATION_DRAWN && i > 0)
+        return to->sample[0];
+    if (here->calibration == CALIBRATION_DRAWN) {
+        const double lever = 1 + 0.1 * random_normal(random),
+                     sensitivity = 1 + 0.03 * random_normal(random);
+        here->spring_constant = lever * (here->spring_constant > 0 ? here->spring_constant : 0.5);
+        here->angle_factor = 1 + random_normal(random) / 35;
+        here->radius_factor = 1 + 0.1 * random_normal(random);
+        to->own[i] = afm_sample_make(here);
+        if (to->own[i] != NULL)
+            afm_sample_as_stated(to->own[i], lever, sensitivity);
+    } else if (here->spots > 0) {
+        here->modulus =
+            (here->modulus > 0 ? here->modulus : 5e6) * exp(here->spots * random_normal(random));
+        to->own[i] = afm_sample_make(here);
+    }
+    return to->own[i] != NULL ? to->own[i] : common;
+}
+
 static int make_spots(spots *to, const afm_sample *sample, const afm_scene *s,
                       random_source *random, trial *t)
 {
@@ -40,12 +63,7 @@ static int make_spots(spots *to, const afm_sample *sample, const afm_scene *s,
         afm_scene here = *s;
         snprintf(name, sizeof name, "curves%d.tsv", i + 1);
         to->path[i] = trial_file(t, name);
-        to->sample[i] = sample;
-        if (s->spots > 0) {
-            here.modulus =
-                (s->modulus > 0 ? s->modulus : 5e6) * exp(s->spots * random_normal(random));
-            to->sample[i] = to->own[i] = afm_sample_make(&here);
-        }
+        to->sample[i] = make_sample(to, i, sample, &here, random);
         bad =
             to->sample[i] == NULL || write_curves(to->sample[i], &here, random, i * CURVES / to->n,
                                                   CURVES / to->n, to->path[i]) != 0;
@@ -78,6 +96,7 @@ static void read_curves(const char *path, const afm_scene *s, const afm_sample *
                         const spots *from, trial *t)
 {
     stream *found = stream_read(path);
+    const bool drawn = s->calibration == CALIBRATION_DRAWN;
     if (found == NULL || stream_rows(found, place_modulus.table) != CURVES) {
         trial_broke(t, "not as many curves as there were");
     } else {
@@ -90,12 +109,13 @@ static void read_curves(const char *path, const afm_scene *s, const afm_sample *
             if (!good && !stream_is(found, table, PLACE_CURVE, i, PLACE_WIDE) &&
                 !stream_is(found, table, PLACE_CURVE, i, PLACE_DOUBTFUL))
                 e.value = e.low = e.high = (double)NAN;
-            trial_add(t, Q_MODULUS, from->sample[i * from->n / CURVES]->modulus, e);
+            if (!drawn) /* the errors of a curve do not hold those that all curves share */
+                trial_add(t, Q_MODULUS, from->sample[i * from->n / CURVES]->modulus, e);
             if (s->dma > 0)
                 trial_add(t, Q_FACTOR, s->dma, place_row(found, &place_factor, i));
         }
         const estimate group = place_key(found, &place_budget[0]);
-        if (from->own[0] == NULL && group.value > 0) /* otherwise the positions share no modulus */
+        if (!(s->spots > 0) && group.value > 0) /* otherwise the positions share no modulus */
             trial_add(t, Q_GROUP_MODULUS, from->sample[0]->modulus, group);
         const double chance = stream_number(found, place_modulus.table, PLACE_POOLED_CHANCE, NULL);
         const char *changes = stream_key(found, PLACE_DEPTH, PLACE_DEPTH_CHANGES);
@@ -105,7 +125,7 @@ static void read_curves(const char *path, const afm_scene *s, const afm_sample *
         t->draw->verdict = accepted < share_needed * CURVES || chance < level || shown ? NO
                            : isnan(chance) || silent ? INCONCLUSIVE
                                                      : YES;
-        for (int i = 0; i < AFM_DEPTHS && changes != NULL && s->tip != TIP_PUNCH; i++)
+        for (int i = 0; i < AFM_DEPTHS && changes != NULL && s->tip != TIP_PUNCH && !drawn; i++)
             trial_add(t, Q_DEPTH, afm_apparent(s, sample, (i + 1.0) / AFM_DEPTHS),
                       place_row(found, &place_depth, i));
     }
@@ -137,12 +157,14 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     const afm_sample *sample = prepared;
     const char *made = trial_file(t, "indentation.tsv");
     const char *spectrum = s->dma > 0 ? trial_file(t, "spectrum.tsv") : NULL;
-    char told[128];
+    char told[128], lever[32];
     snprintf(told, sizeof told, "%s", tip[s->tip]);
     if (s->radius_stated > 0) /* at a depth of 50 nm */
         snprintf(told, sizeof told, "pyramid:half-angle=35deg+-%.9g%%,radius=50nm+-%.9g%%",
                  100 * s->angle_stated, 100 * s->radius_stated);
-    const char *arguments[SPOTS + 20] = {"indent"};
+    if (s->calibration == CALIBRATION_EXACT) /* the tip of these scenes is a blunted pyramid */
+        snprintf(told, sizeof told, "pyramid:half-angle=35deg+-0.01%%,radius=20nm+-0.01%%");
+    const char *arguments[SPOTS + 24] = {"indent"};
     char values[FURTHER][32];
     spots from;
     int n = 1;
@@ -172,6 +194,12 @@ static void observe(int scene, const void *prepared, random_source *random, tria
             }
         if (s->unbonded)
             arguments[n++] = "--unbonded";
+        if (s->calibration == CALIBRATION_EXACT) {
+            snprintf(lever, sizeof lever, "%.9gN/m+-0.01%%", sample->spring_constant);
+            const char *const exact[] = {"--spring-constant", lever, "--sensitivity-error", "1e-4"};
+            for (size_t i = 0; i < sizeof exact / sizeof exact[0]; i++)
+                arguments[n++] = exact[i];
+        }
         if (trial_run(t, arguments))
             read_curves(made, s, sample, &from, t);
     }

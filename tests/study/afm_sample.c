@@ -244,6 +244,14 @@ afm_sample *afm_sample_make(const afm_scene *s)
     return to;
 }
 
+void afm_sample_as_stated(afm_sample *sample, double lever, double sensitivity)
+{
+    for (int i = 0; i < AFM_SAMPLES; i++)
+        sample->force[i] /= lever * sensitivity;
+    sample->largest /= lever * sensitivity;
+    sample->spring_constant /= lever;
+}
+
 double afm_apparent(const afm_scene *s, const afm_sample *sample, double share)
 {
     const double depth = share * true_depth(s);

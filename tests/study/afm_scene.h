@@ -25,6 +25,14 @@ typedef enum afm_kind {
 
 typedef enum afm_loss { LOSS_NONE, LOSS_COLE_COLE, LOSS_BEYOND, LOSS_POWER, LOSS_MAXWELL } afm_loss;
 
+typedef enum calibration_kind {
+    CALIBRATION_UNSAID, /* true values, stated without an error */
+    /* Without an error, off by 10 % (spring constant), 3 % (sensitivity), 1 degree and 10 %
+     * (radius), normally distributed: what the program assumes of values without a stated error. */
+    CALIBRATION_DRAWN,
+    CALIBRATION_EXACT, /* true values, stated with errors of 0.01 % */
+} calibration_kind;
+
 /* Defaults: a four-sided pyramid of 35 degrees and 20 nm indents rubber of 5 MPa by 70 nm with a
  * spring constant of 0.5 N/m. */
 typedef struct afm_scene {
@@ -69,6 +77,7 @@ typedef struct afm_scene {
         *layered; /* layer by the integral equation, computed before; NULL: none */
     /* relative scatter of the moduli of six positions, a file each; 0: one position */
     double spots;
+    calibration_kind calibration; /* of lever and tip, once for all curves of a draw */
 } afm_scene;
 
 extern const afm_scene afm_scenes[];

@@ -50,13 +50,8 @@ static afm_sample *make_sample(const lever_scene *s, int zone, const calibration
                         .reach = s->reach,
                         .depth = s->depth[zone]};
     afm_sample *sample = afm_sample_make(here);
-    const double as_stated = 1 / (c->lever * c->sensitivity);
-    if (sample == NULL)
-        return NULL;
-    for (int i = 0; i < AFM_SAMPLES; i++)
-        sample->force[i] *= as_stated;
-    sample->largest *= as_stated;
-    sample->spring_constant = c->stated;
+    if (sample != NULL)
+        afm_sample_as_stated(sample, c->lever, c->sensitivity);
     return sample;
 }
 
