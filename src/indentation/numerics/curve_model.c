@@ -147,9 +147,9 @@ WIDE_REGISTERS static void balance_elastic(curve_law *m, const double p[N], size
         first < s->n
             ? fmax(0.0, curve_find_span(s->position + first, s->n - first).high - p[CURVE_C])
             : 0.0;
-    /* The error after a step of 1e-7 is of the order of its square. */
+    /* The error after a step of 1e-5 is of the order of its square. */
     double largest_step = (double)INFINITY;
-    for (int i = 0; i < MAX_NEWTON && largest_step > 1e-7 * deepest; i++) {
+    for (int i = 0; i < MAX_NEWTON && largest_step > 1e-5 * deepest; i++) {
         wt_contact_table_eval(m->table, w->delta + first, s->n - first, w->g + first,
                               w->slope + first);
         largest_step = newton_step(m, p, first);

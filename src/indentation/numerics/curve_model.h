@@ -60,6 +60,11 @@ void curve_model_complete(const curve_law *model, const double p[CURVE_N_PARAMET
  * noise. */
 curve_misfit_test curve_lack_of_fit(const curve_law *model, const double p[CURVE_N_PARAMETERS],
                                     const double *e);
+/* Orthonormalises the columns one by one and subtracts their projections from r. Returns the sum of
+ * squares of the projections from column `count` on, and their number. Columns and r are destroyed.
+ */
+double curve_orthogonalise(double *r, double *const *columns, size_t n_columns, size_t count,
+                           size_t n, size_t *n_counted);
 /* Effect of the noise on the sums J'e at the parameters of the latest evaluation. */
 typedef struct curve_noise {
     double variance;           /* variance of a sample of the baseline */

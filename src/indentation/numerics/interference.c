@@ -90,23 +90,16 @@ WIDE_REGISTERS static bool average_baseline(const curve_fitting *f, baseline_blo
         b->x[i] =
             curve_sum(s->force + from, length) / b->length - curve_baseline(&f->solution, b->z[i]);
     }
-    const double middle = 0.5 * (s->position[0] + s->position[n - 1]);
+    double *column[POWERS];
     for (size_t k = 0; k < POWERS; k++) {
-        double *now = b->power[k];
+        column[k] = b->power[k];
         for (size_t i = 0; i < b->n; i++)
-            now[i] = k > 0 ? (b->z[i] - middle) * b->power[k - 1][i] : 1.0;
-        for (size_t d = 0; d < k; d++) {
-            const double along = curve_dot(b->power[d], now, b->n);
-            for (size_t i = 0; i < b->n; i++)
-                now[i] -= along * b->power[d][i];
-        }
-        const double norm = sqrt(curve_dot(now, now, b->n));
-        if (!(norm > 0.0))
-            return false;
-        for (size_t i = 0; i < b->n; i++)
-            now[i] /= norm;
+            column[k][i] = k > 0 ? (b->z[i] - last) / b->travel * column[k - 1][i] : 1.0;
     }
-    subtract_cubic(b, b->x);
+    size_t n_powers;
+    curve_orthogonalise(b->x, column, POWERS, 0, b->n, &n_powers);
+    if (n_powers < POWERS)
+        return false;
     b->cycle = 2.0 * M_PI / b->travel;
     b->lowest = fmax(b->cycle, 2.0 * M_PI / max_period);
     b->highest = fmin(2.0 * M_PI / min_period, 2.0 * M_PI / PER_PERIOD * (double)b->n / b->travel);

@@ -129,12 +129,8 @@ static double residual_subtract_projection(const double *q, double *x, size_t n)
     return along;
 }
 
-/* Orthonormalises the columns one by one and subtracts their projections from r. Returns the sum of
- * squares of the projections from column `count` on, and their number. Columns and r are destroyed.
- */
-static WIDE_REGISTERS double residual_orthogonalise(double *r, double *const *columns,
-                                                    size_t n_columns, size_t count, size_t n,
-                                                    size_t *n_counted)
+WIDE_REGISTERS double curve_orthogonalise(double *r, double *const *columns, size_t n_columns,
+                                          size_t count, size_t n, size_t *n_counted)
 {
     double removed = 0.0;
     *n_counted = 0;
@@ -183,7 +179,7 @@ static void subtract_polynomial(double *x, size_t n, size_t terms)
     double *const columns[POWERS] = {power[0], power[1], power[2], power[3]};
     size_t ignored;
     tabulate_powers(n, power);
-    residual_orthogonalise(x, columns, terms, terms, n, &ignored);
+    curve_orthogonalise(x, columns, terms, terms, n, &ignored);
 }
 
 /* Subtracts the columns of the parameters and slow cosines from the window. */
@@ -198,7 +194,7 @@ static void subtract_slow_waves(const blocks *b, double *x)
             store[c][i] =
                 c < b->n_columns ? b->column[c][MAX_ORDER + i] : cos(angle * ((double)i + 0.5));
     }
-    residual_orthogonalise(x, columns, b->n_columns + SLOW, b->n_columns + SLOW, b->n, &ignored);
+    curve_orthogonalise(x, columns, b->n_columns + SLOW, b->n_columns + SLOW, b->n, &ignored);
 }
 
 /* Fits an autoregression by Burg's method, with the order by the corrected Akaike criterion. */
@@ -327,7 +323,7 @@ WIDE_REGISTERS static double contact_residual_chance(const blocks *b, cosine_tab
         residual_blocks_zero_gap(b, store[c]);
         columns[c] = store[c];
     }
-    const double explained = residual_orthogonalise(r, columns, n, b->n_columns, b->n, &n_counted);
+    const double explained = curve_orthogonalise(r, columns, n, b->n_columns, b->n, &n_counted);
     *statistic = n_counted > 0 ? explained / (double)n_counted / b->innovation : 0.0;
     return gsl_cdf_fdist_Q(*statistic, (double)n_counted, b->freedom);
 }
@@ -342,7 +338,7 @@ static double baseline_residual_chance(const blocks *b)
     for (int c = 0; c < 4; c++)
         residual_blocks_whiten(b, power[c], skip, n, store[c]);
     residual_blocks_whiten(b, b->r, skip, n, r);
-    const double explained = residual_orthogonalise(r, columns, 4, 2, n, &n_counted);
+    const double explained = curve_orthogonalise(r, columns, 4, 2, n, &n_counted);
     if (n_counted == 0)
         return 1.0;
     return gsl_cdf_fdist_Q(explained / (double)n_counted / b->innovation, (double)n_counted,

@@ -390,7 +390,7 @@ WIDE_REGISTERS static void compute_statistics(const curve_law *m, curve_solution
     curve_model_normal(m, p, &e);
     double row[N], gain[N];
     memcpy(gain, e.jr, sizeof gain);
-    s->max_indentation = 0.0;
+    s->max_indentation = fmax(0.0, curve_find_span(w->delta, n).high);
     force_parts parts = {0};
     memcpy(w->scratch, w->residual, m->n_baseline * sizeof *w->scratch);
     for (size_t i = m->n_baseline; i < n; i++) {
@@ -398,8 +398,6 @@ WIDE_REGISTERS static void compute_statistics(const curve_law *m, curve_solution
         const double f =
             samples->force[i] - p[CURVE_F0] - p[CURVE_T] * (samples->position[i] - p[CURVE_C]);
         w->scratch[i] = r / h; /* e */
-        if (w->delta[i] > s->max_indentation)
-            s->max_indentation = w->delta[i];
         for (size_t a = 0; a < N; a++)
             gain[a] += row[a] * (h * f - r);
     }
