@@ -120,13 +120,6 @@ static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_
     return plain;
 }
 
-/* Step between the samples of a block whose derivatives are evaluated. They are smooth, so that
- * four represent a block. */
-static inline size_t curve_block_step(size_t length)
-{
-    return length < 4 ? 1 : length / 4;
-}
-
 /* Solves k (z - x) = E (past + now G(x)) for the depth x if k z > E past, and returns G and its
  * slope there. `start` is an initial value or 0. The left side minus the right side falls and is
  * concave. */

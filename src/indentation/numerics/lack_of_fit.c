@@ -112,7 +112,8 @@ static WIDE_REGISTERS bool residual_blocks_average(const curve_law *m, const dou
     }
     memset(b->column, 0, b->n_columns * sizeof b->column[0]);
     const size_t history = b->n_before < MAX_ORDER ? b->n_before : MAX_ORDER;
-    const size_t step = curve_block_step(length), n_rows = (length - step / 2 + step - 1) / step;
+    const size_t step = length < 4 ? 1 : length / 4; /* derivatives are smooth */
+    const size_t n_rows = (length - step / 2 + step - 1) / step;
     for (size_t i = MAX_ORDER - history; i < MAX_ORDER + b->n; i++)
         for (size_t j = step / 2; j < length; j += step)
             add_block_columns(m, p, first + i * length + j - MAX_ORDER * length,
