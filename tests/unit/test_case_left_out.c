@@ -464,14 +464,13 @@ static void check_material(const char *asks, const ran *r)
                        (r->replicates > 0 && (runs(r, FLOW_LAYER) || runs(r, FLOW_FRICTION) ||
                                               runs(r, FLOW_ERROR_BUDGET)));
     /* The choice of the vertical shift needs a fit with each of the three others. Error against run
-     * time needs a fit for many draws, with all isotherms as reference and with four shares of
-     * them, for friction and for the effect of the layer. */
-    const size_t precision = runs(r, FLOW_WORK_PRECISION), fewer = 2 * (1 + 4) * precision;
+     * time needs a fit for many draws. */
+    const size_t precision = runs(r, FLOW_WORK_PRECISION);
     check(asks, MASTERS,
-          runs(r, FLOW_PRONY) + 3 * (size_t)runs(r, FLOW_WHAT_IF) + precision + fewer +
+          runs(r, FLOW_PRONY) + 3 * (size_t)runs(r, FLOW_WHAT_IF) + precision +
               ISOTHERMS_LEFT_OUT * (size_t)shown(r, FLOW_INFLUENCES));
     check(asks, VERDICTS, (size_t)runs(r, FLOW_PRONY));
-    check(asks, DRAWS, 200 * (drawn + fewer) + 4000 * precision);
+    check(asks, DRAWS, 200 * drawn + 4000 * precision);
 }
 
 /* Results of the DMA that the other stages do not use. */

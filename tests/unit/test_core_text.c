@@ -363,7 +363,7 @@ static void nearest_names(void **state)
     assert_int_equal(spelling_distance(lengthy, 63, lengthy, 63), 0);
     assert_true(spelling_distance(lengthy, 64, lengthy, 64) == SIZE_MAX);
 
-    static const char *const names[] = {"indent", "spot", "master", "ramp", "run"};
+    static const char *const names[] = {"indent", "convert", "master", "ramp", "run"};
     static const struct {
         const char *word, *name;
     } words[] = {{"identt", "indent"}, {"mater", "master"}, {"rum", "run"}, {"RUN", "run"},
