@@ -144,7 +144,6 @@ case_file w.xml "$rubber$rough$slides<layer><critical-energy>2e10J/m^3</critical
 helps run --no-report w.xml -o a.h5
 case_file w.xml "$rubber$rough$slides<layer>$balance$ratio</layer>$measured"
 helps run --no-report w.xml -o a.h5
-not_advice 'it does not say what it was made of (--no-provenance)' 'reason why a result is made again'
 piece 'name what distinguishes them with <sample> and <condition>'
 case_file w.xml "<sample>s</sample><condition>c</condition>$rubber$rough$slides"
 "$weartrack" run -q --no-report w.xml -o one.h5 > out 2> err; "$weartrack" run -q --no-report w.xml -o two.h5 > out 2> err
@@ -152,7 +151,6 @@ cause 'with <sample> and <condition> in the case files' collect one.h5 two.h5
 case_file w.xml "<sample>s</sample><condition>d</condition>$rubber$rough$slides"
 "$weartrack" run -q --no-report w.xml -o two.h5 > out 2> err
 helps collect one.h5 two.h5
-no_input 'no digest distinguishes them (--no-provenance)' 'a reason in a table'
 
 piece 'a style of your own is a file that ends in .gp, given with --style'
 cause 'given with --style' report --style mine three.h5 -o p.html

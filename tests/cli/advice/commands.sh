@@ -20,6 +20,9 @@ helps master --poisson-ratio 0.5 three.csv -o a.h5
 piece 'hold a record against the growing layer: weartrack validate'
 cause 'hold a record against the growing layer' friction $slide --running-in-friction
 helps validate --help
+piece 'indent --curves has force against indentation'
+cause 'indent --curves has force against indentation' convert --contact three.h5 "$curve"
+leads indent --tip "$tip" --spring-constant 0.3N/m --curves all "$curve" -o curves.h5
 piece 'weartrack view of the result shows all curves'
 cause 'weartrack view of the result shows all curves' report three.h5 --sheets a.pdf
 helps view --help
@@ -109,7 +112,7 @@ piece 'its curves are called bulk and are treated as those of the track'
 "$weartrack" indent -q --tip "$tip" --spring-constant 0.3N/m "$track" -o unnamed.h5 2> err
 cause '`weartrack indent --group track`' compare bulk.h5 unnamed.h5
 leads compare bulk.h5 track.h5
-piece 'two files are needed, BULK and TRACK' '--poisson-ratio and --sample are of --master'
+piece '--poisson-ratio and --sample are of --master'
 cause 'two files are needed' compare bulk.h5
 helps compare bulk.h5 track.h5
 cause '--poisson-ratio and --sample are of --master' compare --poisson-ratio 0.5 bulk.h5 track.h5
