@@ -31,10 +31,8 @@ static double *border_row(const bordered_matrix *b, size_t row)
 
 void bordered_zero(bordered_matrix *b)
 {
-    for (size_t i = 0; i < b->m; i++)
-        memset(border_row(b, i), 0, b->m * sizeof(double));
-    for (size_t i = 0; i < BLOCK_SIDE * b->n; i++)
-        memset(side_row(b, i), 0, b->m * sizeof(double));
+    gsl_matrix_set_zero(b->border);
+    gsl_matrix_set_zero(b->side);
     memset(b->diagonal, 0, BLOCK_DIAGONAL * b->n * sizeof *b->diagonal);
 }
 
@@ -119,30 +117,31 @@ static void solve_upper(const double *diagonal, double x[BLOCK_SIDE])
     x[0] = (x[0] - diagonal[1] * x[1]) / diagonal[0];
 }
 
-void bordered_solve(const bordered_matrix *factor, double *border, double *side)
+void bordered_solve_lower(const bordered_matrix *factor, double *border, double *side)
 {
-    const size_t m = factor->m, all = BLOCK_SIDE * factor->n;
+    const size_t m = factor->m;
+    gsl_matrix_const_view root = gsl_matrix_const_submatrix(factor->border, 0, 0, m, m);
     for (size_t i = 0; i < factor->n; i++)
         solve_lower(factor->diagonal + BLOCK_DIAGONAL * i, side + BLOCK_SIDE * i);
-    for (size_t k = 0; k < all; k++) {
+    for (size_t k = 0; k < BLOCK_SIDE * factor->n; k++) {
         const double *row = side_row(factor, k);
-        for (size_t j = 0; j < m; j++)
+        for (size_t j = 0; side[k] != 0.0 && j < m; j++)
             border[j] -= side[k] * row[j];
     }
-    for (size_t i = 0; i < m; i++) { /* the rows contain the transpose of the factor */
-        const double *row = border_row(factor, i);
-        border[i] /= row[i];
-        for (size_t j = i + 1; j < m; j++)
-            border[j] -= border[i] * row[j];
-    }
-    for (size_t i = m; i-- > 0;) {
+    dense_forward(&root.matrix, border);
+}
+
+void bordered_solve_upper(const bordered_matrix *factor, double *border, double *side)
+{
+    const size_t m = factor->m;
+    for (size_t i = m; i-- > 0;) { /* the rows contain the transpose of the factor */
         const double *row = border_row(factor, i);
         double sum = border[i];
         for (size_t j = i + 1; j < m; j++)
             sum -= row[j] * border[j];
         border[i] = sum / row[i];
     }
-    for (size_t k = 0; k < all; k++) {
+    for (size_t k = 0; k < BLOCK_SIDE * factor->n; k++) {
         const double *row = side_row(factor, k);
         for (size_t j = 0; j < m; j++)
             side[k] -= row[j] * border[j];
@@ -158,37 +157,29 @@ void bordered_inverse(const bordered_matrix *factor, gsl_matrix *scratch, border
     gsl_matrix_view space = gsl_matrix_submatrix(scratch, 0, 0, m, m),
                     border = gsl_matrix_submatrix(inverse->border, 0, 0, m, m);
     dense_inverse(&root.matrix, &space.matrix, &border.matrix);
+    double *const by[BLOCK_SIDE] = {scratch->data, scratch->data + scratch->tda};
     for (size_t i = 0; i < factor->n; i++) {
-        const double *diagonal = factor->diagonal + BLOCK_DIAGONAL * i;
-        double *row[BLOCK_SIDE], product[BLOCK_SIDE][BLOCK_SIDE] = {{1.0, 0.0}, {0.0, 1.0}};
+        const double *d = factor->diagonal + BLOCK_DIAGONAL * i,
+                     *first = side_row(factor, BLOCK_SIDE * i),
+                     *second = side_row(factor, BLOCK_SIDE * i + 1);
+        const double own = d[1] / (d[0] * d[2]);
+        double *diagonal = inverse->diagonal + BLOCK_DIAGONAL * i;
+        for (size_t j = 0; j < m; j++) { /* the block as a function of the border */
+            double x[BLOCK_SIDE] = {-first[j], -second[j]};
+            solve_upper(d, x);
+            by[0][j] = x[0];
+            by[1][j] = x[1];
+        }
+        diagonal[0] = 1.0 / (d[0] * d[0]) + own * own;
+        diagonal[1] = -own / d[2];
+        diagonal[2] = 1.0 / (d[2] * d[2]);
         for (size_t c = 0; c < BLOCK_SIDE; c++) {
-            const double *by = side_row(factor, BLOCK_SIDE * i + c);
-            row[c] = side_row(inverse, BLOCK_SIDE * i + c);
-            memset(row[c], 0, m * sizeof *row[c]);
-            dense_add_rows(row[c], m, by, 1, inverse->border->data, inverse->border->tda, m);
-            for (size_t d = 0; d <= c; d++) {
-                const double *with = side_row(factor, BLOCK_SIDE * i + d);
+            double *row = side_row(inverse, BLOCK_SIDE * i + c);
+            memset(row, 0, m * sizeof *row);
+            dense_add_rows(row, m, by[c], 1, inverse->border->data, inverse->border->tda, m);
+            for (size_t e = 0; e <= c; e++)
                 for (size_t j = 0; j < m; j++)
-                    product[c][d] += row[c][j] * with[j];
-            }
+                    diagonal[c + e] += row[j] * by[e][j];
         }
-        product[0][1] = product[1][0];
-        for (size_t j = 0; j < m; j++) {
-            double x[BLOCK_SIDE] = {-row[0][j], -row[1][j]};
-            solve_upper(diagonal, x);
-            row[0][j] = x[0];
-            row[1][j] = x[1];
-        }
-        for (size_t c = 0; c < BLOCK_SIDE; c++)
-            solve_upper(diagonal, product[c]);
-        for (size_t c = 0; c < BLOCK_SIDE; c++) { /* second solve */
-            double x[BLOCK_SIDE] = {product[0][c], product[1][c]};
-            solve_upper(diagonal, x);
-            product[0][c] = x[0];
-            product[1][c] = x[1];
-        }
-        inverse->diagonal[BLOCK_DIAGONAL * i] = product[0][0];
-        inverse->diagonal[BLOCK_DIAGONAL * i + 1] = product[1][0];
-        inverse->diagonal[BLOCK_DIAGONAL * i + 2] = product[1][1];
     }
 }

@@ -30,8 +30,10 @@ void bordered_copy(bordered_matrix *to, const bordered_matrix *from);
  * is not positive definite. */
 bool bordered_factor(bordered_matrix *b);
 double bordered_log_det(const bordered_matrix *factor);
-/* Solves in place: border [m], side [BLOCK_SIDE n]. */
-void bordered_solve(const bordered_matrix *factor, double *border, double *side);
+/* Multiply in place by the inverse of the factor, and by that of its transpose: border [m], side
+ * [BLOCK_SIDE n]. Both together solve the equations. */
+void bordered_solve_lower(const bordered_matrix *factor, double *border, double *side);
+void bordered_solve_upper(const bordered_matrix *factor, double *border, double *side);
 /* Computes the elements of the inverse at the positions of the non-zero elements of the matrix;
  * scratch: [m * m] or larger. */
 void bordered_inverse(const bordered_matrix *factor, gsl_matrix *scratch, bordered_matrix *inverse);

@@ -247,7 +247,8 @@ static wt_status new_spectrum(master_work *work, wt_error *err)
     p->mean_b = arena_numbers(m, n);
     p->slope = arena_numbers(m, n);
     p->scratch = arena_numbers(m, 9 * n + 4 * work->s->n_linear);
-    p->cross_covariance = arena_numbers(m, 3 * n + work->s->n_linear);
+    p->border = arena_numbers(m, work->s->n_linear + SPECTRUM_MAX_SMOOTH);
+    p->side = arena_numbers(m, BLOCK_SIDE * n);
     work->vertical.mean = p->mean_b;
     size_t curve = 0;
     for (size_t i = 0; i < work->set.n; i++)

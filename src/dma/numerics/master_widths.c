@@ -38,7 +38,7 @@ static wt_status fit_cell(master_work *work, int g, int d, double *weight, wt_er
               log_prior(departure_widths[d], departure_prior_width, departure_cells[d]) -
               0.5 * work->s->criterion;
     if (status == WT_OK && work->options.vertical == WT_VERTICAL_TIED)
-        posterior_store(work->posterior, &work->vertical, *weight);
+        posterior_store(work->posterior, WT_VERTICAL_TIED, &work->vertical, *weight);
     return status;
 }
 
@@ -81,7 +81,7 @@ static wt_status fit_free_shift(master_work *work, const double *log_weight, wt_
         if (status == WT_OK)
             status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
         if (status == WT_OK)
-            posterior_store(work->posterior, &work->vertical, log_weight[g]);
+            posterior_store(work->posterior, WT_VERTICAL_FREE, &work->vertical, log_weight[g]);
     }
     return status;
 }
@@ -96,19 +96,11 @@ wt_status master_fit_widths(master_work *work, wt_error *err)
     if (work->prior.held) {
         status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
         if (status == WT_OK)
-            posterior_store(p, &work->vertical, 0.0);
+            posterior_store(p, kind, &work->vertical, 0.0);
     } else {
         status = fit_tied_shift(work, log_weight, err);
         if (status == WT_OK && kind == WT_VERTICAL_FREE)
             status = fit_free_shift(work, log_weight, err);
-    }
-    for (size_t i = 0; status == WT_OK && i < p->n_cells; i++) {
-        posterior_cell *const cell = &p->cells[i];
-        if (!posterior_counts(p, cell))
-            continue;
-        status = master_set_widths(work, kind, cell->geometry, cell->departure, err);
-        if (status == WT_OK)
-            status = posterior_fill(p, kind, cell, err);
     }
     if (status != WT_OK)
         return status;

@@ -6,7 +6,7 @@
 #include "core/math/arena_gsl.h"
 #include "core/math/cholesky.h"
 
-#include <gsl/gsl_blas.h>
+#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,54 +26,6 @@ void posterior_free(wt_posterior *p)
     free(p);
 }
 
-void posterior_store(wt_posterior *p, const vertical *v, double log_weight)
-{
-    const spectrum *s = &p->frame;
-    const size_t n = s->n_unknowns;
-    posterior_cell *c = &p->cells[p->n_cells++];
-    *c = (posterior_cell){.value = arena_numbers(&p->memory, n),
-                          .noise = {s->noise[STORAGE], s->noise[LOSS]},
-                          .smoothness = s->smooth,
-                          .geometry = v->geometry,
-                          .departure = v->departure,
-                          .log_weight = log_weight,
-                          .has_converged = s->settled};
-    p->step_left = fmax(p->step_left, spectrum_step_left(s));
-    memcpy(c->value, s->value, n * sizeof *c->value);
-}
-
-wt_status posterior_fill(wt_posterior *p, wt_vertical_shift kind, posterior_cell *c, wt_error *err)
-{
-    spectrum *s = &p->frame;
-    const size_t n = s->n_unknowns;
-    arena memory = {0};
-    posterior_restore(p, c);
-    const wt_status status = spectrum_refresh(s, err);
-    if (status != WT_OK)
-        return status;
-    c->covariance = arena_matrix(&p->memory, n, n);
-    c->root = arena_matrix(&p->memory, n, n);
-    if (kind == WT_VERTICAL_TIED) { /* zero without a departure of the material */
-        c->smooth = arena_numbers(&p->memory, s->n_curves * s->n_curves);
-        vertical_smooth_part(s->prior, s->n_curves, c->smooth);
-    }
-    spectrum_precision(s, c->root);
-    for (size_t u = 0; u < n; u++)
-        *gsl_matrix_ptr(c->root, u, u) *= 1.0 + s->rounding;
-    const bool good = dense_factor(c->root);
-    if (good)
-        dense_inverse(c->root, arena_matrix(&memory, n, n), c->covariance);
-    arena_free(&memory);
-    return good ? WT_OK
-                : wt_fail(err, WT_E_CONVERGENCE, "the isotherms do not determine a spectrum");
-}
-
-bool posterior_counts(const wt_posterior *p, const posterior_cell *cell)
-{
-    /* the law cannot raise a smaller weight enough */
-    return cell->log_weight > posterior_best(p)->log_weight + 2.0 * log(least_share);
-}
-
 const posterior_cell *posterior_best(const wt_posterior *p)
 {
     const posterior_cell *best = &p->cells[0];
@@ -81,6 +33,62 @@ const posterior_cell *posterior_best(const wt_posterior *p)
         if (p->cells[c].log_weight > best->log_weight)
             best = &p->cells[c];
     return best;
+}
+
+/* Returns true if a cell has a relevant weight among those stored. */
+static bool posterior_counts(const wt_posterior *p, const posterior_cell *cell)
+{
+    /* the law cannot raise a smaller weight enough */
+    return cell->log_weight > posterior_best(p)->log_weight + 2.0 * log(least_share);
+}
+
+/* Computes the shares of the shifts in the factor of the border. */
+static void fill_through(const spectrum *s, posterior_cell *c)
+{
+    const size_t m = c->factor.m;
+    double *const border = s->border, *const side = s->side;
+    gsl_matrix_const_view root = gsl_matrix_const_submatrix(c->factor.border, 0, 0, m, m);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        double *const own = side + BLOCK_SIDE * i;
+        const double *first = gsl_matrix_const_ptr(c->factor.side, BLOCK_SIDE * i, 0),
+                     *second = gsl_matrix_const_ptr(c->factor.side, BLOCK_SIDE * i + 1, 0);
+        posterior_unit_shift(c, i, own);
+        for (size_t j = 0; j < m; j++)
+            border[j] = -own[0] * first[j] - own[1] * second[j];
+        dense_forward(&root.matrix, border);
+        for (size_t j = 0; j < m; j++)
+            gsl_matrix_set(c->through, j, i, s->column_a[i] < 0 ? 0.0 : border[j]);
+    }
+}
+
+void posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v, double log_weight)
+{
+    const spectrum *s = &p->frame;
+    const size_t n = s->n_curves, m = s->factor.m;
+    arena *const memory = &p->memory;
+    posterior_cell *c = &p->cells[p->n_cells++];
+    *c = (posterior_cell){.value = arena_numbers(memory, s->n_unknowns),
+                          .noise = {s->noise[STORAGE], s->noise[LOSS]},
+                          .smoothness = s->smooth,
+                          .geometry = v->geometry,
+                          .departure = v->departure,
+                          .log_weight = log_weight,
+                          .has_converged = s->settled};
+    p->step_left = fmax(p->step_left, spectrum_step_left(s));
+    memcpy(c->value, s->value, s->n_unknowns * sizeof *c->value);
+    if (!posterior_counts(p, c))
+        return;
+    c->factor = bordered_new(memory, m, n);
+    bordered_copy(&c->factor, &s->factor);
+    c->through = arena_matrix(memory, m, n);
+    fill_through(s, c);
+    c->block = arena_numbers(memory, BLOCK_DIAGONAL * n);
+    memcpy(c->block, s->covariance.diagonal, BLOCK_DIAGONAL * n * sizeof *c->block);
+    if (kind == WT_VERTICAL_TIED) { /* no components without a departure of the material */
+        c->n_smooth = s->prior->n_smooth;
+        c->smooth = arena_matrix(memory, n, s->prior->smooth->size2);
+        gsl_matrix_memcpy(c->smooth, s->prior->smooth);
+    }
 }
 
 void posterior_restore(wt_posterior *p, const posterior_cell *cell)
@@ -105,68 +113,85 @@ static void weigh_cells(wt_posterior *p)
         p->cells[i].weight /= sum;
 }
 
+void posterior_unit_shift(const posterior_cell *cell, size_t curve, double x[BLOCK_SIDE])
+{
+    const double *diagonal = cell->factor.diagonal + BLOCK_DIAGONAL * curve;
+    x[0] = 1.0 / diagonal[0];
+    x[1] = -diagonal[1] * x[0] / diagonal[2];
+}
+
 /* ---- shift law ------------------------------------------------------------------------------- */
 
-bool posterior_column(const wt_posterior *p, size_t curve, size_t *column)
+double posterior_shift(const wt_posterior *p, const double *value, size_t curve)
 {
-    const long c = p->frame.column_a[curve];
-    *column = c < 0 ? 0 : (size_t)c;
-    return c >= 0;
+    const long column = p->frame.column_a[curve];
+    return column < 0 ? p->frame.given_a[curve] : value[column];
+}
+
+double posterior_vertical_shift(const wt_posterior *p, const double *value, size_t curve)
+{
+    const long column = p->frame.column_b[curve];
+    const double given = p->frame.given_b[curve];
+    return column >= 0 ? value[column] : isnan(given) ? p->mean_b[curve] : given;
+}
+
+void posterior_smooth_b(const wt_posterior *p, const posterior_cell *cell, const double *value,
+                        double *log_b)
+{
+    const size_t n = p->frame.n_curves;
+    const double precision = 1.0 / pow(cell->geometry * M_LN10, 2);
+    double at[SPECTRUM_MAX_SMOOTH] = {0.0};
+    for (size_t k = 0; k < n; k++)
+        for (size_t j = 0; j < cell->n_smooth; j++)
+            at[j] += gsl_matrix_get(cell->smooth, k, j) * precision *
+                     (posterior_vertical_shift(p, value, k) - p->mean_b[k]);
+    for (size_t i = 0; i < n; i++) {
+        double sum = cell->smooth != NULL ? p->mean_b[i] : posterior_vertical_shift(p, value, i);
+        for (size_t j = 0; j < cell->n_smooth; j++)
+            sum += gsl_matrix_get(cell->smooth, i, j) * at[j];
+        log_b[i] = (isnan(p->frame.given_b[i]) ? sum : p->frame.given_b[i]) / M_LN10;
+    }
 }
 
 /* Sets the shifts of a cell and their covariance, in decades. */
 static void set_cell_shifts(const wt_posterior *p, const posterior_cell *cell)
 {
-    gsl_matrix *covariance = p->data.covariance;
+    gsl_matrix *const covariance = p->data.covariance, *const by = cell->through;
+    const size_t n = p->frame.n_curves;
     gsl_matrix_set_zero(covariance);
-    for (size_t i = 0; i < p->frame.n_curves; i++) {
-        size_t at, with;
-        p->data.log_a[i] =
-            (posterior_column(p, i, &at) ? cell->value[at] : p->frame.given_a[i]) / M_LN10;
-        for (size_t k = 0; k < p->frame.n_curves; k++)
-            if (posterior_column(p, i, &at) && posterior_column(p, k, &with))
-                gsl_matrix_set(covariance, i, k,
-                               gsl_matrix_get(cell->covariance, at, with) / (M_LN10 * M_LN10));
+    for (size_t i = 0; i < n; i++) {
+        p->data.log_a[i] = posterior_shift(p, cell->value, i) / M_LN10;
+        dense_add_rows(gsl_matrix_ptr(covariance, i, 0), n, gsl_matrix_const_ptr(by, 0, i), by->tda,
+                       by->data, by->tda, by->size1);
+        gsl_matrix_set(covariance, i, i,
+                       p->frame.column_a[i] < 0 ? 0.0 : cell->block[BLOCK_DIAGONAL * i]);
     }
+    gsl_matrix_scale(covariance, 1.0 / (M_LN10 * M_LN10));
     if (p->extra_covariance != NULL)
         gsl_matrix_add(covariance, p->extra_covariance);
 }
 
-static void component_alloc(wt_posterior *p, posterior_component *component)
-{
-    const size_t n = p->frame.n_curves;
-    component->pull = arena_vector(&p->memory, n);
-    component->inner = arena_matrix(&p->memory, n, n);
-    component->outer = arena_matrix(&p->memory, n, LAW_MAX_UNKNOWNS);
-    component->inverse = arena_matrix(&p->memory, n, n);
-}
-
-/* Computes the feedback of the law on spectrum and shifts; root: scratch. */
-static wt_status component_fill(wt_posterior *p, posterior_component *component, gsl_matrix *root,
-                                wt_error *err)
+/* Computes the feedback of the law on spectrum and shifts. */
+static wt_status component_fill(wt_posterior *p, posterior_component *component, wt_error *err)
 {
     const law_data *data = &p->data;
     const size_t n = data->n, k = component->law.n_unknowns;
-    gsl_matrix *x = arena_matrix(&p->memory, n, k), *mx = arena_matrix(&p->memory, n, k);
-    gsl_vector *gap = arena_vector(&p->memory, n);
-    component_alloc(p, component);
-    const wt_status status = law_gls_covariance(data, component->spread, root, err);
+    component->pull = arena_vector(&p->memory, n);
+    component->root = arena_matrix(&p->memory, n, n);
+    component->design = arena_matrix(&p->memory, n, k);
+    const wt_status status = law_gls_covariance(data, component->spread, component->root, err);
     if (status != WT_OK)
         return status;
-    dense_inverse(root, component->inner, component->inverse);
-    law_design(data, &p->shape, component->law.unknown, x);
+    law_design(data, &p->shape, component->law.unknown, component->design);
+    for (size_t u = 0; u < k; u++) {
+        gsl_vector_view column = gsl_matrix_column(component->design, u);
+        gsl_linalg_cholesky_svx(component->root, &column.vector);
+    }
     for (size_t i = 0; i < n; i++)
-        gsl_vector_set(gap, i,
+        gsl_vector_set(component->pull, i,
                        law_isotherm_value(data, &p->shape, component->law.unknown, i) -
                            data->log_a[i]);
-    gsl_matrix_view outer = gsl_matrix_submatrix(component->outer, 0, 0, n, k);
-    gsl_matrix_view of_law =
-        gsl_matrix_view_array_with_tda(&component->law.covariance[0][0], k, k, LAW_MAX_UNKNOWNS);
-    gsl_blas_dgemv(CblasNoTrans, 1.0, component->inverse, gap, 0.0, component->pull);
-    gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, component->inverse, x, 0.0, mx);
-    gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, mx, &of_law.matrix, 0.0, &outer.matrix);
-    gsl_matrix_memcpy(component->inner, component->inverse);
-    gsl_blas_dgemm(CblasNoTrans, CblasTrans, -1.0, &outer.matrix, mx, 1.0, component->inner);
+    gsl_linalg_cholesky_svx(component->root, component->pull);
     return WT_OK;
 }
 
@@ -214,7 +239,7 @@ static wt_status weigh_components(wt_posterior *p, gsl_matrix *root, wt_error *e
             *kept = p->components[i];
             sum += kept->weight;
             set_cell_shifts(p, kept->cell);
-            status = component_fill(p, kept, root, err);
+            status = component_fill(p, kept, err);
         }
     for (size_t i = 0; i < p->n_components; i++)
         p->components[i].weight /= sum;
@@ -231,7 +256,6 @@ static void components_without_law(wt_posterior *p)
         if (!(component->weight > 0.0))
             continue;
         component->law.unknown[0] = p->reference_a; /* without an error */
-        component_alloc(p, component);
         p->n_components++;
     }
     p->shape = (law_shape){.kind = WT_LAW_NONE, .outlier = -1};

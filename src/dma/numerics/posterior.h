@@ -27,9 +27,13 @@ enum { POSTERIOR_CELLS = 12 };
 /* One fit of the spectrum for one width of the vertical shift. */
 typedef struct posterior_cell {
     double *value;          /* [n_unknowns] */
-    gsl_matrix *covariance; /* [n_unknowns^2]; NULL: negligible weight */
-    gsl_matrix *root;       /* Cholesky factor of its inverse, or NULL */
-    double *smooth; /* [n_curves^2] smooth part of b at the isotherms; NULL: b without smoothing */
+    bordered_matrix factor; /* of the inverse of the covariance; empty: negligible weight */
+    gsl_matrix *through;    /* [border * n_curves] the covariance of two log a is the product of
+                               their columns */
+    double *block;          /* [BLOCK_DIAGONAL n_curves] covariance of a and b of each curve */
+    gsl_matrix *smooth;     /* [n_curves * components] of the smooth part of b at the isotherms;
+                               NULL: b without smoothing */
+    size_t n_smooth;
     double noise[MODULI], smoothness;
     double geometry, departure; /* widths of the vertical shift */
     double log_weight, weight;  /* weight without the law */
@@ -41,22 +45,21 @@ typedef struct posterior_component {
     const posterior_cell *cell;
     double spread, weight;
     law_fit law;
-    gsl_vector *pull;    /* [n_curves] S^-1 (law - log a) */
-    gsl_matrix *inner;   /* [n_curves^2] reduction of the covariance by the law */
-    gsl_matrix *outer;   /* [n_curves * LAW_MAX_UNKNOWNS] S^-1 X cov(law) */
-    gsl_matrix *inverse; /* [n_curves^2] S^-1 */
+    gsl_vector *pull;   /* [n_curves] S^-1 (law - log a); NULL: there is no law */
+    gsl_matrix *root;   /* [n_curves^2] Cholesky factor of S */
+    gsl_matrix *design; /* [n_curves * unknowns] S^-1 X */
 } posterior_component;
 
 struct wt_posterior {
     arena memory;
-    spectrum frame;           /* the spectrum: terms, columns, data */
-    double *temperature;      /* [n_curves] */
-    double *mean_b;           /* [n_curves] prior of ln b */
-    double *slope;            /* [n_curves] slope of the law */
-    double *scratch;          /* [9 n_curves + 4 n_linear] */
-    double *cross_covariance; /* [3 n_curves + n_linear] scratch */
-    char no_law_reason[256];  /* reason why there is no law */
-    size_t *curve;            /* [isotherms of the sweep] index in the spectrum */
+    spectrum frame;          /* the spectrum: terms, columns, data */
+    double *temperature;     /* [n_curves] */
+    double *mean_b;          /* [n_curves] prior of ln b */
+    double *slope;           /* [n_curves] slope of the law */
+    double *scratch;         /* [9 n_curves + 4 n_linear] */
+    double *border, *side;   /* [n_linear + SPECTRUM_MAX_SMOOTH], [BLOCK_SIDE n_curves] scratch */
+    char no_law_reason[256]; /* reason why there is no law */
+    size_t *curve;           /* [isotherms of the sweep] index in the spectrum */
     double *closed_form; /* [isotherms of the sweep] log10 a of ISO 18437-6, against the anchor */
     double *measured_factor; /* [points of the master curve] tan delta, NaN: not measured */
     wt_shift_quantity by;
@@ -75,12 +78,9 @@ struct wt_posterior {
 
 void posterior_free(wt_posterior *p);
 /* Stores the present fit of the frame as a cell. */
-void posterior_store(wt_posterior *p, const vertical *v, double log_weight);
-/* Returns true if a cell has a relevant weight, when all cells are stored. */
-bool posterior_counts(const wt_posterior *p, const posterior_cell *cell);
-/* Computes the covariance of a cell, to which the frame is restored; its prior must be set. */
-wt_status posterior_fill(wt_posterior *p, wt_vertical_shift kind, posterior_cell *cell,
-                         wt_error *err) WT_NODISCARD;
+void posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v, double log_weight);
+/* Computes the inverse factor of the block of a curve times its shift. */
+void posterior_unit_shift(const posterior_cell *cell, size_t curve, double x[BLOCK_SIDE]);
 /* Returns the cell with the largest weight without the law. */
 const posterior_cell *posterior_best(const wt_posterior *p);
 /* Restores the frame from a cell; its prior must be set. */
@@ -88,8 +88,9 @@ void posterior_restore(wt_posterior *p, const posterior_cell *cell);
 /* Weighs the cells, chooses the law and weighs the components. Without a law, no_law_reason has the
  * reason. */
 wt_status posterior_finish(wt_posterior *p, double reference, wt_error *err) WT_NODISCARD;
-/* Finds the column of the shift of a curve. Returns false if it is fixed. */
-bool posterior_column(const wt_posterior *p, size_t curve, size_t *column);
+/* Return ln a and ln b of a curve with these unknowns. */
+double posterior_shift(const wt_posterior *p, const double *value, size_t curve);
+double posterior_vertical_shift(const wt_posterior *p, const double *value, size_t curve);
 
 /* A curve, or a place between a curve and the next: log a of the place is that of the line between
  * them at `share` of the way, minus `law`. */

@@ -7,6 +7,7 @@
 #include "core/math/students_t.h"
 
 #include <gsl/gsl_blas.h>
+#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,19 +25,33 @@ static double extra_variance(const wt_posterior *p, size_t curve)
     return p->extra_error != NULL ? p->extra_error[curve] * p->extra_error[curve] : 0.0;
 }
 
-static wt_interval column_interval(const wt_posterior *p, long column, double held)
+/* Returns the interval of log10 a or b of a curve: element 0 or 2 of its block. */
+static wt_interval unknown_interval(const wt_posterior *p, size_t curve, size_t element,
+                                    double (*value)(const wt_posterior *, const double *, size_t))
 {
-    mixture_component component[MAX_COMPONENTS];
-    const size_t c = (size_t)column;
+    mixture_component part[MAX_COMPONENTS];
+    const bool fixed = (element == 0 ? p->frame.column_a : p->frame.column_b)[curve] < 0;
     size_t n = 0;
-    if (column < 0)
-        return (wt_interval){held, 0.0, held, held};
     for (size_t i = 0; i < p->n_cells; i++)
         if (p->cells[i].weight > 0.0)
-            component[n++] =
-                (mixture_component){p->cells[i].weight, p->cells[i].value[c] / M_LN10,
-                                    sqrt(gsl_matrix_get(p->cells[i].covariance, c, c)) / M_LN10};
-    return mixture_interval(component, n);
+            part[n++] = (mixture_component){
+                p->cells[i].weight, value(p, p->cells[i].value, curve) / M_LN10,
+                sqrt(p->cells[i].block[BLOCK_DIAGONAL * curve + element]) / M_LN10};
+    return fixed ? (wt_interval){part[0].mean, 0.0, part[0].mean, part[0].mean}
+                 : mixture_interval(part, n);
+}
+
+/* Returns the covariance of ln a of two curves. */
+static double shift_covariance(const wt_posterior *p, const posterior_cell *cell, size_t curve,
+                               size_t other)
+{
+    gsl_vector_view one = gsl_matrix_column(cell->through, curve),
+                    with = gsl_matrix_column(cell->through, other);
+    double sum = 0.0;
+    if (curve == other)
+        return p->frame.column_a[curve] < 0 ? 0.0 : cell->block[BLOCK_DIAGONAL * curve];
+    gsl_blas_ddot(&one.vector, &with.vector, &sum);
+    return sum;
 }
 
 /* A linear combination of shifts: those of `curve` with their weights. */
@@ -50,18 +65,14 @@ typedef struct shift_combination {
 static double combined_shift(const wt_posterior *p, const posterior_cell *cell,
                              const shift_combination *c, double *variance)
 {
-    double value = 0.0;
-    *variance = 0.0;
+    double value = 0.0, sum = 0.0;
     for (size_t i = 0; i < c->n; i++) {
-        size_t at, with;
-        const bool fitted = posterior_column(p, c->curve[i], &at);
-        value += c->weight[i] * (fitted ? cell->value[at] : p->frame.given_a[c->curve[i]]);
-        for (size_t k = 0; fitted && k < c->n; k++)
-            if (posterior_column(p, c->curve[k], &with))
-                *variance +=
-                    c->weight[i] * c->weight[k] * gsl_matrix_get(cell->covariance, at, with);
+        value += c->weight[i] * posterior_shift(p, cell->value, c->curve[i]);
+        for (size_t k = 0; k < c->n; k++)
+            sum +=
+                c->weight[i] * c->weight[k] * shift_covariance(p, cell, c->curve[i], c->curve[k]);
     }
-    *variance = fmax(*variance, 0.0) / (M_LN10 * M_LN10);
+    *variance = fmax(sum, 0.0) / (M_LN10 * M_LN10);
     return value / M_LN10;
 }
 
@@ -144,28 +155,19 @@ posterior_place posterior_between(const wt_posterior *p, size_t cold, double tem
 
 double posterior_fit_error(const wt_posterior *p, size_t curve)
 {
-    return column_interval(p, p->frame.column_a[curve], 0.0).standard_error;
-}
-
-/* Returns ln b of a curve with a fixed vertical shift. */
-static double fixed_b(const wt_posterior *p, size_t curve)
-{
-    const double given = p->frame.given_b[curve];
-    return isnan(given) ? p->mean_b[curve] : given;
+    return unknown_interval(p, curve, 0, posterior_shift).standard_error;
 }
 
 wt_interval posterior_b(const wt_posterior *p, size_t curve)
 {
-    return column_interval(p, p->frame.column_b[curve], fixed_b(p, curve) / M_LN10);
+    return unknown_interval(p, curve, 2, posterior_vertical_shift);
 }
 
 double posterior_a_per_b(const wt_posterior *p, size_t curve)
 {
-    const long a = p->frame.column_a[curve], b = p->frame.column_b[curve];
-    const gsl_matrix *v = posterior_best(p)->covariance;
-    return a < 0 || b < 0
-               ? 0.0
-               : gsl_matrix_get(v, (size_t)a, (size_t)b) / gsl_matrix_get(v, (size_t)b, (size_t)b);
+    const double *block = posterior_best(p)->block + BLOCK_DIAGONAL * curve;
+    const bool fitted = p->frame.column_a[curve] >= 0 && p->frame.column_b[curve] >= 0;
+    return fitted ? block[1] / block[2] : 0.0;
 }
 
 /* A quantity that depends linearly on the unknowns of spectrum and law. Value and variance are
@@ -182,23 +184,23 @@ struct linear_quantity {
 static double cell_variance(const wt_posterior *p, const posterior_cell *cell, const double *by,
                             double *with)
 {
-    const size_t n = p->frame.n_unknowns;
-    double variance = 0.0, *const cross_covariance = p->cross_covariance;
-    size_t first = 0, end = n; /* most quantities depend on the terms or on one unknown */
-    while (first < end && by[first] == 0.0)
-        first++;
-    while (end > first && by[end - 1] == 0.0)
-        end--;
-    memset(cross_covariance, 0, n * sizeof *cross_covariance);
-    if (first < end)
-        dense_add_rows(cross_covariance, n, by + first, 1,
-                       gsl_matrix_const_ptr(cell->covariance, first, 0), cell->covariance->tda,
-                       end - first);
-    for (size_t i = first; i < end; i++)
-        variance += by[i] * cross_covariance[i];
-    for (size_t k = 0; k < p->frame.n_curves; k++) {
-        size_t column;
-        with[k] = posterior_column(p, k, &column) ? cross_covariance[column] / M_LN10 : 0.0;
+    const size_t n = p->frame.n_curves, m = cell->factor.m;
+    double variance = 0.0, own[BLOCK_SIDE];
+    memset(p->border, 0, m * sizeof *p->border);
+    spectrum_split(&p->frame, by, p->border, p->side);
+    bordered_solve_lower(&cell->factor, p->border, p->side);
+    for (size_t i = 0; i < m; i++)
+        variance += p->border[i] * p->border[i];
+    for (size_t i = 0; i < BLOCK_SIDE * n; i++)
+        variance += p->side[i] * p->side[i];
+    memset(with, 0, n * sizeof *with);
+    dense_add_rows(with, n, p->border, 1, cell->through->data, cell->through->tda, m);
+    for (size_t k = 0; k < n; k++) {
+        const double *side = p->side + BLOCK_SIDE * k;
+        posterior_unit_shift(cell, k, own);
+        with[k] = p->frame.column_a[k] < 0
+                      ? 0.0
+                      : (with[k] + own[0] * side[0] + own[1] * side[1]) / M_LN10;
     }
     return variance;
 }
@@ -208,24 +210,24 @@ static mixture_component component_moments(const wt_posterior *p,
                                            const posterior_component *component,
                                            const struct linear_quantity *x)
 {
-    const size_t n_curves = p->frame.n_curves;
-    const double *const with = x->with;
-    double *const pulled = p->cross_covariance; /* no longer needed */
-    double variance = x->variance, mean = x->value;
-    if (with != NULL) {
-        memset(pulled, 0, n_curves * sizeof *pulled);
-        dense_add_rows(pulled, n_curves, with, 1, component->inner->data, component->inner->tda,
-                       n_curves);
+    const size_t n = p->frame.n_curves, k = component->law.n_unknowns;
+    double variance = x->variance, mean = x->value, by_law[LAW_MAX_UNKNOWNS];
+    memcpy(by_law, x->by_law, sizeof by_law);
+    if (x->with != NULL && component->pull != NULL) {
+        double *const white = p->side; /* no longer needed */
+        memcpy(white, x->with, n * sizeof *white);
+        dense_forward(component->root, white);
+        for (size_t i = 0; i < n; i++) {
+            mean += x->with[i] * gsl_vector_get(component->pull, i);
+            variance -= white[i] * white[i];
+        }
+        for (size_t i = 0; i < n; i++)
+            for (size_t u = 0; u < k; u++)
+                by_law[u] += x->with[i] * gsl_matrix_get(component->design, i, u);
     }
-    for (size_t k = 0; with != NULL && k < n_curves; k++) {
-        mean += with[k] * gsl_vector_get(component->pull, k);
-        variance -= with[k] * pulled[k];
-        for (size_t u = 0; u < component->law.n_unknowns; u++)
-            variance += 2.0 * with[k] * gsl_matrix_get(component->outer, k, u) * x->by_law[u];
-    }
-    for (size_t u = 0; u < component->law.n_unknowns; u++)
-        for (size_t w = 0; w < component->law.n_unknowns; w++)
-            variance += x->by_law[u] * x->by_law[w] * component->law.covariance[u][w];
+    for (size_t u = 0; u < k; u++)
+        for (size_t w = 0; w < k; w++)
+            variance += by_law[u] * by_law[w] * component->law.covariance[u][w];
     return (mixture_component){component->weight, mean, sqrt(fmax(variance, 0.0))};
 }
 
@@ -422,15 +424,20 @@ wt_interval posterior_term(const wt_posterior *p, size_t term, double slope)
 static void add_law_pull(const wt_posterior *p, const posterior_component *component,
                          const gsl_vector *pull, double scale, double *value)
 {
-    for (size_t k = 0; k < p->frame.n_curves; k++) {
-        size_t column;
-        if (!posterior_column(p, k, &column))
-            continue;
-        const double *c = gsl_matrix_const_ptr(component->cell->covariance, column, 0);
-        const double by = scale * gsl_vector_get(pull, k) / M_LN10;
-        for (size_t u = 0; u < p->frame.n_unknowns; u++)
-            value[u] += by * c[u];
-    }
+    const spectrum *s = &p->frame;
+    const bordered_matrix *factor = &component->cell->factor;
+    arena memory = {0};
+    double *border = arena_numbers(&memory, factor->m),
+           *side = arena_numbers(&memory, BLOCK_SIDE * factor->n),
+           *change = arena_numbers(&memory, s->n_unknowns);
+    for (size_t k = 0; pull != NULL && k < s->n_curves; k++)
+        side[BLOCK_SIDE * k] = s->column_a[k] < 0 ? 0.0 : scale * gsl_vector_get(pull, k) / M_LN10;
+    bordered_solve_lower(factor, border, side);
+    bordered_solve_upper(factor, border, side);
+    spectrum_join(s, border, side, change);
+    for (size_t u = 0; u < s->n_unknowns; u++)
+        value[u] += change[u];
+    arena_free(&memory);
 }
 
 void posterior_mean(const wt_posterior *p, double *value)
@@ -449,24 +456,6 @@ void posterior_mean_law(const wt_posterior *p, double unknown[LAW_MAX_UNKNOWNS])
     for (size_t i = 0; i < p->n_components; i++)
         for (size_t u = 0; u < LAW_MAX_UNKNOWNS; u++)
             unknown[u] += p->components[i].weight * p->components[i].law.unknown[u];
-}
-
-static double vertical_shift_value(const wt_posterior *p, const double *value, size_t curve)
-{
-    const long column = p->frame.column_b[curve];
-    return column < 0 ? fixed_b(p, curve) : value[column];
-}
-
-void posterior_smooth_b(const wt_posterior *p, const posterior_cell *cell, const double *value,
-                        double *log_b)
-{
-    const size_t n = p->frame.n_curves;
-    for (size_t i = 0; i < n; i++) {
-        double sum = cell->smooth != NULL ? p->mean_b[i] : vertical_shift_value(p, value, i);
-        for (size_t k = 0; cell->smooth != NULL && k < n; k++)
-            sum += cell->smooth[i * n + k] * (vertical_shift_value(p, value, k) - p->mean_b[k]);
-        log_b[i] = (isnan(p->frame.given_b[i]) ? sum : p->frame.given_b[i]) / M_LN10;
-    }
 }
 
 struct random_stream {
@@ -557,29 +546,32 @@ void posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, double *
 {
     const size_t n = p->frame.n_unknowns, n_curves = p->frame.n_curves;
     const posterior_component *component = draw_component(p, seed, index);
+    const bordered_matrix *factor = &component->cell->factor;
     struct random_stream s = {splitmix64(splitmix64(seed) ^ (uint64_t)index)};
     arena memory = {0};
-    gsl_vector *e = arena_vector(&memory, n), *gap = arena_vector(&memory, n_curves),
-               *pull = arena_vector(&memory, n_curves);
+    gsl_vector *gap = arena_vector(&memory, n_curves);
+    double *border = arena_numbers(&memory, factor->m),
+           *side = arena_numbers(&memory, BLOCK_SIDE * n_curves);
+    for (size_t u = 0; u < factor->m; u++)
+        border[u] = draw_normal(&s);
+    for (size_t u = 0; u < BLOCK_SIDE * n_curves; u++)
+        side[u] = draw_normal(&s);
+    bordered_solve_upper(factor, border, side);
+    spectrum_join(&p->frame, border, side, value);
     for (size_t u = 0; u < n; u++)
-        gsl_vector_set(e, u, draw_normal(&s));
-    gsl_blas_dtrsv(CblasLower, CblasTrans, CblasNonUnit, component->cell->root, e);
-    for (size_t u = 0; u < n; u++)
-        value[u] = component->cell->value[u] + gsl_vector_get(e, u);
+        value[u] += component->cell->value[u];
     memcpy(unknown, component->law.unknown, LAW_MAX_UNKNOWNS * sizeof *unknown);
     if (component->law.n_unknowns > 0) {
         draw_law(component, &s, unknown);
         for (size_t k = 0; k < n_curves; k++) {
-            size_t column;
             const double law = law_isotherm_value(&p->data, &p->shape, unknown, k),
-                         a = posterior_column(p, k, &column) ? value[column] : p->frame.given_a[k];
-            gsl_vector_set(gap, k,
-                           law - a / M_LN10 - component->spread * p->slope[k] * draw_normal(&s));
+                         a = posterior_shift(p, value, k) / M_LN10;
+            gsl_vector_set(gap, k, law - a - component->spread * p->slope[k] * draw_normal(&s));
         }
         if (p->extra_covariance_root != NULL)
-            draw_extra_errors(p, &s, e->data, gap);
-        gsl_blas_dgemv(CblasNoTrans, 1.0, component->inverse, gap, 0.0, pull);
-        add_law_pull(p, component, pull, 1.0, value);
+            draw_extra_errors(p, &s, side, gap);
+        gsl_linalg_cholesky_svx(component->root, gap);
+        add_law_pull(p, component, gap, 1.0, value);
     }
     linearise_draw(p, component, value);
     posterior_smooth_b(p, component->cell, value, log_b);

@@ -23,8 +23,8 @@ enum { LEAST_OUTLIER = 6 };
 enum { LEAST_CORRECTED = 7 };
 /* Minimum number of isotherms of the joined law, with six constants and one more. */
 enum { LEAST_JOINED = 8 };
-/* Number of joints in the coarse search; between the neighbours of the best one all are tried.
- * It only limits the time. */
+/* Number of joints in the coarse search, which is then refined by halves about the best one. It
+ * only limits the time. */
 enum { JOINTS = 24 };
 /* Share of the limit from which an isotherm is tested as an outlier. The linearised law
  * underestimates the gain. It only limits the time. */
@@ -146,29 +146,25 @@ static wt_status try_law(struct search *search, law_shape shape, bool *is_best, 
     return WT_OK;
 }
 
-/* Tests the joints from `first` to before `end`. *best: the best one, if it improves on all
- * before. */
-static wt_status try_joints(struct search *search, law_shape shape, size_t first, size_t end,
-                            size_t step, size_t *best, wt_error *err)
+/* Tests the joint at an isotherm. *best: it, if it improves on all before. */
+static wt_status try_joint(struct search *search, law_shape shape, size_t i, size_t *best,
+                           wt_error *err)
 {
     const law_data *data = search->data;
-    wt_status status = WT_OK;
+    bool is_best = false;
     shape.kind = WT_LAW_WLF_ARRHENIUS;
-    for (size_t i = first; status == WT_OK && i < end; i += step) {
-        bool is_best = false;
-        shape.joint = data->temperature[i];
-        shape.coldest = fmin(shape.joint, shape.reference);
-        if (data->temperature[i] > data->temperature[0])
-            status = try_law(search, shape, &is_best, err);
-        if (is_best)
-            *best = i;
-    }
+    shape.joint = data->temperature[i];
+    shape.coldest = fmin(shape.joint, shape.reference);
+    if (i < 2 || i + 3 >= data->n || !(data->temperature[i] > data->temperature[0]))
+        return WT_OK;
+    const wt_status status = try_law(search, shape, &is_best, err);
+    *best = is_best ? i : *best;
     return status;
 }
 
 static wt_status try_all_laws(struct search *search, const law_shape *start, wt_error *err)
 {
-    const size_t n = search->data->n, step = 1 + n / JOINTS;
+    const size_t n = search->data->n;
     bool is_best;
     size_t joint = 0;
     law_shape shape = *start;
@@ -177,11 +173,16 @@ static wt_status try_all_laws(struct search *search, const law_shape *start, wt_
     shape.kind = WT_LAW_WLF;
     if (status == WT_OK && n >= LAW_MIN_ISOTHERMS)
         status = try_law(search, shape, &is_best, err);
-    if (status == WT_OK && n >= LEAST_JOINED)
-        status = try_joints(search, shape, 2, n - 3, step, &joint, err);
-    if (status == WT_OK && joint > 0 && step > 1)
-        status = try_joints(search, shape, joint > step + 1 ? joint - step + 1 : 2,
-                            joint + step < n - 3 ? joint + step : n - 3, 1, &joint, err);
+    size_t step = 1 + n / JOINTS;
+    for (size_t i = 2; status == WT_OK && n >= LEAST_JOINED && i < n; i += step)
+        status = try_joint(search, shape, i, &joint, err);
+    while (status == WT_OK && joint > 0 && step > 1) {
+        const size_t middle = joint;
+        step = (step + 1) / 2;
+        status = try_joint(search, shape, middle > step ? middle - step : 0, &joint, err);
+        if (status == WT_OK)
+            status = try_joint(search, shape, middle + step, &joint, err);
+    }
     return status;
 }
 

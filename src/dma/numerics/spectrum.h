@@ -168,8 +168,9 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows);
 void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t width);
 double spectrum_log_det_correlation(const spectrum *s);
 void spectrum_normal(spectrum *s);
-/* Copies the full precision matrix [n_unknowns^2]. */
-void spectrum_precision(const spectrum *s, gsl_matrix *precision);
+/* Copies unknowns to the border and the side of a bordered matrix, and back. */
+void spectrum_split(const spectrum *s, const double *y, double *border, double *side);
+void spectrum_join(const spectrum *s, const double *border, const double *side, double *x);
 double spectrum_variance(const spectrum *s, size_t curve); /* variance of a fitted a */
 /* Returns the factor on the ln residual of a point; 0: excluded. */
 double spectrum_weight(const spectrum *s, size_t k, int q);
@@ -206,9 +207,6 @@ void vertical_alloc(arena *memory, size_t n, vertical *v);
  * fix only the level curve, with the clamping error; without a geometry error it is exact. */
 wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temperature,
                          const spectrum *s, spectrum_prior *prior, wt_error *err) WT_NODISCARD;
-/* Computes the weights of the smooth part: ln b of the material at isotherm i is
- * vertical_physical plus the sum of weight[i * n + k] times (b_k - mean_k). weight must be zero. */
-void vertical_smooth_part(const spectrum_prior *prior, size_t n, double *weight);
 
 /* ---- spectrum_fit.c: Levenberg-Marquardt with noise and smoothness by Fellner-Schall */
 typedef enum spectrum_mode {

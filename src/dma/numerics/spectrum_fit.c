@@ -61,17 +61,17 @@ static bool factor_damped(spectrum *s, double damping)
     return bordered_factor(&s->factor);
 }
 
-/* Solves x = covariance times y for unknowns; x and y may be the same. */
-static void spectrum_solve(const spectrum *s, const double *y, double *x)
+void spectrum_split(const spectrum *s, const double *y, double *border, double *side)
 {
-    double *border = s->border, *side = s->side;
-    memset(border, 0, s->factor.m * sizeof *border);
     memcpy(border, y, s->n_linear * sizeof *border);
     for (size_t i = 0; i < s->n_curves; i++) {
         side[BLOCK_SIDE * i] = s->column_a[i] < 0 ? 0.0 : y[s->column_a[i]];
         side[BLOCK_SIDE * i + 1] = s->column_b[i] < 0 ? 0.0 : y[s->column_b[i]];
     }
-    bordered_solve(&s->factor, border, side);
+}
+
+void spectrum_join(const spectrum *s, const double *border, const double *side, double *x)
+{
     memcpy(x, border, s->n_linear * sizeof *border);
     for (size_t i = 0; i < s->n_curves; i++) {
         if (s->column_a[i] >= 0)
@@ -79,6 +79,16 @@ static void spectrum_solve(const spectrum *s, const double *y, double *x)
         if (s->column_b[i] >= 0)
             x[s->column_b[i]] = side[BLOCK_SIDE * i + 1];
     }
+}
+
+/* Solves x = covariance times y for unknowns; x and y may be the same. */
+static void spectrum_solve(const spectrum *s, const double *y, double *x)
+{
+    memset(s->border, 0, s->factor.m * sizeof *s->border);
+    spectrum_split(s, y, s->border, s->side);
+    bordered_solve_lower(&s->factor, s->border, s->side);
+    bordered_solve_upper(&s->factor, s->border, s->side);
+    spectrum_join(s, s->border, s->side, x);
 }
 
 double spectrum_variance(const spectrum *s, size_t curve)

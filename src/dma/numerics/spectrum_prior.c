@@ -128,15 +128,6 @@ wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temp
     return WT_OK;
 }
 
-void vertical_smooth_part(const spectrum_prior *prior, size_t n, double *weight)
-{
-    for (size_t i = 0; i < n; i++)
-        for (size_t k = 0; k < n; k++)
-            for (size_t j = 0; j < prior->n_smooth; j++)
-                weight[i * n + k] += gsl_matrix_get(prior->smooth, i, j) *
-                                     gsl_matrix_get(prior->smooth, k, j) * prior->precision[k];
-}
-
 /* ---- spectrum and noise ---------------------------------------------------------------------- */
 
 /* Prior of the second difference of terms j to j + 2, in the measured range or beyond an end. */
@@ -341,41 +332,6 @@ void spectrum_assemble(spectrum *s)
             diagonal[0] = 1.0;
         if (s->column_b[i] < 0)
             diagonal[2] = 1.0;
-    }
-}
-
-void spectrum_precision(const spectrum *s, gsl_matrix *precision)
-{
-    const bordered_matrix *p = &s->precision;
-    const size_t m = s->n_linear;
-    gsl_matrix_set_zero(precision);
-    for (size_t i = 0; i < m; i++)
-        memcpy(gsl_matrix_ptr(precision, i, 0), gsl_matrix_const_ptr(p->border, i, 0),
-               m * sizeof(double));
-    for (size_t i = 0; i < s->n_curves; i++) {
-        const long column[BLOCK_SIDE] = {s->column_a[i], s->column_b[i]};
-        for (size_t c = 0; c < BLOCK_SIDE; c++) {
-            const double *row = gsl_matrix_const_ptr(p->side, BLOCK_SIDE * i + c, 0);
-            if (column[c] < 0)
-                continue;
-            const size_t at = (size_t)column[c];
-            for (size_t j = 0; j < m; j++) {
-                gsl_matrix_set(precision, at, j, row[j]);
-                gsl_matrix_set(precision, j, at, row[j]);
-            }
-            for (size_t d = 0; d < BLOCK_SIDE; d++)
-                if (column[d] >= 0)
-                    gsl_matrix_set(precision, at, (size_t)column[d],
-                                   p->diagonal[BLOCK_DIAGONAL * i + c + d]);
-        }
-        /* removes the smooth part: P - P S S' P */
-        for (size_t k = 0; s->column_b[i] >= 0 && s->prior->n_smooth > 0 && k < s->n_curves; k++) {
-            const double *one = gsl_matrix_const_ptr(p->side, BLOCK_SIDE * i + 1, m),
-                         *other = gsl_matrix_const_ptr(p->side, BLOCK_SIDE * k + 1, m);
-            for (size_t j = 0; s->column_b[k] >= 0 && j < s->prior->n_smooth; j++)
-                *gsl_matrix_ptr(precision, (size_t)s->column_b[i], (size_t)s->column_b[k]) -=
-                    one[j] * other[j];
-        }
     }
 }
 

@@ -8,6 +8,7 @@
 #include "core/math/arena_gsl.h"
 #include "core/math/cholesky.h"
 #include "core/math/root.h"
+#include "core/math/students_t.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_eigen.h>
@@ -384,46 +385,31 @@ static void explain_partings(struct test_work *x, struct columns *c)
     orthogonalise(x, c);
 }
 
-/* Returns the noncentral chi-square distribution as a Poisson mixture of central ones. */
-static double noncentral_probability(double x, double freedom, double lambda)
-{
-    const double mean = 0.5 * lambda, width = 10.0 * sqrt(mean) + 20.0;
-    double sum = 0.0;
-    for (double j = floor(fmax(mean - width, 0.0)); j < mean + width; j += 1.0) {
-        const double log_weight = (mean > 0.0 ? j * log(mean)
-                                   : j > 0.0  ? -HUGE_VAL
-                                              : 0.0) -
-                                  mean - lgamma(j + 1.0);
-        sum += exp(log_weight) * gsl_cdf_chisq_P(x, freedom + 2.0 * j);
-    }
-    return sum;
-}
-
-/* Above this value the square root of noncentral chi-square is normal to four digits, and the
- * sum is too long. */
-static const double many = 1e4;
-
 typedef struct noncentral {
-    double x, freedom, probability;
+    double x, freedom, deviations;
 } noncentral;
 
-static bool probability_exceeds(double lambda, void *user)
+/* Returns true if x is more than some standard deviations above the middle of a noncentral
+ * chi-square distribution. A power of it is nearly normal (M. Sankaran, Biometrika 50 (1963)
+ * 199). */
+static bool is_far_above(double lambda, void *user)
 {
     const noncentral *c = user;
-    return noncentral_probability(c->x, c->freedom, lambda) > c->probability;
+    const double mean = c->freedom + lambda, both = mean + lambda;
+    const double h = 1.0 - 2.0 / 3.0 * mean * (mean + 2.0 * lambda) / (both * both);
+    const double p = both / (mean * mean), m = (h - 1.0) * (1.0 - 3.0 * h);
+    const double middle = 1.0 + h * p * (h - 1.0 - 0.5 * (2.0 - h) * m * p);
+    return pow(c->x / mean, h) - middle > c->deviations * h * sqrt(2.0 * p) * (1.0 + 0.5 * m * p);
 }
 
-/* Returns lambda for which the distribution function at x has this probability. */
-static double noncentrality(double x, double freedom, double probability)
+/* Returns lambda for which x is these standard deviations above the middle, or 0. */
+static double noncentrality(double x, double freedom, double deviations)
 {
-    const double half = 0.5 * (freedom - 1.0);
-    if (x > many + freedom)
-        return pow(sqrt(x - half) - gsl_cdf_ugaussian_Pinv(probability), 2) - half;
-    noncentral c = {x, freedom, probability};
+    noncentral c = {x, freedom, deviations};
     double low = 0.0, high = 4.0 * x + 100.0;
-    if (!probability_exceeds(low, &c))
+    if (!is_far_above(low, &c))
         return 0.0;
-    root_bisect(probability_exceeds, &c, &low, &high, misfit_close, MOST_HALVINGS);
+    root_bisect(is_far_above, &c, &low, &high, misfit_close, MOST_HALVINGS);
     return 0.5 * (low + high);
 }
 
@@ -458,9 +444,10 @@ static void assess_columns(const struct test_work *x, lack_of_fit *result)
     const double above = q / variance;
     result->p = fmin(result->p, tests * gsl_cdf_fdist_Q(above / k, k, left));
     result->p_sure = fmin(result->p_sure, tests * gsl_cdf_fdist_Q(above / k, k, known));
-    result->misfit_low = fmax(result->misfit_low, sqrt(noncentrality(above, k, 0.975) * to_misfit));
+    result->misfit_low =
+        fmax(result->misfit_low, sqrt(noncentrality(above, k, NORMAL_95) * to_misfit));
     result->misfit_high =
-        fmax(result->misfit_high, sqrt(noncentrality(above, k, 0.025) * to_misfit));
+        fmax(result->misfit_high, sqrt(noncentrality(above, k, -NORMAL_95) * to_misfit));
 }
 
 /* Tests the factor on E''. `lines` is the result of the isotherm columns; what they explain
