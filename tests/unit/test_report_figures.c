@@ -612,11 +612,11 @@ static void test_numbers_of_captions(void **state)
     assert_true(wt_table_estimate(curves, "contact_point_bulk", &bulk));
     assert_true(wt_table_estimate(curves, "contact_point_track", &track));
     char words[200];
-    (void)snprintf(words, sizeof words, " bulk: %s, standard error of the contact point %.3g nm. ",
-                   wt_table_key(curves, "curve_bulk"), 1e9 * bulk.standard_error);
+    (void)snprintf(words, sizeof words, " bulk: %s, contact point ± %.3g nm (95 %%). ",
+                   wt_table_key(curves, "curve_bulk"), 1e9 * NORMAL_95 * bulk.standard_error);
     check_caption("out", "force_displacement", words);
-    (void)snprintf(words, sizeof words, " curve 7, standard error of the contact point %.3g nm. ",
-                   1e9 * track.standard_error);
+    (void)snprintf(words, sizeof words, " curve 7, contact point ± %.3g nm (95 %%). ",
+                   1e9 * NORMAL_95 * track.standard_error);
     check_caption("out", "force_displacement", words);
 }
 
