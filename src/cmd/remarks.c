@@ -48,7 +48,7 @@ static size_t group_equal_entries(log_group *folds, size_t n)
 
 /* ---- on a terminal --------------------------------------------------------------------------- */
 
-enum { LABEL_WIDTH = 9, LINES_OF_REMARKS = 2 };
+enum { LINES_OF_REMARKS = 2 };
 
 bool cmd_is_brief(const cmd_session *s)
 {
@@ -73,7 +73,7 @@ static size_t count_lines(const char *text)
 {
     size_t lines = 0;
     do {
-        text += fitting_length(text, CMD_SCREEN_WIDTH - LABEL_WIDTH);
+        text += fitting_length(text, CMD_SCREEN_WIDTH - CMD_LABEL_WIDTH);
         text += strspn(text, " ");
         lines++;
     } while (*text != '\0');
@@ -82,13 +82,13 @@ static size_t count_lines(const char *text)
 
 static void print_remark(const char *label, const char *text, bool whole)
 {
-    enum { ROOM = CMD_SCREEN_WIDTH - LABEL_WIDTH, DOTS = 4 };
+    enum { ROOM = CMD_SCREEN_WIDTH - CMD_LABEL_WIDTH, DOTS = 4 };
     do {
         size_t n = fitting_length(text, ROOM);
         const bool cut = !whole && text[n] != '\0';
         if (cut)
             n = fitting_length(text, ROOM - DOTS);
-        cmd_message("%-*s%.*s%s\n", LABEL_WIDTH, label, (int)n, text, cut ? " ..." : "");
+        cmd_message("%-*s%.*s%s\n", CMD_LABEL_WIDTH, label, (int)n, text, cut ? " ..." : "");
         text += n;
         text += strspn(text, " ");
         label = "";
@@ -109,9 +109,9 @@ static void print_remarks(cmd_session *s, const char *const labels[], char *cons
     for (size_t i = 0; i < shown; i++)
         print_remark(labels[i], texts[i], whole);
     if (n > shown)
-        cmd_message("%-*sand %zu more kinds: --verbose\n", LABEL_WIDTH, "", n - shown);
+        cmd_message("%-*sand %zu more kinds: --verbose\n", CMD_LABEL_WIDTH, "", n - shown);
     else if (!whole)
-        cmd_message("%-*sin full: --verbose\n", LABEL_WIDTH, "");
+        cmd_message("%-*sin full: --verbose\n", CMD_LABEL_WIDTH, "");
     const size_t used = whole ? lines : shown + 1;
     s->lines_left -= used < s->lines_left ? used : s->lines_left;
 }
