@@ -181,8 +181,11 @@ static void draw_modulus_groups(figure_drawing *d)
     text_format(&d->script, "set xrange [0.5:%zu.6]\nset xtics (", n);
     for (size_t i = 0; i < n; i++) {
         text_buffer label = {0};
-        text_format(&label, "%s (n = %zu)", d->groups[i],
-                    drawing_row_count(d, d->data[i]) + drawing_row_count(d, open[i]));
+        size_t row = 0; /* of the group, which is in the table */
+        while (strcmp(modulus_groups_text(d->table, row, MODULUS_GROUPS_GROUP), d->groups[i]) != 0)
+            row++;
+        text_format(&label, "%s (n = %.0f)", d->groups[i],
+                    modulus_groups_get(d->table, row, MODULUS_GROUPS_N));
         text_add(&d->script, i == 0 ? "" : ", ");
         text_tic_label(&d->script, text_string(&label));
         text_format(&d->script, " %zu", i + 1);

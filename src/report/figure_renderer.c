@@ -258,9 +258,8 @@ static void plot_curve(figure_drawing *d, size_t group, const figure_curve *curv
     text_add(&item, ":");
     add_column_expression(&item, d, "y", axis, curve->column, curve->above_zero);
     if (curve->with_errors && column->high == 0) {
-        text_add(&item, ":(" HALF_95 "*");
-        add_column_expression(&item, d, "y", axis, column->standard_error, false);
-        text_add(&item, ")");
+        text_format(&item, ":(" HALF_95 "*$%zu%s)", section_column(d, column->standard_error) + 1,
+                    axis->scale == AXIS_NUMBER ? "" : "*y_unit");
     } else if (curve->with_errors) {
         text_add(&item, ":");
         add_column_expression(&item, d, "y", axis, column->low, false);

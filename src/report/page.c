@@ -193,8 +193,9 @@ static const char *page_title(const page_writer *page)
     const char *title = answer_key_text(&page->tables->answer, ANSWER_KEY_CASE_TITLE);
     if (title != NULL && title[0] != '\0')
         return title;
-    const table_view *const asked[] = {&page->tables->validation, &page->tables->comparison,
-                                       &page->tables->layer, &page->tables->friction};
+    const table_view *const asked[] = {&page->tables->validation, &page->tables->collection,
+                                       &page->tables->comparison, &page->tables->layer,
+                                       &page->tables->friction};
     for (size_t i = 0; i < COUNT_OF(asked); i++)
         if (asked[i]->n_rows > 0)
             return asked[i]->schema->title;

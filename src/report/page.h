@@ -4,6 +4,7 @@
 #ifndef WT_REPORT_PAGE_H
 #define WT_REPORT_PAGE_H
 
+#include "core/table/result_row.h"
 #include "core/table/result_value.h"
 #include "report/drawing.h"
 
@@ -68,9 +69,9 @@ void page_inputs(page_writer *page);      /* inputs, notes */
 void page_cost(page_writer *page);
 void page_record(page_writer *page); /* case file, provenance */
 
-/* Unit in which the value of a finding is shown. A relative change is shown in percent. */
-display_unit select_finding_unit(const result_value *f);
-
+/* Writes a value of row_number_format in large type, or smaller without an interval. `unit`
+ * replaces its unit unless NULL. */
+void page_value(page_writer *page, const char *value, const char *unit, bool has_interval);
 /* Writes a bar from `low` to `high` on the axis of a number, with its limits as text; nothing if
  * these are not finite. `class` selects the drawing: interval or choices. */
 void page_bar(page_writer *page, const char *name, const char *class, const char *text,

@@ -352,32 +352,25 @@ void page_numbers_begin(page_writer *page, const char *caption)
     text_add(&page->out, "</tr></thead>\n<tbody>\n");
 }
 
-/* Writes "0.59 to 0.69" in the unit of the value, `unknown` without limits. */
-static void write_limits_cell(page_writer *page, const char *heading, const display_unit *lab,
-                              double low, double high, int digits, const char *unknown)
+static void write_text_cell(page_writer *page, const char *heading, const char *text)
 {
     begin_labelled_cell(page, heading, "", true);
-    if (isfinite(low) && isfinite(high))
-        text_format(&page->out, "%s to %s", NUMBER(to_display_value(lab, low), digits),
-                    NUMBER(to_display_value(lab, high), digits));
-    else
-        text_add(&page->out, unknown);
+    text_typographic(&page->out, text);
     text_add(&page->out, "</td>");
 }
 
 void page_number(page_writer *page, const char *words, const result_value *f, const char *remark)
 {
-    /* the digits of the value follow its interval */
-    const wt_estimate estimate = {f->number.value, (f->high - f->low) / 4,
-                                  f->number.numerical_error, f->number.unit};
-    const display_unit lab = select_display_unit(f->quantity, estimate.unit, estimate.value);
-    begin_value_row(page, words, &estimate, &lab);
-    write_limits_cell(page, interval_heading, &lab, f->low, f->high,
-                      result_value_digits(to_display_value(&lab, f->number.value),
-                                          to_display_value(&lab, f->low),
-                                          to_display_value(&lab, f->high)),
-                      f->number.standard_error == 0 ? "–" : "not known");
-    write_limits_cell(page, choices_heading, &lab, f->range.low, f->range.high, 3, "–");
+    const row_number number = row_number_of_value(f);
+    const row_number_text text = row_number_format(&number);
+    const display_unit lab = select_display_unit(f->quantity, f->number.unit, f->number.value);
+    text_html(&page->out, "<tr><th scope=\"row\">%s</th>", words);
+    write_text_cell(page, value_heading, text.value);
+    write_text_cell(page, interval_heading,
+                    text.interval[0] != '\0'        ? text.interval
+                    : f->number.standard_error == 0 ? "–"
+                                                    : "not known");
+    write_text_cell(page, choices_heading, text.range[0] != '\0' ? text.range : "–");
     write_error_cell(page, numerical_heading, f->number.numerical_error, &lab);
     begin_labelled_cell(page, remark_heading, "", false);
     text_html(&page->out, "%s</td></tr>\n", remark);

@@ -30,11 +30,9 @@ static size_t end_of_parts(const result_rows *list, size_t first)
     return end;
 }
 
-/* Writes value and unit: the unit is behind the first blank. A value without an interval is not
- * large. */
-static void write_value(page_writer *page, const char *value, bool has_interval)
+void page_value(page_writer *page, const char *value, const char *unit, bool has_interval)
 {
-    const size_t n = strcspn(value, " ");
+    const size_t n = strcspn(value, " ");       /* the unit is behind the first blank */
     if (strpbrk(value, "0123456789") == NULL) { /* such as "not known" */
         text_html(&page->out, "<p class=\"verdict\"><strong>%s</strong></p>\n", value);
         return;
@@ -44,23 +42,20 @@ static void write_value(page_writer *page, const char *value, bool has_interval)
     text_add(&page->out, has_interval ? "<p class=\"number\">" : "<p class=\"number plain\">");
     text_typographic(&page->out, number);
     text_add(&page->out, " <span class=\"unit\">");
-    text_typographic(&page->out, value[n] != '\0' ? value + n + 1 : "");
+    text_typographic(&page->out, unit != NULL ? unit : value[n] != '\0' ? value + n + 1 : "");
     text_add(&page->out, "</span></p>\n");
 }
 
 static void write_row_bar(page_writer *page, const char *name, const char *class,
                           const row_number *number, const char *limits, double low, double high)
 {
-    text_buffer text = {0};
     const double none = (double)NAN;
     const result_value axis = {.number = {number->value, none, none, number->unit},
                                .low = number->low,
                                .high = number->high,
                                .neutral = none,
                                .range = {.low = number->range_low, .high = number->range_high}};
-    text_typographic(&text, limits);
-    page_bar(page, name, class, text_string(&text), &axis, low, high);
-    text_free(&text);
+    page_bar(page, name, class, limits, &axis, low, high);
 }
 
 static void write_parts(page_writer *page, const result_rows *list, size_t from, size_t to)
@@ -121,7 +116,7 @@ static void write_row_card(page_writer *page, const result_rows *list, size_t fi
         text_typographic(&page->out, row->text);
         text_add(&page->out, "</strong></p>\n");
     } else {
-        write_value(page, number.value, number.interval[0] != '\0');
+        page_value(page, number.value, NULL, number.interval[0] != '\0');
         text_add(&page->out, "<dl>\n");
         write_row_bar(page, "95 % interval", "interval", &row->number, number.interval,
                       row->number.low, row->number.high);

@@ -22,6 +22,8 @@ typedef struct row_number_text {
 } row_number_text;
 
 row_number_text row_number_format(const row_number *number);
+/* A ratio without a unit that has the neutral value 0 is a relative change, in percent. */
+row_number row_number_of_value(const result_value *value);
 
 typedef enum result_row_kind { RESULT_ROW_NUMBER, RESULT_ROW_TEXT } result_row_kind;
 
