@@ -144,7 +144,7 @@ static wt_status page_section_write(page_writer *page, page_section section, siz
         [SECTION_UNCERTAINTY] = {"uncertainty", "Uncertainty", "more-uncertainty"}};
     text_buffer before = page->out;
     page->out = (text_buffer){0};
-    page_numbers(page, section);
+    page_section_rows(page, section);
     wt_status status = add_figures(page, section, false, number, err);
     add_missing_figures(page, section);
     const size_t n_more = count_figures(page, section, true);

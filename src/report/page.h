@@ -60,8 +60,8 @@ void page_conditions(page_writer *page);
 /* Cards of a result that answers none of the questions of a case, and a table of what does not fit
  * on them. */
 void page_rows(page_writer *page);
-/* Main numbers of one section; nothing if the result has none. */
-void page_numbers(page_writer *page, page_section section);
+/* Main numbers of one section of a case, with the texts of the terminal; nothing if it has none. */
+void page_section_rows(page_writer *page, page_section section);
 void page_results(page_writer *page);     /* result tables */
 void page_indentation(page_writer *page); /* conditions of indentation, rejected curves */
 void page_failures(page_writer *page);    /* failed files and stages */
@@ -69,13 +69,11 @@ void page_inputs(page_writer *page);      /* inputs, notes */
 void page_cost(page_writer *page);
 void page_record(page_writer *page); /* case file, provenance */
 
-/* Writes a value of row_number_format in large type, or smaller without an interval. `unit`
- * replaces its unit unless NULL. */
-void page_value(page_writer *page, const char *value, const char *unit, bool has_interval);
-/* Writes a bar from `low` to `high` on the axis of a number, with its limits as text; nothing if
- * these are not finite. `class` selects the drawing: interval or choices. */
-void page_bar(page_writer *page, const char *name, const char *class, const char *text,
-              const result_value *f, double low, double high);
+/* Writes a number in large type, or smaller without an interval, and bars of its interval and range
+ * on one axis, where a line marks the neutral value unless it is NaN. `unit` replaces the unit of
+ * the number unless NULL. */
+void page_large_number(page_writer *page, const row_number *number, const char *unit,
+                       double neutral);
 
 /* Writes the reason behind a verdict "no: the reason" as a sentence; a text without a reason as it
  * is. */
@@ -106,10 +104,6 @@ void page_keys(page_writer *page, const table_view *table, const char *caption);
 void page_estimates_begin(page_writer *page, const char *caption);
 void page_estimate(page_writer *page, const char *words, const wt_estimate *estimate,
                    wt_quantity quantity);
-/* Write a table of main numbers with their 95 % intervals and ranges over model choices line by
- * line. A standard error of zero means that the number has no error. */
-void page_numbers_begin(page_writer *page, const char *caption);
-void page_number(page_writer *page, const char *words, const result_value *f, const char *remark);
 void page_table_end(page_writer *page);
 
 #endif

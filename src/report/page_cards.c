@@ -12,16 +12,11 @@
 
 /* Limits of the axis of the bars: all numbers of the card, with a margin. Without a reference or a
  * second bar the axis begins at zero, so that the bar shows the width relative to the value. */
-static void bar_axis(const result_value *f, double *low, double *high)
+static void bar_axis(const row_number *n, double neutral, double *low, double *high)
 {
-    const bool alone = isnan(f->neutral) && isnan(f->range.low);
-    const double ends[] = {f->number.value,
-                           f->low,
-                           f->high,
-                           f->range.low,
-                           f->range.high,
-                           f->neutral,
-                           alone ? 0 : f->number.value};
+    const bool alone = isnan(neutral) && isnan(n->range_low);
+    const double ends[] = {
+        n->value, n->low, n->high, n->range_low, n->range_high, neutral, alone ? 0 : n->value};
     *low = (double)INFINITY;
     *high = -(double)INFINITY;
     for (size_t i = 0; i < COUNT_OF(ends); i++)
@@ -34,23 +29,48 @@ static void bar_axis(const result_value *f, double *low, double *high)
     *high += margin;
 }
 
-void page_bar(page_writer *page, const char *name, const char *class, const char *text,
-              const result_value *f, double low, double high)
+void page_large_number(page_writer *page, const row_number *number, const char *unit,
+                       double neutral)
 {
+    const row_number_text text = row_number_format(number);
+    const struct {
+        const char *name, *class, *limits;
+        double low, high;
+    } bars[] = {{"95 % interval", "interval", text.interval, number->low, number->high},
+                {"Model choices", "choices", text.range, number->range_low, number->range_high}};
+    const size_t n = strcspn(text.value, " "); /* the unit is behind the first blank */
     double left = 0, right = 0;
-    if (!isfinite(low) || !isfinite(high))
+    if (strpbrk(text.value, "0123456789") == NULL) { /* such as "not known" */
+        text_html(&page->out, "<p class=\"verdict\"><strong>%s</strong></p>\n", text.value);
         return;
-    bar_axis(f, &left, &right);
-    text_html(&page->out, "<div><dt>%s</dt><dd class=\"bar\" aria-hidden=\"true\">", name);
-    if (!isnan(f->neutral))
-        text_format(&page->out, "<i class=\"neutral\" style=\"left:%s%%\"></i>",
-                    FIXED(100 * (f->neutral - left) / (right - left), 1));
-    text_format(&page->out, "<i class=\"%s\" style=\"left:%s%%;width:%s%%\"></i>", class,
-                FIXED(100 * (low - left) / (right - left), 1),
-                FIXED(100 * (high - low) / (right - left), 1));
-    text_add(&page->out, "</dd><dd class=\"limits\">");
-    text_typographic(&page->out, text);
-    text_add(&page->out, "</dd></div>\n");
+    }
+    char *const value = wt_strndup(text.value, n);
+    text_add(&page->out,
+             text.interval[0] != '\0' ? "<p class=\"number\">" : "<p class=\"number plain\">");
+    text_typographic(&page->out, value);
+    text_add(&page->out, " <span class=\"unit\">");
+    text_typographic(&page->out, unit != NULL            ? unit
+                                 : text.value[n] != '\0' ? text.value + n + 1
+                                                         : "");
+    text_add(&page->out, "</span></p>\n<dl>\n");
+    free(value);
+    bar_axis(number, neutral, &left, &right);
+    for (size_t i = 0; i < COUNT_OF(bars); i++) {
+        if (!isfinite(bars[i].low) || !isfinite(bars[i].high))
+            continue;
+        text_html(&page->out, "<div><dt>%s</dt><dd class=\"bar\" aria-hidden=\"true\">",
+                  bars[i].name);
+        if (!isnan(neutral))
+            text_format(&page->out, "<i class=\"neutral\" style=\"left:%s%%\"></i>",
+                        FIXED(100 * (neutral - left) / (right - left), 1));
+        text_format(&page->out, "<i class=\"%s\" style=\"left:%s%%;width:%s%%\"></i>",
+                    bars[i].class, FIXED(100 * (bars[i].low - left) / (right - left), 1),
+                    FIXED(100 * (bars[i].high - bars[i].low) / (right - left), 1));
+        text_add(&page->out, "</dd><dd class=\"limits\">");
+        text_typographic(&page->out, bars[i].limits);
+        text_add(&page->out, "</dd></div>\n");
+    }
+    text_add(&page->out, "</dl>\n");
 }
 
 void page_reason(page_writer *page, const char *verdict)
@@ -123,6 +143,17 @@ static const struct {
                               [FINDING_LAYER_THICKNESS] = {"layer", "layer"},
                               [FINDING_FRICTION_CHANGE] = {"friction", "friction"}};
 
+static void begin_card(page_writer *page, const char *class, const char *question,
+                       const char *verdict, const char *side, const char *basis)
+{
+    text_html(
+        &page->out,
+        "<section class=\"finding %s\">\n<h2>%s</h2>\n<p class=\"verdict\"><strong>%s%s</strong>",
+        class, question, verdict, side);
+    text_html(&page->out, basis[0] != '\0' ? " <span class=\"basis\">%s</span></p>\n" : "%s</p>\n",
+              basis);
+}
+
 /* Returns the reason of a verdict. A run states why a number is missing. */
 static const char *finding_reason(const page_writer *page, const finding *f)
 {
@@ -151,36 +182,27 @@ static void write_card(page_writer *page, const finding *f)
                                                                    "v-nodata",
                                                                [FINDING_NOT_COMPUTED] = "v-nodata"};
     const result_value *value = &f->value;
-    text_html(&page->out, "<section class=\"finding %s\">\n<h2>%s</h2>\n<p class=\"verdict\">",
-              class[f->verdict], finding_question_text(f->question));
-    text_html(&page->out, "<strong>%s%s</strong>", finding_verdict_text(f->verdict),
-              finding_side_text(f));
-    if (!isnan(value->number.value) && f->verdict != FINDING_PREDICTED)
-        text_html(&page->out, " <span class=\"basis\">%s</span>", finding_basis_text(f->basis));
-    text_add(&page->out, "</p>\n");
     const row_number number = row_number_of_value(value);
-    const row_number_text text = row_number_format(&number);
-    if (!isnan(value->number.value) && !isnan(value->low)) {
-        page_value(page, text.value, f->question == FINDING_TRACK_DIFFERS ? "× bulk modulus" : NULL,
-                   true);
-        text_add(&page->out, "<dl>\n");
-        page_bar(page, "95 % interval", "interval", text.interval, value, value->low, value->high);
-        page_bar(page, "Model choices", "choices", text.range, value, value->range.low,
-                 value->range.high);
-        text_add(&page->out, "</dl>\n");
-    }
+    const bool known = !isnan(value->number.value);
+    begin_card(page, class[f->verdict], finding_question_text(f->question),
+               finding_verdict_text(f->verdict), finding_side_text(f),
+               known && f->verdict != FINDING_PREDICTED ? finding_basis_text(f->basis) : "");
+    if (known && !isnan(value->low))
+        page_large_number(page, &number,
+                          f->question == FINDING_TRACK_DIFFERS ? "× bulk modulus" : NULL,
+                          value->neutral);
     text_add(&page->out, "<p>");
     text_typographic(&page->out, finding_reason(page, f));
     const bool is_given = f->basis == FINDING_GIVEN;
-    if (is_given && isfinite(value->number.value)) {
+    if (is_given && known) {
         text_add(&page->out, " It is ");
-        text_typographic(&page->out, text.value);
+        text_typographic(&page->out, row_number_format(&number).value);
         text_add(&page->out, ".");
     }
-    if (f->as_if_layer && !is_given && !isnan(value->number.value))
+    if (f->as_if_layer && !is_given && known)
         text_add(&page->out,
                  " The track is not shown to differ: the number is as if there were a layer.");
-    if (!isnan(value->number.value)) /* its section exists */
+    if (known) /* its section exists */
         text_html(&page->out, " <a class=\"why\" href=\"#%s\">Why</a>", links[f->question].section);
     text_add(&page->out, "</p>\n");
     if (f->verdict != FINDING_NOT_COMPUTED)
@@ -193,55 +215,39 @@ static void write_card(page_writer *page, const finding *f)
                     100 * f->rest);
     if (value->range.widest != NULL)
         text_add(&page->out, ".</p>\n");
-    if (!isnan(value->number.value))
+    if (known)
         write_key_figure(page, links[f->question].figure);
     text_add(&page->out, "</section>\n");
 }
 
-/* Card of a comparison of measured with predicted friction. */
-typedef struct comparison_card {
-    const char *question, *verdict, *reason, *settled, *figure;
+/* Verdict of a comparison of measured with predicted friction, and its reason. */
+typedef struct comparison_verdict {
+    const char *question, *word, *reason, *settled, *figure;
     bool is_open, is_known;
-    double ratio, low, high; /* measured over predicted */
-    row_number needed, used; /* shear stress; NaN if unknown */
-} comparison_card;
+} comparison_verdict;
 
-static void write_comparison_card(page_writer *page, const comparison_card *c)
+/* Writes a card with the ratio of measured over predicted, and with the shear stress that would
+ * make it 1 unless that is NaN. */
+static void write_comparison_card(page_writer *page, const comparison_verdict *c,
+                                  const row_number *ratio, const row_number *needed)
 {
-    const double none = (double)NAN;
-    const result_value axis = {.number = {c->ratio, none, none, "1"},
-                               .low = c->low,
-                               .high = c->high,
-                               .neutral = 1,
-                               .range = {.low = none, .high = none}};
-    const row_number ratio = row_number_of_value(&axis);
-    const row_number_text text = row_number_format(&ratio);
-    text_html(
-        &page->out,
-        "<section class=\"finding %s\">\n<h2>%s</h2>\n<p class=\"verdict\"><strong>%s</strong> "
-        "<span class=\"basis\">measured</span></p>\n",
-        !c->is_known ? "v-nodata"
-        : c->is_open ? "v-open"
-                     : "v-yes",
-        c->question, c->is_known ? c->verdict : stated_verdict_text(VERDICT_NOT_TESTED));
-    if (!isnan(c->ratio) && !isnan(c->low)) {
-        page_value(page, text.value, "× predicted", true);
-        text_add(&page->out, "<dl>\n");
-        page_bar(page, "95 % interval", "interval", text.interval, &axis, c->low, c->high);
-        text_add(&page->out, "</dl>\n");
-    }
+    begin_card(page,
+               !c->is_known ? "v-nodata"
+               : c->is_open ? "v-open"
+                            : "v-yes",
+               c->question, c->is_known ? c->word : stated_verdict_text(VERDICT_NOT_TESTED), "",
+               "measured");
+    if (!isnan(ratio->low))
+        page_large_number(page, ratio, "× predicted", 1);
     if (c->reason != NULL)
         page_reason(page, c->reason);
-    if (!isnan(c->needed.value)) {
-        const row_number_text needed = row_number_format(&c->needed),
-                              used = row_number_format(&c->used);
+    if (!isnan(needed->low)) {
+        const row_number_text text = row_number_format(needed);
         text_add(&page->out, "<p>Shear stress needed: ");
-        text_typographic(&page->out, needed.value);
-        text_add(&page->out, needed.interval[0] != '\0' ? " (" : "");
-        text_typographic(&page->out, needed.interval);
-        text_add(&page->out, needed.interval[0] != '\0' ? "), used: " : ", used: ");
-        text_typographic(&page->out, used.value);
-        text_add(&page->out, ".</p>\n");
+        text_typographic(&page->out, text.value);
+        text_add(&page->out, " (");
+        text_typographic(&page->out, text.interval);
+        text_add(&page->out, ").</p>\n");
     }
     if (c->settled != NULL) {
         text_add(&page->out, "<p class=\"widest\">How to decide it: ");
@@ -257,41 +263,42 @@ static void write_validation_cards(page_writer *page)
     const table_view *const v = &page->tables->validation, *const r =
                                                                &page->tables->validation_running_in;
     const double none = (double)NAN;
+    row_number ratio = {none, none, none, none, none, "1"},
+               needed = {none, none, none, none, none, "Pa"};
     if (v->table != NULL) {
         const int outcome = validation_key_enum(v, VALIDATION_KEY_OUTCOME);
-        const comparison_card card = {
-            .question = "Does theory match measured friction?",
-            .verdict = validation_outcome_text((validation_outcome)outcome),
-            .is_known = outcome < VALIDATION_OUTCOME_UNKNOWN,
-            .is_open = outcome == OUTCOME_INCONCLUSIVE,
-            .reason = validation_key_text(v, VALIDATION_KEY_VERDICT),
-            .settled = validation_key_text(v, VALIDATION_KEY_SETTLED_BY),
-            .figure = "validation",
-            .ratio = validation_value(v, VALIDATION_KEY_RATIO).value,
-            .low = validation_value(v, VALIDATION_KEY_RATIO_LOW).value,
-            .high = validation_value(v, VALIDATION_KEY_RATIO_HIGH).value,
-            .needed = {validation_value(v, VALIDATION_KEY_NEEDED).value,
-                       validation_value(v, VALIDATION_KEY_NEEDED_LOW).value,
-                       validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value, none, none, "Pa"},
-            .used = {validation_value(v, VALIDATION_KEY_SHEAR).value, none, none, none, none,
-                     "Pa"}};
-        write_comparison_card(page, &card);
+        ratio.value = validation_value(v, VALIDATION_KEY_RATIO).value;
+        ratio.low = validation_value(v, VALIDATION_KEY_RATIO_LOW).value;
+        ratio.high = validation_value(v, VALIDATION_KEY_RATIO_HIGH).value;
+        needed.value = validation_value(v, VALIDATION_KEY_NEEDED).value;
+        needed.low = validation_value(v, VALIDATION_KEY_NEEDED_LOW).value;
+        needed.high = validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value;
+        write_comparison_card(
+            page,
+            &(comparison_verdict){"Does theory match measured friction?",
+                                  validation_outcome_text((validation_outcome)outcome),
+                                  validation_key_text(v, VALIDATION_KEY_VERDICT),
+                                  validation_key_text(v, VALIDATION_KEY_SETTLED_BY), "validation",
+                                  outcome == OUTCOME_INCONCLUSIVE,
+                                  outcome < VALIDATION_OUTCOME_UNKNOWN},
+            &ratio, &needed);
     }
     if (r->table != NULL) {
         const int verdict = validation_running_in_key_enum(r, VALIDATION_RUNNING_IN_KEY_VERDICT);
-        const comparison_card card = {
-            .question = "Does theory match the time of running-in?",
-            .verdict = stated_verdict_text((stated_verdict)verdict),
-            .is_known = verdict < VERDICT_UNKNOWN,
-            .is_open = verdict == VERDICT_INCONCLUSIVE,
-            .reason = validation_running_in_key_text(r, VALIDATION_RUNNING_IN_KEY_VERDICT),
-            .settled = validation_running_in_key_text(r, VALIDATION_RUNNING_IN_KEY_SETTLED_BY),
-            .figure = "validation_course",
-            .ratio = validation_running_in_value(r, VALIDATION_RUNNING_IN_KEY_TIME_RATIO).value,
-            .low = validation_running_in_value(r, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_LOW).value,
-            .high = validation_running_in_value(r, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_HIGH).value,
-            .needed = {.value = none}};
-        write_comparison_card(page, &card);
+        ratio.value = validation_running_in_value(r, VALIDATION_RUNNING_IN_KEY_TIME_RATIO).value;
+        ratio.low = validation_running_in_value(r, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_LOW).value;
+        ratio.high =
+            validation_running_in_value(r, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_HIGH).value;
+        needed.low = none;
+        write_comparison_card(
+            page,
+            &(comparison_verdict){
+                "Does theory match the time of running-in?",
+                stated_verdict_text((stated_verdict)verdict),
+                validation_running_in_key_text(r, VALIDATION_RUNNING_IN_KEY_VERDICT),
+                validation_running_in_key_text(r, VALIDATION_RUNNING_IN_KEY_SETTLED_BY),
+                "validation_course", verdict == VERDICT_INCONCLUSIVE, verdict < VERDICT_UNKNOWN},
+            &ratio, &needed);
     }
 }
 

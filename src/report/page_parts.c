@@ -335,47 +335,6 @@ void page_estimate(page_writer *page, const char *words, const wt_estimate *esti
     text_add(&page->out, "</tr>\n");
 }
 
-/* ---- main numbers ---------------------------------------------------------------------------- */
-
-static const char interval_heading[] = "95 % interval", choices_heading[] = "Model choices",
-                  remark_heading[] = "Remark";
-
-void page_numbers_begin(page_writer *page, const char *caption)
-{
-    begin_html_table(page, caption, 6);
-    heading_cell(page, "Quantity", "", false);
-    heading_cell(page, value_heading, "", true);
-    heading_cell(page, interval_heading, "", true);
-    heading_cell(page, choices_heading, "", true);
-    heading_cell(page, numerical_heading, "", true);
-    heading_cell(page, remark_heading, "", false);
-    text_add(&page->out, "</tr></thead>\n<tbody>\n");
-}
-
-static void write_text_cell(page_writer *page, const char *heading, const char *text)
-{
-    begin_labelled_cell(page, heading, "", true);
-    text_typographic(&page->out, text);
-    text_add(&page->out, "</td>");
-}
-
-void page_number(page_writer *page, const char *words, const result_value *f, const char *remark)
-{
-    const row_number number = row_number_of_value(f);
-    const row_number_text text = row_number_format(&number);
-    const display_unit lab = select_display_unit(f->quantity, f->number.unit, f->number.value);
-    text_html(&page->out, "<tr><th scope=\"row\">%s</th>", words);
-    write_text_cell(page, value_heading, text.value);
-    write_text_cell(page, interval_heading,
-                    text.interval[0] != '\0'        ? text.interval
-                    : f->number.standard_error == 0 ? "–"
-                                                    : "not known");
-    write_text_cell(page, choices_heading, text.range[0] != '\0' ? text.range : "–");
-    write_error_cell(page, numerical_heading, f->number.numerical_error, &lab);
-    begin_labelled_cell(page, remark_heading, "", false);
-    text_html(&page->out, "%s</td></tr>\n", remark);
-}
-
 /* ---- keys ------------------------------------------------------------------------------------ */
 
 /* Returns the label of a key; without a schema it is the name with blanks. */

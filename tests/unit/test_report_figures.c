@@ -576,7 +576,7 @@ static void test_numbers_of_captions(void **state)
     (void)state;
     NEED_REPORT();
     static const char *const captions[][2] = {
-        {"force_displacement", " nm. The vertical line"},
+        {"force_displacement", " (95 %). The vertical line"},
         {"force_indentation", " Lines: contact model with the fitted modulus."},
         {"modulus_groups", " Unit of analysis of the interval: spot. bulk: n = 48, rejected 0. "
                            "track: n = 48, rejected 0."},

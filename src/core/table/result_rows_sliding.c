@@ -164,19 +164,23 @@ static void add_what_if(rows_source *s, const table_view *v, bool has_layer)
     }
 }
 
-void rows_of_sliding(rows_source *s)
+void rows_of_friction(rows_source *s)
 {
-    table_view view;
+    table_view view, layer;
     const bool has_friction = rows_bind(s, &friction_schema, &view);
     if (has_friction)
         add_friction(s, &view);
-    const bool has_layer = rows_bind(s, &layer_schema, &view);
-    if (has_layer)
-        add_layer(s, &view);
     if (!has_friction && rows_bind(s, &what_if_schema, &view))
-        add_what_if(s, &view, has_layer);
+        add_what_if(s, &view, rows_bind(s, &layer_schema, &layer));
     if (!has_friction && rows_bind(s, &contact_area_schema, &view))
         add_contact_area(s, &view);
+}
+
+void rows_of_layer(rows_source *s)
+{
+    table_view view;
+    if (rows_bind(s, &layer_schema, &view))
+        add_layer(s, &view);
     if (rows_bind(s, &identification_schema, &view))
         add_identification(s, &view);
 }
