@@ -109,10 +109,10 @@ static bool print_one_result(cmd_session *s, const cmd_option_group *form)
     return true;
 }
 
-/* Prints the first main numbers of each of several results, in two lines each. */
+/* Prints the first main numbers of each of several results, in three lines each. */
 static void print_several_results(cmd_session *s, size_t n)
 {
-    enum { SHOWN = 8, INDENT = 4, ROOM = 2 * CMD_SCREEN_WIDTH - 3 * INDENT };
+    enum { SHOWN = 6, INDENT = 4, ROOM = 3 * CMD_SCREEN_WIDTH - 4 * INDENT };
     for (size_t i = 0; i < n && i < SHOWN; i++) {
         wt_result *result = NULL;
         char text[ROOM + 1] = "";

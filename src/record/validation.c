@@ -148,7 +148,7 @@ static void required_shear_set_keys(const validation *v, table_writer *t)
                             v->needed.value > 0
                                 ? "inconclusive: with so few velocities some shear stress fits "
                                   "any measurement"
-                                : "does not: the hysteresis part alone is more than was measured");
+                                : "no: the hysteresis part alone is more than was measured");
 }
 
 /* ---- parameters ------------------------------------------------------------------------------ */
