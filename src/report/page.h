@@ -100,10 +100,4 @@ void page_whole_table(page_writer *page, const table_view *table, const char *ca
  * none. */
 void page_keys(page_writer *page, const table_view *table, const char *caption);
 
-/* Write a table of estimates with both standard errors line by line. */
-void page_estimates_begin(page_writer *page, const char *caption);
-void page_estimate(page_writer *page, const char *words, const wt_estimate *estimate,
-                   wt_quantity quantity);
-void page_table_end(page_writer *page);
-
 #endif
