@@ -69,7 +69,7 @@ next() {
   words=$1
   shift
   terminal "$@"
-  grep -qxF "next     weartrack $words" screen || fail "no next command: $*"
+  tr -s ' \n' ' ' < screen | grep -qF "next weartrack $words " || fail "no next command: $*"
   "$program" "$@" 2>&1 | grep -q '^next' && fail "a next command in a pipe: $*"
   return 0
 }
