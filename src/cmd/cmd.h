@@ -96,7 +96,7 @@ typedef struct cmd_usage {
     const char *first;  /* most important options, for --help without "all"; NULL: all */
     const char *master; /* options that weartrack master documents; NULL: none */
     const char *notes;  /* text after the options; NULL if none */
-    const char *next;   /* call that follows with the result, shown on a terminal; NULL: none */
+    const char *next;   /* call that follows with the RESULT, shown on a terminal; NULL: none */
     bool exports;       /* writes tables for other programs */
     bool one_by_one;    /* writes each table when it is read: no CSV and no JSON */
     int n_files;        /* required number of files; CMD_ONE_OR_MORE: one or more; 0: any */
@@ -198,6 +198,8 @@ size_t cmd_text_fit(const char *text, size_t length, size_t width);
 /* Prints the text and a line feed; the line already has `column` characters. Long lines are wrapped
  * between words with an indent of `indent` blanks. */
 void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text);
+/* Prints a blank and one word of a call, quoted for a shell. */
+void cmd_print_argument(FILE *out, const char *word);
 
 /* ---- messages ----------------------------------------------------------------------------- */
 
@@ -223,8 +225,9 @@ void cmd_message(const char *format, ...) WT_PRINTF(1, 2);
 void cmd_print_safely(FILE *out, const char *text, size_t length);
 /* Removes a progress line from the terminal. */
 void cmd_erase_progress(void);
-/* Width and largest number of lines of what a terminal shows without --verbose. */
-enum { CMD_SCREEN_WIDTH = 80, CMD_SCREEN_LINES = 20 };
+/* Width and largest number of lines of what a terminal shows without --verbose, and the width of
+ * the label of a remark. */
+enum { CMD_SCREEN_WIDTH = 80, CMD_SCREEN_LINES = 20, CMD_LABEL_WIDTH = 9 };
 /* True if remarks are printed in short: standard error is a terminal, without --verbose. */
 bool cmd_is_brief(const cmd_session *s);
 /* Prints the path of the page of a report. */

@@ -88,21 +88,6 @@ static bool print_file_info(cmd_session *s, size_t i, const wt_read_options *opt
     return status == WT_OK;
 }
 
-/* Prints one word, quoted for a shell. */
-static void print_shell_argument(const char *word)
-{
-    static const char plain[] =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./=,:@";
-    const char *mark = word[strspn(word, plain)] != '\0' ? "'" : "";
-    printf(" %s", mark);
-    for (const char *p = word; *p != '\0'; p++)
-        if (*p == '\'')
-            fputs("'\\''", stdout);
-        else
-            putchar((unsigned char)*p < ' ' ? '?' : *p);
-    fputs(mark, stdout);
-}
-
 /* Prints the options that the user must supply. Missing units of columns are not guessed. */
 static void print_missing_options(const file_kind *found)
 {
@@ -117,7 +102,7 @@ static void print_missing_options(const file_kind *found)
         n = strcspn(name, "\n");
         snprintf(given, sizeof given, "%.*s=UNIT", (int)n, name);
         fputs(" --units", stdout);
-        print_shell_argument(given);
+        cmd_print_argument(stdout, given);
     }
 }
 
@@ -155,9 +140,9 @@ static void print_given_options(int argc, char **argv, const char *subcommand)
     for (int i = 1; i < argc; i++) {
         if (strncmp(argv[i], "--", 2) != 0 || !is_taken_by(subcommand, argv[i] + 2))
             continue;
-        print_shell_argument(argv[i]);
+        cmd_print_argument(stdout, argv[i]);
         if (strchr(argv[i], '=') == NULL && i + 1 < argc)
-            print_shell_argument(argv[++i]);
+            cmd_print_argument(stdout, argv[++i]);
     }
 }
 
@@ -171,7 +156,7 @@ static void print_next_command(const cmd_session *s, int argc, char **argv, cons
         fputs("\nnext: weartrack new-case", stdout);
         print_given_options(argc, argv, "new-case");
         for (size_t i = 0; i < s->n_files; i++)
-            print_shell_argument(files[i]);
+            cmd_print_argument(stdout, files[i]);
         fputs(" -o case.xml\n", stdout);
         return;
     }
@@ -185,11 +170,11 @@ static void print_next_command(const cmd_session *s, int argc, char **argv, cons
                                                             : "convert";
     printf("\nnext: weartrack %s", next);
     if (!found->is_result && found->kind == WT_KIND_FORCE)
-        print_shell_argument(*found->tip != '\0' ? found->tip
-                                                 : "pyramid:half-angle=35deg,radius=20nm");
+        cmd_print_argument(stdout, *found->tip != '\0' ? found->tip
+                                                       : "pyramid:half-angle=35deg,radius=20nm");
     print_given_options(argc, argv, next);
     print_missing_options(found);
-    print_shell_argument(files[0]);
+    cmd_print_argument(stdout, files[0]);
     char *output = found->is_result
                        ? NULL
                        : cmd_default_name(files[0], cmd_is_hdf5_path(files[0])
@@ -197,7 +182,7 @@ static void print_next_command(const cmd_session *s, int argc, char **argv, cons
                                                         : ".h5");
     if (output != NULL) {
         fputs(" -o", stdout);
-        print_shell_argument(output);
+        cmd_print_argument(stdout, output);
     }
     free(output);
     putchar('\n');

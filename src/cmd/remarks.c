@@ -48,7 +48,7 @@ static size_t group_equal_entries(log_group *folds, size_t n)
 
 /* ---- on a terminal --------------------------------------------------------------------------- */
 
-enum { LABEL_WIDTH = 9, LINES_OF_REMARKS = 2 };
+enum { LINES_OF_REMARKS = 2 };
 
 bool cmd_is_brief(const cmd_session *s)
 {
@@ -73,7 +73,7 @@ static size_t count_lines(const char *text)
 {
     size_t lines = 0;
     do {
-        text += fitting_length(text, CMD_SCREEN_WIDTH - LABEL_WIDTH);
+        text += fitting_length(text, CMD_SCREEN_WIDTH - CMD_LABEL_WIDTH);
         text += strspn(text, " ");
         lines++;
     } while (*text != '\0');
@@ -82,13 +82,13 @@ static size_t count_lines(const char *text)
 
 static void print_remark(const char *label, const char *text, bool whole)
 {
-    enum { ROOM = CMD_SCREEN_WIDTH - LABEL_WIDTH, DOTS = 4 };
+    enum { ROOM = CMD_SCREEN_WIDTH - CMD_LABEL_WIDTH, DOTS = 4 };
     do {
         size_t n = fitting_length(text, ROOM);
         const bool cut = !whole && text[n] != '\0';
         if (cut)
             n = fitting_length(text, ROOM - DOTS);
-        cmd_message("%-*s%.*s%s\n", LABEL_WIDTH, label, (int)n, text, cut ? " ..." : "");
+        cmd_message("%-*s%.*s%s\n", CMD_LABEL_WIDTH, label, (int)n, text, cut ? " ..." : "");
         text += n;
         text += strspn(text, " ");
         label = "";
@@ -109,9 +109,9 @@ static void print_remarks(cmd_session *s, const char *const labels[], char *cons
     for (size_t i = 0; i < shown; i++)
         print_remark(labels[i], texts[i], whole);
     if (n > shown)
-        cmd_message("%-*sand %zu more kinds: --verbose\n", LABEL_WIDTH, "", n - shown);
+        cmd_message("%-*sand %zu more kinds: --verbose\n", CMD_LABEL_WIDTH, "", n - shown);
     else if (!whole)
-        cmd_message("%-*sin full: --verbose\n", LABEL_WIDTH, "");
+        cmd_message("%-*sin full: --verbose\n", CMD_LABEL_WIDTH, "");
     const size_t used = whole ? lines : shown + 1;
     s->lines_left -= used < s->lines_left ? used : s->lines_left;
 }
@@ -132,12 +132,30 @@ static char *describe_group(const log_group *f)
     return text;
 }
 
+/* The remarks on a result, which are worse, come after those on its data. */
 static int compare_severity(const void *a, const void *b)
 {
     const log_group *p = a, *q = b;
     if (p->entry.severity != q->entry.severity)
         return p->entry.severity > q->entry.severity ? -1 : 1;
-    return p->n_files != q->n_files ? (p->n_files > q->n_files ? -1 : 1) : compare_first(a, b);
+    return -compare_first(a, b);
+}
+
+/* Moves the first limit of the answers, the worst, behind all other remarks. `groups` has room for
+ * one more, as the limit may have other words than its remark. */
+static void move_worst_limit(const cmd_session *s, log_group *groups, size_t *n)
+{
+    const wt_table *const limits = s->result != NULL ? wt_result_find(s->result, "limits") : NULL;
+    if (limits == NULL || wt_table_n_rows(limits) == 0 ||
+        strcmp(wt_table_text(limits, 0, LIMITS_SEVERITY), wt_severity_name(WT_WARNING)) != 0)
+        return;
+    const char *const text = wt_table_text(limits, 0, LIMITS_LIMIT);
+    size_t i = 0;
+    while (i < *n && strcmp(groups[i].entry.text, text) != 0)
+        i++;
+    if (i == *n)
+        groups[(*n)++] = (log_group){{WT_WARNING, .file = "", .place = "", .text = text}, 0, 1, 1};
+    groups[i].first = SIZE_MAX;
 }
 
 /* The worst first. */
@@ -211,8 +229,10 @@ void cmd_print_log(cmd_session *s, const wt_log *log, bool notes)
             folds[n_folds++] = (log_group){e, i, 1, e.count};
     }
     n_folds = group_equal_entries(folds, n_folds);
-    if (cmd_is_brief(s))
+    if (cmd_is_brief(s)) {
+        move_worst_limit(s, folds, &n_folds);
         print_groups_briefly(s, folds, n_folds);
+    }
     for (size_t i = 0; i < n_folds && !cmd_is_brief(s); i++)
         print_log_group(s->name, &folds[i]);
     free(folds);

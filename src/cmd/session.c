@@ -137,6 +137,31 @@ wt_status cmd_write_record(cmd_session *s, wt_table_sink sink, void *user)
     return status;
 }
 
+/* Prints the call that follows, with the name of the result, which must be HDF5. */
+static void print_next_call(const cmd_session *s)
+{
+    static const char result[] = " RESULT";
+    const char *const output = s->common.output, *text = s->next;
+    char *whole = NULL;
+    size_t size = 0;
+    if (output != NULL && !cmd_is_hdf5_path(output))
+        return;
+    FILE *const out = open_memstream(&whole, &size);
+    if (out == NULL)
+        cmd_exit_without_memory(sizeof whole);
+    const bool unwritten = output == NULL && strstr(text, result) != NULL;
+    fputs(unwritten ? "repeat with -o RESULT.h5, then weartrack " : "weartrack ", out);
+    for (const char *at; (at = strstr(text, result)) != NULL; text = at + strlen(result)) {
+        fwrite(text, 1, (size_t)(at - text), out);
+        cmd_print_argument(out, output != NULL ? output : "RESULT.h5");
+    }
+    fputs(text, out);
+    fclose(out);
+    fputs("next     ", stdout);
+    cmd_wrap(stdout, CMD_LABEL_WIDTH, CMD_LABEL_WIDTH, whole);
+    free(whole);
+}
+
 void cmd_end(cmd_session *s, wt_status status)
 {
     cmd_progress_end(s);
@@ -151,7 +176,7 @@ void cmd_end(cmd_session *s, wt_status status)
     /* a pipe gets tables only */
     if (status == WT_OK && s->next != NULL && isatty(STDOUT_FILENO) && !s->common.quiet &&
         !cmd_log_is_json())
-        printf("next     weartrack %s\n", s->next);
+        print_next_call(s);
 }
 
 static wt_status add_result_table(void *result, wt_table *table, wt_error *err)

@@ -1,4 +1,6 @@
 /* weartrack summary: one row for each result. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
 #include "cmd/table_output.h"
 
 /* Result of reading one file: headlines or failure. */
@@ -85,12 +87,17 @@ static void print_counts(const cmd_session *s)
         printf("remarks  %zu, see the table notes\n", n_remarks);
 }
 
+/* True if main numbers are listed on a terminal. --quiet prints no list. */
+static bool shows_list(const cmd_session *s, const cmd_option_group *form)
+{
+    return !cmd_option_is_set(form, "format") && !s->common.quiet && cmd_shows_first_lines(s);
+}
+
 /* Prints the main numbers of one result below each other, where a row of 60 columns would be cut.
- * Returns false if the result has none, or if the table is requested; --quiet prints no list. */
+ * Returns false if the result has none, or if the table is requested. */
 static bool print_one_result(cmd_session *s, const cmd_option_group *form)
 {
-    if (s->n_files != 1 || cmd_option_is_set(form, "format") || s->common.quiet ||
-        !cmd_shows_first_lines(s))
+    if (s->n_files != 1 || !shows_list(s, form))
         return false;
     wt_error err = WT_ERROR_INIT; /* the table reports the failure */
     if (cmd_tables_read(s->files[0], &s->result, &err) != WT_OK || !cmd_shows_short_table(s))
@@ -100,6 +107,39 @@ static bool print_one_result(cmd_session *s, const cmd_option_group *form)
     cmd_apply_strict(s, s->files[0], cmd_count_remarks(s->result));
     puts("one row of all main numbers: -o FILE, or -o - to print it");
     return true;
+}
+
+/* Prints the first main numbers of each of several results, in three lines each. */
+static void print_several_results(cmd_session *s, size_t n)
+{
+    enum { SHOWN = 6, INDENT = 4, ROOM = 3 * CMD_SCREEN_WIDTH - 4 * INDENT };
+    for (size_t i = 0; i < n && i < SHOWN; i++) {
+        wt_result *result = NULL;
+        char text[ROOM + 1] = "";
+        if (cmd_tables_read(s->files[i], &result, &s->err) != WT_OK)
+            continue; /* it changed since it was read */
+        wt_result_rows *rows = wt_result_rows_new(result, wt_result_find(result, "answer") != NULL);
+        const size_t name = cmd_text_width(s->files[i], strlen(s->files[i]));
+        for (size_t k = 0, used = 0; k < wt_result_rows_count(rows); k++) {
+            const wt_result_row row = wt_result_rows_get(rows, k);
+            const bool closed = row.interval[0] != '\0';
+            const int length =
+                snprintf(text + used, sizeof text - used, "%s %s %s%s%s%s", k == 0 ? ":" : ";",
+                         row.name, row.text, closed ? " (" : "", row.interval, closed ? ")" : "");
+            if (name + used + (size_t)length > ROOM) {
+                text[used] = '\0';
+                break;
+            }
+            used += (size_t)length;
+        }
+        cmd_print_safely(stdout, s->files[i], strlen(s->files[i]));
+        cmd_wrap(stdout, name, INDENT, text);
+        wt_result_rows_free(rows);
+        wt_result_free(result);
+    }
+    if (n > SHOWN)
+        printf("and %zu more results\n", n - SHOWN);
+    puts("a row of all main numbers for each: -o FILE, or -o - to print them");
 }
 
 int cmd_summary(int argc, char **argv)
@@ -126,13 +166,16 @@ int cmd_summary(int argc, char **argv)
         return cmd_session_free(&s);
     if (print_one_result(&s, &parts[0]))
         return cmd_session_free(&s);
+    const bool brief = shows_list(&s, &parts[0]);
     size_t n_read = 0;
     wt_table **headlines = wt_alloc(s.n_files, sizeof *headlines);
     wt_status status = read_all_results(&s, headlines, &n_read);
-    if (n_read > 0 && status == WT_OK)
+    if (status == WT_OK && brief)
+        print_several_results(&s, n_read);
+    if (n_read > 0 && status == WT_OK && !brief)
         status =
             wt_summary_table(s.files, (const wt_table *const *)headlines, n_read, &summary, &s.err);
-    if (n_read > 0 && status == WT_OK)
+    if (n_read > 0 && status == WT_OK && !brief)
         status = export_table(&s, &parts[0], summary);
     if (status != WT_OK)
         cmd_fail(&s);

@@ -22,6 +22,20 @@ size_t cmd_text_fit(const char *text, size_t length, size_t width)
     return n;
 }
 
+void cmd_print_argument(FILE *out, const char *word)
+{
+    static const char plain[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./=,:@";
+    const char *mark = word[strspn(word, plain)] != '\0' ? "'" : "";
+    fprintf(out, " %s", mark);
+    for (const char *p = word; *p != '\0'; p++)
+        if (*p == '\'')
+            fputs("'\\''", out);
+        else
+            fputc((unsigned char)*p < ' ' ? '?' : *p, out);
+    fputs(mark, out);
+}
+
 void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text)
 {
     bool begin = true; /* the line has no text yet */

@@ -24,7 +24,7 @@ int cmd_validate(int argc, char **argv)
         .description =
             "Does the theory explain the friction that was measured? Records of a tribometer, "
             "or results of weartrack record, are compared with what a case predicts at their "
-            "velocities, with and without the layer: explains, does not, or inconclusive; the "
+            "velocities, with and without the layer: yes, no, or inconclusive; the "
             "shear stress that the record asks for; and where the error comes from.",
         .common = "output formats columns provenance",
         .notes = "Without a RECORD those of the case (<record>) are taken."};

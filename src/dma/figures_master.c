@@ -421,7 +421,7 @@ const figure_description figures_master[] = {
                 CURVE(SHIFT_FACTORS_LAW_LOG_A_HIGH, DATA)},
      .empty_reason = "no shift factor is known",
      .caption_text =
-         "Horizontal shift factors with one standard error (bars; smaller than the symbol "
+         "Horizontal shift factors with their 95 % interval (bars; smaller than the symbol "
          "where not seen).",
      .draw = draw_shift_factors,
      .caption = caption_shift_factors},
@@ -436,7 +436,7 @@ const figure_description figures_master[] = {
                 CURVE(SHIFT_FACTORS_LOG_B_PHYSICAL, OWN), CURVE(SHIFT_FACTORS_LOG_B_MATERIAL, OWN)},
      .empty_reason = "there is no vertical shift",
      .caption_text =
-         "Vertical shift factors of the isotherms with one standard error, their smooth part, "
+         "Vertical shift factors of the isotherms with their 95 % interval, their smooth part, "
          "which is treated as a property of the material, and the factors that density and "
          "temperature alone would give.",
      .draw = draw_vertical_shifts,

@@ -74,8 +74,8 @@ static value_span residual_span(const figure_drawing *d, double offset)
     for (size_t row = 0; row < wt_table_n_rows(data); row++) {
         const double law = wt_table_number(data, row, 4), error = wt_table_number(data, row, 2);
         const double residual = wt_table_number(data, row, 1) - offset - law;
-        span_add(&span, residual - error, false);
-        span_add(&span, residual + error, false);
+        span_add(&span, residual - NORMAL_95 * error, false);
+        span_add(&span, residual + NORMAL_95 * error, false);
         span_add(&span, wt_table_number(data, row, 5) - law, false);
         span_add(&span, wt_table_number(data, row, 6) - law, false);
     }
@@ -94,7 +94,8 @@ static void plot_residual(figure_drawing *d)
               "notitle");
     plot_expression(d, "0 with lines ls 11 notitle");
     plot_item(d, d->data[0],
-              "($1+x_offset):($4 == 0 ? NaN : $2-offset-$5):3 with yerrorbars ls 1 notitle");
+              "($1+x_offset):($4 == 0 ? NaN : $2-offset-$5):(" HALF_95
+              "*$3) with yerrorbars ls 1 notitle");
     plot_end(d);
 }
 
@@ -123,7 +124,8 @@ void draw_shift_factors(figure_drawing *d)
                         law_is_stated(d->table) ? "given law" : "fitted law");
     }
     plot_item(d, d->data[0],
-              "($1+x_offset):($4 == 0 ? NaN : $2):3 with yerrorbars ls 1 title 'from overlap'");
+              "($1+x_offset):($4 == 0 ? NaN : $2):(" HALF_95
+              "*$3) with yerrorbars ls 1 title 'from overlap'");
     if (count_undetermined(d->table) > 0)
         plot_item(d, d->data[0],
                   "($1+x_offset):($4 == 0 ? $2 : NaN) with points ls 14 title "
@@ -169,7 +171,8 @@ void draw_vertical_shifts(figure_drawing *d)
     text_add(&d->script, "set ylabel 'Shift factor, log_{10} b_T' enhanced\n");
     plot_item(d, d->data[0], "($1+x_offset):4 with lines ls 12 title 'rubber elasticity'");
     plot_item(d, d->data[0], "($1+x_offset):5 with lines ls 11 title 'material'");
-    plot_item(d, d->data[0], "($1+x_offset):2:3 with yerrorbars ls 1 title 'isotherms'");
+    plot_item(d, d->data[0],
+              "($1+x_offset):2:(" HALF_95 "*$3) with yerrorbars ls 1 title 'isotherms'");
     plot_end(d);
 }
 

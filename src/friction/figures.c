@@ -253,8 +253,7 @@ const figure_description figures_friction[] = {
                       .band = 74)},
      .empty_reason = "no friction coefficient is a number",
      .caption_text =
-         "Friction coefficient and its parts against sliding velocity. Bands: one standard "
-         "error",
+         "Friction coefficient and its parts against sliding velocity. Bands: 95 % interval",
      .prepare = prepare_friction,
      .caption = caption_friction_curves},
     {

@@ -85,7 +85,8 @@ static void draw_force_displacement(figure_drawing *d)
         plot_force(d, d->data[i], style, "approach");
         plot_force(d, retract[i], style + 30, "retract");
         plot_item(d, contact[i],
-                  "(($1-contact_point)*x_unit):($3*y_unit):($2*x_unit) with xerrorbars ls 13 title "
+                  "(($1-contact_point)*x_unit):($3*y_unit):(" HALF_95
+                  "*$2*x_unit) with xerrorbars ls 13 title "
                   "'contact'");
         plot_end(d);
     }
@@ -100,13 +101,13 @@ static void caption_force_displacement(figure_drawing *d)
         const double error =
             force_displacement_value(&keys, FORCE_DISPLACEMENT_KEY_CONTACT_POINT).standard_error;
         if (curve != NULL && error > 0)
-            text_format(&d->caption, " %s: %s, standard error of the contact point %s.",
-                        d->groups[i], curve, VALUE(WT_Q_LENGTH, NULL, error));
+            text_format(&d->caption, " %s: %s, contact point ± %s (95 %%).", d->groups[i], curve,
+                        VALUE(WT_Q_LENGTH, NULL, NORMAL_95 * error));
         else if (curve != NULL)
             text_format(&d->caption, " %s: %s.", d->groups[i], curve);
     }
     text_add(&d->caption, " The vertical line is the fitted contact point; its horizontal bar is "
-                          "one standard error.");
+                          "its 95 % interval.");
     size_t every = drawing_max_stride(d, LINE_POINTS);
     if (every > 1)
         text_format(&d->caption, " One sample of %zu is drawn.", every);
@@ -180,8 +181,11 @@ static void draw_modulus_groups(figure_drawing *d)
     text_format(&d->script, "set xrange [0.5:%zu.6]\nset xtics (", n);
     for (size_t i = 0; i < n; i++) {
         text_buffer label = {0};
-        text_format(&label, "%s (n = %zu)", d->groups[i],
-                    drawing_row_count(d, d->data[i]) + drawing_row_count(d, open[i]));
+        size_t row = 0; /* of the group, which is in the table */
+        while (strcmp(modulus_groups_text(d->table, row, MODULUS_GROUPS_GROUP), d->groups[i]) != 0)
+            row++;
+        text_format(&label, "%s (n = %.0f)", d->groups[i],
+                    modulus_groups_get(d->table, row, MODULUS_GROUPS_N));
         text_add(&d->script, i == 0 ? "" : ", ");
         text_tic_label(&d->script, text_string(&label));
         text_format(&d->script, " %zu", i + 1);

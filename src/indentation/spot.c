@@ -170,14 +170,14 @@ static void assess_roughness(const wt_spot_job *job, const wt_height_map *f, boo
             "inconclusive: the contact of this tip does not grow with its depth, so no limit "
             "follows from the depth; the roughness stands beside it for you to judge");
     else if (low > limit)
-        clocale_print(
-            s->verdict, sizeof s->verdict,
-            "too rough: %.2g of the depth, above the limit of %.2g, where one rms height of "
-            "depth makes %.2g %% of the contact area",
-            s->plane.rms / job->depth, limit, 100 * largest_effect);
+        clocale_print(s->verdict, sizeof s->verdict,
+                      "no: the roughness is %.2g of the depth, above the limit of %.2g, where one "
+                      "rms height of "
+                      "depth makes %.2g %% of the contact area",
+                      s->plane.rms / job->depth, limit, 100 * largest_effect);
     else if (high <= limit)
         clocale_print(s->verdict, sizeof s->verdict,
-                      "smooth enough: %.2g of the depth, the limit is %.2g",
+                      "yes: the roughness is %.2g of the depth, the limit is %.2g",
                       s->plane.rms / job->depth, limit);
     else
         clocale_print(s->verdict, sizeof s->verdict,

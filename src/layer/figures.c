@@ -174,7 +174,7 @@ const figure_description figures_layer[] = {
                       .panel = 1)},
      .empty_reason = "no layer forms: no thickness above zero to draw on a logarithmic axis",
      .caption_text =
-         "Thickness of the modified layer in time (band: one standard error) and the rates of "
+         "Thickness of the modified layer in time (band: 95 % interval) and the rates of "
          "formation and wear that make it; balance is where the two rates meet.",
      .draw = draw_layer,
      .caption = caption_layer},

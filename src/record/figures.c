@@ -128,7 +128,7 @@ const figure_description figures_validation[] = {
      .caption_text =
          "Friction coefficient of the steady part of every step of the records, with its "
          "interval of 95 %, and as predicted at its velocity, temperature and pressure, with "
-         "one standard error; a line joins steps of one temperature and pressure.",
+         "its interval of 95 %; a line joins steps of one temperature and pressure.",
      .caption = caption_verdict},
     {.name = "validation_ratio",
      .title = "Friction, measured over predicted",
@@ -163,7 +163,7 @@ const figure_description figures_validation[] = {
      .caption_text =
          "Friction coefficient of the records from their start on, means of the cycles with "
          "their interval of 95 %, as predicted while the layer grows and without one, with "
-         "one standard error, and the predicted course as it lies nearest to the record.",
+         "its interval of 95 %, and the predicted course as it lies nearest to the record.",
      .caption = caption_running_in_verdict},
     {.name = NULL},
 };

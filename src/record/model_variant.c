@@ -24,12 +24,12 @@ double validation_discrepancy_variance(const validation *v)
     return off * off;
 }
 
-const char *validation_verdict(agreement_verdict verdict)
+stated_verdict validation_verdict(agreement_verdict verdict)
 {
-    static const char *const words[] = {[AGREEMENT_INCONCLUSIVE] = "inconclusive",
-                                        [AGREEMENT_YES] = "explains",
-                                        [AGREEMENT_NO] = "does not"};
-    return words[verdict];
+    static const stated_verdict stated[] = {[AGREEMENT_INCONCLUSIVE] = VERDICT_INCONCLUSIVE,
+                                            [AGREEMENT_YES] = VERDICT_YES,
+                                            [AGREEMENT_NO] = VERDICT_NO};
+    return stated[verdict];
 }
 
 wt_interval validation_factor(double value, double error, double df)
@@ -55,7 +55,7 @@ verdict_text model_variant_verdict(const validation *v, const model_variant *t)
         snprintf(all, sizeof all, " at all %zu steps", t->n);
     if (fit->verdict == AGREEMENT_YES)
         clocale_print(result.text, sizeof result.text,
-                      "explains: measured over predicted is within %.3g %%%s: at %.3g m/s%s %.3g "
+                      "yes: measured over predicted is within %.3g %%%s: at %.3g m/s%s %.3g "
                       "(95 %%: %s)",
                       100 * v->job->margin, all, v->steps.step[at].velocity,
                       t->n > 1 ? ", where it is farthest," : "", exp(fit->fitted_value[at]),
@@ -65,7 +65,7 @@ verdict_text model_variant_verdict(const validation *v, const model_variant *t)
             result.text, sizeof result.text,
             "%s: at %.3g m/s measured over predicted is %.3g (95 %%%s: %s); the margin is "
             "%s",
-            validation_verdict(fit->verdict), v->steps.step[at].velocity,
+            stated_verdict_text(validation_verdict(fit->verdict)), v->steps.step[at].velocity,
             exp(fit->fitted_value[at]), fit->verdict == AGREEMENT_NO ? " at all steps at once" : "",
             format_range(exp(ends[0]), exp(ends[1]), 3).text,
             validation_requested_range(v->job->margin).text);

@@ -358,8 +358,8 @@ static wt_status set_running_in_keys(const running_in_task *task, const run_set 
     validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_VERDICT, result->verdict);
     validation_running_in_set_print(
         t, VALIDATION_RUNNING_IN_KEY_TEST,
-        "explains: the intervals of 95 %% of the time and of the change of friction, measured over "
-        "predicted, are from %s; does not: one of them is outside; else it is inconclusive. "
+        "yes: the intervals of 95 %% of the time and of the change of friction, measured over "
+        "predicted, are from %s; no: one of them is outside; else it is inconclusive. "
         "Errors of record and prediction are in them, choices of the model are not",
         validation_requested_range(all->margin).text);
     if (result->settled_by[0] != '\0')

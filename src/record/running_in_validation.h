@@ -125,6 +125,7 @@ wt_status run_set_compute_levels(run_set *all, wt_error *err) WT_NODISCARD;
 void run_set_clear(run_set *all);
 
 typedef struct run_verdict {
+    stated_verdict outcome;
     char verdict[600], settled_by[320];
 } run_verdict;
 run_verdict run_set_assess(const run_set *all);

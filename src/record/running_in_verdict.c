@@ -139,15 +139,14 @@ static void describe_change(const run_set *all, char *text, size_t size)
                       ratio.value, format_range(ratio.low, ratio.high, 3).text);
 }
 
-static void write_run_verdict(const run_set *all, agreement_verdict verdict, char *text,
-                              size_t size)
+static void write_run_verdict(const run_set *all, stated_verdict verdict, char *text, size_t size)
 {
     char time[240], change[120];
     /* the deciding part comes first */
     const bool by_change = assess_time(all) != AGREEMENT_NO && assess_change(all) == AGREEMENT_NO;
     describe_time(all, time, sizeof time);
     describe_change(all, change, sizeof change);
-    snprintf(text, size, "%s: %s; %s; the margin is %s", validation_verdict(verdict),
+    snprintf(text, size, "%s: %s; %s; the margin is %s", stated_verdict_text(verdict),
              by_change ? change : time, by_change ? time : change,
              validation_requested_range(all->margin).text);
 }
@@ -262,24 +261,23 @@ static bool set_missing_input_verdict(const run_set *all, run_verdict *w)
     }
     if (why == NULL)
         return false;
-    snprintf(w->verdict, sizeof w->verdict, "%s: %s", validation_verdict(AGREEMENT_INCONCLUSIVE),
-             why);
+    snprintf(w->verdict, sizeof w->verdict, "%s: %s", stated_verdict_text(w->outcome), why);
     snprintf(w->settled_by, sizeof w->settled_by, "%s", settles);
     return true;
 }
 
 run_verdict run_set_assess(const run_set *all)
 {
-    run_verdict w = {.settled_by = ""};
+    run_verdict w = {.outcome = VERDICT_INCONCLUSIVE};
     if (set_missing_input_verdict(all, &w))
         return w;
     const agreement_verdict time = assess_time(all), change = assess_change(all);
-    const agreement_verdict verdict = time == AGREEMENT_NO || change == AGREEMENT_NO ? AGREEMENT_NO
-                                      : time == AGREEMENT_YES && change == AGREEMENT_YES
-                                          ? AGREEMENT_YES
-                                          : AGREEMENT_INCONCLUSIVE;
-    write_run_verdict(all, verdict, w.verdict, sizeof w.verdict);
-    if (verdict == AGREEMENT_INCONCLUSIVE)
+    if (time == AGREEMENT_NO || change == AGREEMENT_NO)
+        w.outcome = VERDICT_NO;
+    else if (time == AGREEMENT_YES && change == AGREEMENT_YES)
+        w.outcome = VERDICT_YES;
+    write_run_verdict(all, w.outcome, w.verdict, sizeof w.verdict);
+    if (w.outcome == VERDICT_INCONCLUSIVE)
         write_run_advice(all, time != AGREEMENT_YES ? RUN_TIME_RATIO : RUN_RATIO, w.settled_by,
                          sizeof w.settled_by);
     return w;

@@ -45,9 +45,9 @@
  * for if this is plausible. */
 #define VALIDATION_OUTCOMES(X)                                                                     \
     X(OUTCOME_INCONCLUSIVE, "inconclusive")                                                        \
-    X(OUTCOME_EXPLAINS, "explains")                                                                \
-    X(OUTCOME_EXPLAINS_WITH_SHEAR, "explains with a shear stress")                                 \
-    X(OUTCOME_DOES_NOT, "does not")
+    X(OUTCOME_YES, "yes")                                                                          \
+    X(OUTCOME_YES_WITH_SHEAR, "yes, with another shear stress")                                    \
+    X(OUTCOME_NO, "no")
 
 #define VALIDATION_KEYS(X)                                                                         \
     X(VALIDATION_KEY_OUTCOME, "outcome", ENUM(validation_outcome),                                 \
@@ -164,7 +164,7 @@
     X(VALIDATION_RUNNING_IN_NOTE, AS(note), "what is lacking", TEXT, LABEL("Note"))                \
     X(VALIDATION_RUNNING_IN_FILE, AS(file), "file of the record", TEXT, LABEL("File"))
 #define VALIDATION_RUNNING_IN_KEYS(X)                                                              \
-    X(VALIDATION_RUNNING_IN_KEY_VERDICT, "verdict", TEXT,                                          \
+    X(VALIDATION_RUNNING_IN_KEY_VERDICT, "verdict", ENUM(stated_verdict),                          \
       HEADLINE("Running-in with the layer against the record"))                                    \
     X(VALIDATION_RUNNING_IN_KEY_TEST, "test", TEXT, LABEL("Test"))                                 \
     X(VALIDATION_RUNNING_IN_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("How to decide it"),         \

@@ -108,14 +108,14 @@ static double verdict_power(const validation *v, const model_variant *t)
 static void set_outcome(const validation *v, table_writer *t)
 {
     static const validation_outcome as_given[] = {[AGREEMENT_INCONCLUSIVE] = OUTCOME_INCONCLUSIVE,
-                                                  [AGREEMENT_YES] = OUTCOME_EXPLAINS,
-                                                  [AGREEMENT_NO] = OUTCOME_DOES_NOT};
+                                                  [AGREEMENT_YES] = OUTCOME_YES,
+                                                  [AGREEMENT_NO] = OUTCOME_NO};
     const model_variant *fit = v->has_shear ? &v->ratio[v->layered] : NULL;
     validation_outcome outcome = fit != NULL ? as_given[fit->fit.verdict] : OUTCOME_INCONCLUSIVE;
     char with[160] = "", text[400], power[96] = "";
-    if (outcome != OUTCOME_EXPLAINS && v->shape.n > 0 && v->shape.fit.verdict == AGREEMENT_YES &&
+    if (outcome != OUTCOME_YES && v->shape.n > 0 && v->shape.fit.verdict == AGREEMENT_YES &&
         plausibility(v) == VERDICT_YES) {
-        outcome = OUTCOME_EXPLAINS_WITH_SHEAR;
+        outcome = OUTCOME_YES_WITH_SHEAR;
         fit = &v->shape;
         clocale_print(with, sizeof with, " of %.3g MPa (95 %%: %s), which is plausible",
                       1e-6 * v->needed.value,
@@ -148,7 +148,7 @@ static void required_shear_set_keys(const validation *v, table_writer *t)
                             v->needed.value > 0
                                 ? "inconclusive: with so few velocities some shear stress fits "
                                   "any measurement"
-                                : "does not: the hysteresis part alone is more than was measured");
+                                : "no: the hysteresis part alone is more than was measured");
 }
 
 /* ---- parameters ------------------------------------------------------------------------------ */
@@ -276,8 +276,8 @@ static void set_verdicts(const validation *v, table_writer *t)
     }
     validation_set_print(
         t, VALIDATION_KEY_TEST,
-        "explains: at every step the interval of 95 %% of measured over predicted, smooth over the "
-        "velocity, is from %s; does not: at some step the interval that holds 95 %% at "
+        "yes: at every step the interval of 95 %% of measured over predicted, smooth over the "
+        "velocity, is from %s; no: at some step the interval that holds 95 %% at "
         "all "
         "steps at once is outside; else it is inconclusive. Errors of record and scatter between "
         "steps "

@@ -125,15 +125,14 @@ typedef struct validation {
 double validation_margin(const validation *v);
 /* Returns the variance of ln of the model discrepancy: 95 % of it are within the margin. */
 double validation_discrepancy_variance(const validation *v);
-/* Text such as "explains: ..." for a model variant of the ratio. */
+/* Text such as "yes: ..." for a model variant of the ratio. */
 typedef struct verdict_text {
     char text[256];
 } verdict_text;
 verdict_text model_variant_verdict(const validation *v, const model_variant *t);
 /* Returns the requested range of measured over predicted: "0.833 to 1.2". */
 range_text validation_requested_range(double margin);
-/* Returns "explains", "does not" or "inconclusive". */
-const char *validation_verdict(agreement_verdict verdict);
+stated_verdict validation_verdict(agreement_verdict verdict);
 
 mean_ratio mean_ratio_compute(const model_variant *t); /* row: freed by the caller */
 /* Returns the 95 % interval of exp(value). */

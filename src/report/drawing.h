@@ -5,6 +5,7 @@
 #ifndef WT_REPORT_DRAWING_H
 #define WT_REPORT_DRAWING_H
 
+#include "core/math/students_t.h"
 #include "report/display_units.h"
 #include "report/figure.h"
 #include "report/report_tables.h"
@@ -29,6 +30,10 @@ typedef struct value_span {
     {                                                                                              \
         1, 0                                                                                       \
     }
+
+/* Half width of a 95 % interval in standard errors, in scripts. Figures draw the intervals that the
+ * tables of the page state; NORMAL_95 is the same number for ranges. */
+#define HALF_95 "1.96"
 
 /* A figure under construction. The first failure stays in `status`; later calls do nothing. */
 typedef struct figure_drawing {

@@ -28,7 +28,7 @@ typedef enum curve_form {
     CURVE_NONE,
     CURVE_LINE,
     CURVE_POINTS,
-    CURVE_BARS,        /* points with interval or, without one, standard error */
+    CURVE_BARS,        /* points with their 95 % interval */
     CURVE_JOINED_BARS, /* the same, connected by a line */
     CURVE_FIT,         /* a fitted law; does not extend the axis */
     CURVE_OWN,         /* drawn by the function of the figure */
@@ -42,7 +42,7 @@ typedef struct figure_curve {
     int style;         /* line of the style file; with groups, added to that of the group */
     const char *title; /* title in the key; with groups, the name of the group; NULL = none */
     bool with_errors;  /* the data include its standard error and interval */
-    int band;          /* style of a band of one standard error, 0 = none */
+    int band;          /* style of a band of the 95 % interval, 0 = none */
     bool dashed;       /* a line whose colour has a meaning; else the style says it */
     bool above_zero;   /* drawn only where it is positive */
     size_t points;     /* about this number of points is drawn; 0 = all */

@@ -53,7 +53,7 @@ static void span_add_described(value_span *span, const figure_drawing *d, size_t
                          axis->scale == AXIS_LOG);
 }
 
-/* Extends the range by a column plus and minus its standard error. */
+/* Extends the range by the 95 % interval of a column with a standard error. */
 static void span_add_errors(value_span *span, const figure_drawing *d, size_t group,
                             unsigned column, const figure_axis *axis)
 {
@@ -65,7 +65,8 @@ static void span_add_errors(value_span *span, const figure_drawing *d, size_t gr
     for (size_t row = 0; row < drawing_row_count(d, d->data[group]); row++)
         for (int side = -1; side <= 1; side += 2)
             span_add(span,
-                     wt_table_number(section, row, y) + side * wt_table_number(section, row, e),
+                     wt_table_number(section, row, y) +
+                         side * NORMAL_95 * wt_table_number(section, row, e),
                      axis->scale == AXIS_LOG);
 }
 
@@ -200,7 +201,7 @@ static void add_column_expression(text_buffer *item, const figure_drawing *d, co
         text_format(item, "($%zu*%s_unit)", n, letter);
 }
 
-/* Plots a band of plus and minus one standard error. A logarithmic axis has no negative values. */
+/* Plots a band of the 95 % interval. A logarithmic axis has no negative values. */
 static void plot_error_band(figure_drawing *d, size_t group, const figure_curve *curve)
 {
     const bool titled = !d->band_titled && !d->figure->by_group && curve->title != NULL;
@@ -209,13 +210,16 @@ static void plot_error_band(figure_drawing *d, size_t group, const figure_curve 
            e = section_column(d, d->figure->table->columns[curve->column].standard_error) + 1;
     if (d->figure->y[curve->panel].scale == AXIS_LOG)
         plot_item(d, d->data[group],
-                  "($1*x_unit):($%zu > 0 ? ($%zu > $%zu ? $%zu-$%zu : 1e-3*$%zu)*y_unit : NaN):"
-                  "($%zu > 0 ? ($%zu+$%zu)*y_unit : NaN) with filledcurves ls %d",
+                  "($1*x_unit):($%zu > 0 ? ($%zu > " HALF_95 "*$%zu ? $%zu-" HALF_95
+                  "*$%zu : 1e-3*$%zu)*y_unit : NaN):"
+                  "($%zu > 0 ? ($%zu+" HALF_95 "*$%zu)*y_unit : NaN) with filledcurves ls %d",
                   y, y, e, y, e, y, y, y, e, curve->band);
     else
-        plot_item(d, d->data[group], "($1*x_unit):($%zu-$%zu):($%zu+$%zu) with filledcurves ls %d",
+        plot_item(d, d->data[group],
+                  "($1*x_unit):($%zu-" HALF_95 "*$%zu):($%zu+" HALF_95
+                  "*$%zu) with filledcurves ls %d",
                   y, e, y, e, curve->band);
-    plot_key(d, titled ? "one standard error" : NULL);
+    plot_key(d, titled ? "95 % interval" : NULL);
 }
 
 static bool has_key(const figure_description *figure)
@@ -254,8 +258,8 @@ static void plot_curve(figure_drawing *d, size_t group, const figure_curve *curv
     text_add(&item, ":");
     add_column_expression(&item, d, "y", axis, curve->column, curve->above_zero);
     if (curve->with_errors && column->high == 0) {
-        text_add(&item, ":");
-        add_column_expression(&item, d, "y", axis, column->standard_error, false);
+        text_format(&item, ":(" HALF_95 "*$%zu%s)", section_column(d, column->standard_error) + 1,
+                    axis->scale == AXIS_NUMBER ? "" : "*y_unit");
     } else if (curve->with_errors) {
         text_add(&item, ":");
         add_column_expression(&item, d, "y", axis, column->low, false);

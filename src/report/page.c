@@ -144,7 +144,7 @@ static wt_status page_section_write(page_writer *page, page_section section, siz
         [SECTION_UNCERTAINTY] = {"uncertainty", "Uncertainty", "more-uncertainty"}};
     text_buffer before = page->out;
     page->out = (text_buffer){0};
-    page_numbers(page, section);
+    page_section_rows(page, section);
     wt_status status = add_figures(page, section, false, number, err);
     add_missing_figures(page, section);
     const size_t n_more = count_figures(page, section, true);
@@ -193,8 +193,9 @@ static const char *page_title(const page_writer *page)
     const char *title = answer_key_text(&page->tables->answer, ANSWER_KEY_CASE_TITLE);
     if (title != NULL && title[0] != '\0')
         return title;
-    const table_view *const asked[] = {&page->tables->validation, &page->tables->comparison,
-                                       &page->tables->layer, &page->tables->friction};
+    const table_view *const asked[] = {&page->tables->validation, &page->tables->collection,
+                                       &page->tables->comparison, &page->tables->layer,
+                                       &page->tables->friction};
     for (size_t i = 0; i < COUNT_OF(asked); i++)
         if (asked[i]->n_rows > 0)
             return asked[i]->schema->title;

@@ -4,6 +4,7 @@
 #ifndef WT_REPORT_PAGE_H
 #define WT_REPORT_PAGE_H
 
+#include "core/table/result_row.h"
 #include "core/table/result_value.h"
 #include "report/drawing.h"
 
@@ -59,8 +60,8 @@ void page_conditions(page_writer *page);
 /* Cards of a result that answers none of the questions of a case, and a table of what does not fit
  * on them. */
 void page_rows(page_writer *page);
-/* Main numbers of one section; nothing if the result has none. */
-void page_numbers(page_writer *page, page_section section);
+/* Main numbers of one section of a case, with the texts of the terminal; nothing if it has none. */
+void page_section_rows(page_writer *page, page_section section);
 void page_results(page_writer *page);     /* result tables */
 void page_indentation(page_writer *page); /* conditions of indentation, rejected curves */
 void page_failures(page_writer *page);    /* failed files and stages */
@@ -68,13 +69,11 @@ void page_inputs(page_writer *page);      /* inputs, notes */
 void page_cost(page_writer *page);
 void page_record(page_writer *page); /* case file, provenance */
 
-/* Unit in which the value of a finding is shown. A relative change is shown in percent. */
-display_unit select_finding_unit(const result_value *f);
-
-/* Writes a bar from `low` to `high` on the axis of a number, with its limits as text; nothing if
- * these are not finite. `class` selects the drawing: interval or choices. */
-void page_bar(page_writer *page, const char *name, const char *class, const char *text,
-              const result_value *f, double low, double high);
+/* Writes a number in large type, or smaller without an interval, and bars of its interval and range
+ * on one axis, where a line marks the neutral value unless it is NaN. `unit` replaces the unit of
+ * the number unless NULL. */
+void page_large_number(page_writer *page, const row_number *number, const char *unit,
+                       double neutral);
 
 /* Writes the reason behind a verdict "no: the reason" as a sentence; a text without a reason as it
  * is. */
@@ -100,15 +99,5 @@ void page_whole_table(page_writer *page, const table_view *table, const char *ca
 /* Writes the keys of a table as name, value, statistical and numerical error; nothing if there are
  * none. */
 void page_keys(page_writer *page, const table_view *table, const char *caption);
-
-/* Write a table of estimates with both standard errors line by line. */
-void page_estimates_begin(page_writer *page, const char *caption);
-void page_estimate(page_writer *page, const char *words, const wt_estimate *estimate,
-                   wt_quantity quantity);
-/* Write a table of main numbers with their 95 % intervals and ranges over model choices line by
- * line. A standard error of zero means that the number has no error. */
-void page_numbers_begin(page_writer *page, const char *caption);
-void page_number(page_writer *page, const char *words, const result_value *f, const char *remark);
-void page_table_end(page_writer *page);
 
 #endif

@@ -10,26 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A ratio without a unit that has the neutral value 0 is a relative change and shown in percent. */
-display_unit select_finding_unit(const result_value *f)
-{
-    if (f->neutral == 0)
-        return (display_unit){.factor = 100, .offset = 0, .label = "%"};
-    return select_display_unit(f->quantity, f->number.unit, f->number.value);
-}
-
 /* Limits of the axis of the bars: all numbers of the card, with a margin. Without a reference or a
  * second bar the axis begins at zero, so that the bar shows the width relative to the value. */
-static void bar_axis(const result_value *f, double *low, double *high)
+static void bar_axis(const row_number *n, double neutral, double *low, double *high)
 {
-    const bool alone = isnan(f->neutral) && isnan(f->range.low);
-    const double ends[] = {f->number.value,
-                           f->low,
-                           f->high,
-                           f->range.low,
-                           f->range.high,
-                           f->neutral,
-                           alone ? 0 : f->number.value};
+    const bool alone = isnan(neutral) && isnan(n->range_low);
+    const double ends[] = {
+        n->value, n->low, n->high, n->range_low, n->range_high, neutral, alone ? 0 : n->value};
     *low = (double)INFINITY;
     *high = -(double)INFINITY;
     for (size_t i = 0; i < COUNT_OF(ends); i++)
@@ -42,21 +29,48 @@ static void bar_axis(const result_value *f, double *low, double *high)
     *high += margin;
 }
 
-void page_bar(page_writer *page, const char *name, const char *class, const char *text,
-              const result_value *f, double low, double high)
+void page_large_number(page_writer *page, const row_number *number, const char *unit,
+                       double neutral)
 {
+    const row_number_text text = row_number_format(number);
+    const struct {
+        const char *name, *class, *limits;
+        double low, high;
+    } bars[] = {{"95 % interval", "interval", text.interval, number->low, number->high},
+                {"Model choices", "choices", text.range, number->range_low, number->range_high}};
+    const size_t n = strcspn(text.value, " "); /* the unit is behind the first blank */
     double left = 0, right = 0;
-    if (!isfinite(low) || !isfinite(high))
+    if (strpbrk(text.value, "0123456789") == NULL) { /* such as "not known" */
+        text_html(&page->out, "<p class=\"verdict\"><strong>%s</strong></p>\n", text.value);
         return;
-    bar_axis(f, &left, &right);
-    text_html(&page->out, "<div><dt>%s</dt><dd class=\"bar\" aria-hidden=\"true\">", name);
-    if (!isnan(f->neutral))
-        text_format(&page->out, "<i class=\"neutral\" style=\"left:%s%%\"></i>",
-                    FIXED(100 * (f->neutral - left) / (right - left), 1));
-    text_format(&page->out, "<i class=\"%s\" style=\"left:%s%%;width:%s%%\"></i>", class,
-                FIXED(100 * (low - left) / (right - left), 1),
-                FIXED(100 * (high - low) / (right - left), 1));
-    text_html(&page->out, "</dd><dd class=\"limits\">%s</dd></div>\n", text);
+    }
+    char *const value = wt_strndup(text.value, n);
+    text_add(&page->out,
+             text.interval[0] != '\0' ? "<p class=\"number\">" : "<p class=\"number plain\">");
+    text_typographic(&page->out, value);
+    text_add(&page->out, " <span class=\"unit\">");
+    text_typographic(&page->out, unit != NULL            ? unit
+                                 : text.value[n] != '\0' ? text.value + n + 1
+                                                         : "");
+    text_add(&page->out, "</span></p>\n<dl>\n");
+    free(value);
+    bar_axis(number, neutral, &left, &right);
+    for (size_t i = 0; i < COUNT_OF(bars); i++) {
+        if (!isfinite(bars[i].low) || !isfinite(bars[i].high))
+            continue;
+        text_html(&page->out, "<div><dt>%s</dt><dd class=\"bar\" aria-hidden=\"true\">",
+                  bars[i].name);
+        if (!isnan(neutral))
+            text_format(&page->out, "<i class=\"neutral\" style=\"left:%s%%\"></i>",
+                        FIXED(100 * (neutral - left) / (right - left), 1));
+        text_format(&page->out, "<i class=\"%s\" style=\"left:%s%%;width:%s%%\"></i>",
+                    bars[i].class, FIXED(100 * (bars[i].low - left) / (right - left), 1),
+                    FIXED(100 * (bars[i].high - bars[i].low) / (right - left), 1));
+        text_add(&page->out, "</dd><dd class=\"limits\">");
+        text_typographic(&page->out, bars[i].limits);
+        text_add(&page->out, "</dd></div>\n");
+    }
+    text_add(&page->out, "</dl>\n");
 }
 
 void page_reason(page_writer *page, const char *verdict)
@@ -68,23 +82,9 @@ void page_reason(page_writer *page, const char *verdict)
     text_add(&page->out, ".</p>\n");
 }
 
-/* Writes one bar of a finding with its limits, whose unit is that of the number above. */
-static void write_bar(page_writer *page, const char *name, const char *class, const result_value *f,
-                      double low, double high)
-{
-    const display_unit lab = select_finding_unit(f);
-    /* both bars of a card have the digits of its number */
-    const int digits = result_value_digits(f->number.value, f->low, f->high);
-    text_buffer text = {0};
-    text_format(&text, "%s to %s", NUMBER(to_display_value(&lab, low), digits),
-                NUMBER(to_display_value(&lab, high), digits));
-    if (isfinite(f->number.value))
-        page_bar(page, name, class, text_string(&text), f, low, high);
-    text_free(&text);
-}
-
-/* Writes what disqualifies a number: the warnings of the limits that concern it, without their
- * details. The predictions rest on the material and on one another. */
+/* Writes what disqualifies a number: the first warning of the limits that concern it, without its
+ * details, and the number of the others, so that the limits stay on the first screen. The
+ * predictions rest on the material and on one another. */
 static void write_card_warnings(page_writer *page, finding_question question)
 {
     static const unsigned subjects[FINDING_QUESTIONS] = {
@@ -93,19 +93,26 @@ static void write_card_warnings(page_writer *page, finding_question question)
         [FINDING_FRICTION_CHANGE] =
             1u << LIMITS_MATERIAL | 1u << LIMITS_LAYER | 1u << LIMITS_FRICTION};
     const table_view *const limits = &page->tables->limits;
+    size_t n = 0;
     for (size_t i = 0; i < limits->n_rows; i++) {
         const int subject = limits_enum(limits, i, LIMITS_SUBJECT);
         if (limits_enum(limits, i, LIMITS_SEVERITY) != WT_WARNING || subject < 0 ||
             subject >= LIMIT_SUBJECT_UNKNOWN || (subjects[question] >> subject & 1) == 0)
             continue;
+        if (n++ > 0)
+            continue; /* only counted */
         const char *const text = limits_text(limits, i, LIMITS_LIMIT);
         char *const brief = wt_strndup(text, length_without_reason(text));
         text_add(&page->out, "<p class=\"warned\">⚠ ");
         text_typographic(&page->out, brief);
-        text_html(&page->out, "%s <a href=\"#limits\">Details</a></p>\n",
-                  strlen(brief) < strlen(text) ? "." : "");
+        text_add(&page->out, strlen(brief) < strlen(text) ? ". " : " ");
         free(brief);
     }
+    if (n > 1)
+        text_format(&page->out, "<a href=\"#limits\">And %zu more warning%s</a></p>\n", n - 1,
+                    n == 2 ? "" : "s");
+    else if (n == 1)
+        text_add(&page->out, "<a href=\"#limits\">Details</a></p>\n");
 }
 
 /* Shows a figure of the page again, small, with a link to it. The page has its data once. A picture
@@ -136,6 +143,35 @@ static const struct {
                               [FINDING_LAYER_THICKNESS] = {"layer", "layer"},
                               [FINDING_FRICTION_CHANGE] = {"friction", "friction"}};
 
+static void begin_card(page_writer *page, const char *class, const char *question,
+                       const char *verdict, const char *side, const char *basis)
+{
+    text_html(
+        &page->out,
+        "<section class=\"finding %s\">\n<h2>%s</h2>\n<p class=\"verdict\"><strong>%s%s</strong>",
+        class, question, verdict, side);
+    text_html(&page->out, basis[0] != '\0' ? " <span class=\"basis\">%s</span></p>\n" : "%s</p>\n",
+              basis);
+}
+
+/* Returns the reason of a verdict. A run states why a number is missing. */
+static const char *finding_reason(const page_writer *page, const finding *f)
+{
+    const table_view *const answer = &page->tables->answer;
+    return f->verdict == FINDING_NOT_COMPUTED && findings_are_stated(answer)
+               ? answer_text(answer, f->question, ANSWER_ANSWER)
+               : f->sentence;
+}
+
+/* A question that was not asked is a line below the cards of the comparison that was. */
+static void write_missing_answer(page_writer *page, const finding *f)
+{
+    text_html(&page->out, "<p class=\"omitted\">%s %s: ", finding_question_text(f->question),
+              finding_verdict_text(f->verdict));
+    text_typographic(&page->out, finding_reason(page, f));
+    text_add(&page->out, "</p>\n");
+}
+
 static void write_card(page_writer *page, const finding *f)
 {
     static const char *const class[FINDING_VERDICT_UNKNOWN] = {[FINDING_YES] = "v-yes",
@@ -146,41 +182,31 @@ static void write_card(page_writer *page, const finding *f)
                                                                    "v-nodata",
                                                                [FINDING_NOT_COMPUTED] = "v-nodata"};
     const result_value *value = &f->value;
-    text_html(&page->out, "<section class=\"finding %s\">\n<h2>%s</h2>\n<p class=\"verdict\">",
-              class[f->verdict], finding_question_text(f->question));
-    text_html(&page->out, "<strong>%s%s</strong>", finding_verdict_text(f->verdict),
-              finding_side_text(f));
-    if (!isnan(value->number.value) && f->verdict != FINDING_PREDICTED)
-        text_html(&page->out, " <span class=\"basis\">%s</span>", finding_basis_text(f->basis));
-    text_add(&page->out, "</p>\n");
-    if (!isnan(value->number.value) && !isnan(value->low)) {
-        const display_unit lab = select_finding_unit(value);
-        text_format(&page->out, "<p class=\"number\">%s <span class=\"unit\">%s</span></p>\n<dl>\n",
-                    NUMBER(to_display_value(&lab, value->number.value), 3),
-                    f->question == FINDING_TRACK_DIFFERS ? "× bulk modulus" : lab.label);
-        write_bar(page, "95 % interval", "interval", value, value->low, value->high);
-        write_bar(page, "Model choices", "choices", value, value->range.low, value->range.high);
-        text_add(&page->out, "</dl>\n");
-    }
-    /* a run states why a number is missing */
-    const table_view *const answer = &page->tables->answer;
-    const bool stated = f->verdict == FINDING_NOT_COMPUTED && findings_are_stated(answer);
+    const row_number number = row_number_of_value(value);
+    const bool known = !isnan(value->number.value);
+    begin_card(page, class[f->verdict], finding_question_text(f->question),
+               finding_verdict_text(f->verdict), finding_side_text(f),
+               known && f->verdict != FINDING_PREDICTED ? finding_basis_text(f->basis) : "");
+    if (known && !isnan(value->low))
+        page_large_number(page, &number,
+                          f->question == FINDING_TRACK_DIFFERS ? "× bulk modulus" : NULL,
+                          value->neutral);
     text_add(&page->out, "<p>");
-    text_typographic(&page->out,
-                     stated ? answer_text(answer, f->question, ANSWER_ANSWER) : f->sentence);
+    text_typographic(&page->out, finding_reason(page, f));
     const bool is_given = f->basis == FINDING_GIVEN;
-    if (is_given && isfinite(value->number.value)) {
-        const display_unit lab = select_finding_unit(value);
-        text_format(&page->out, " It is %s %s.",
-                    NUMBER(to_display_value(&lab, value->number.value), 3), lab.label);
+    if (is_given && known) {
+        text_add(&page->out, " It is ");
+        text_typographic(&page->out, row_number_format(&number).value);
+        text_add(&page->out, ".");
     }
-    if (f->as_if_layer && !is_given && !isnan(value->number.value))
+    if (f->as_if_layer && !is_given && known)
         text_add(&page->out,
                  " The track is not shown to differ: the number is as if there were a layer.");
-    if (!isnan(value->number.value)) /* its section exists */
+    if (known) /* its section exists */
         text_html(&page->out, " <a class=\"why\" href=\"#%s\">Why</a>", links[f->question].section);
     text_add(&page->out, "</p>\n");
-    write_card_warnings(page, f->question);
+    if (f->verdict != FINDING_NOT_COMPUTED)
+        write_card_warnings(page, f->question);
     if (value->range.widest != NULL)
         text_html(&page->out, "<p class=\"widest\">Widest choice: %s", value->range.widest);
     if (value->range.widest != NULL && isfinite(f->rest) && f->remedy[0] != '\0')
@@ -189,56 +215,91 @@ static void write_card(page_writer *page, const finding *f)
                     100 * f->rest);
     if (value->range.widest != NULL)
         text_add(&page->out, ".</p>\n");
-    if (!isnan(value->number.value))
+    if (known)
         write_key_figure(page, links[f->question].figure);
     text_add(&page->out, "</section>\n");
 }
 
-/* Writes the card of a comparison of measured with predicted friction. */
-static void write_validation_card(page_writer *page)
+/* Verdict of a comparison of measured with predicted friction, and its reason. */
+typedef struct comparison_verdict {
+    const char *question, *word, *reason, *settled, *figure;
+    bool is_open, is_known;
+} comparison_verdict;
+
+/* Writes a card with the ratio of measured over predicted, and with the shear stress that would
+ * make it 1 unless that is NaN. */
+static void write_comparison_card(page_writer *page, const comparison_verdict *c,
+                                  const row_number *ratio, const row_number *needed)
 {
-    static const struct {
-        const char *class, *text;
-    } outcomes[] = {[OUTCOME_INCONCLUSIVE] = {"v-open", "inconclusive"},
-                    [OUTCOME_EXPLAINS] = {"v-yes", "yes"},
-                    [OUTCOME_EXPLAINS_WITH_SHEAR] = {"v-yes", "yes, with another shear stress"},
-                    [OUTCOME_DOES_NOT] = {"v-yes", "no"}};
-    const table_view *const v = &page->tables->validation;
-    if (v->table == NULL)
-        return;
-    const int outcome = validation_key_enum(v, VALIDATION_KEY_OUTCOME);
-    const bool known = outcome >= 0 && outcome < (int)COUNT_OF(outcomes);
-    const double none = (double)NAN;
-    const result_value ratio = {
-        .number = {validation_value(v, VALIDATION_KEY_RATIO).value, none, none, "1"},
-        .low = validation_value(v, VALIDATION_KEY_RATIO_LOW).value,
-        .high = validation_value(v, VALIDATION_KEY_RATIO_HIGH).value,
-        .neutral = 1,
-        .range = {.low = none, .high = none}};
-    text_html(&page->out,
-              "<section class=\"finding %s\">\n<h2>Does theory match measured friction?</h2>\n"
-              "<p class=\"verdict\"><strong>%s</strong> <span class=\"basis\">measured</span></p>"
-              "\n",
-              known ? outcomes[outcome].class : "v-nodata",
-              known ? outcomes[outcome].text : "not tested");
-    if (!isnan(ratio.number.value) && !isnan(ratio.low)) {
-        text_format(&page->out,
-                    "<p class=\"number\">%s <span class=\"unit\">× predicted</span>"
-                    "</p>\n<dl>\n",
-                    NUMBER(ratio.number.value, 3));
-        write_bar(page, "95 % interval", "interval", &ratio, ratio.low, ratio.high);
-        text_add(&page->out, "</dl>\n");
+    begin_card(page,
+               !c->is_known ? "v-nodata"
+               : c->is_open ? "v-open"
+                            : "v-yes",
+               c->question, c->is_known ? c->word : stated_verdict_text(VERDICT_NOT_TESTED), "",
+               "measured");
+    if (!isnan(ratio->low))
+        page_large_number(page, ratio, "× predicted", 1);
+    if (c->reason != NULL)
+        page_reason(page, c->reason);
+    if (!isnan(needed->low)) {
+        const row_number_text text = row_number_format(needed);
+        text_add(&page->out, "<p>Shear stress needed: ");
+        text_typographic(&page->out, text.value);
+        text_add(&page->out, " (");
+        text_typographic(&page->out, text.interval);
+        text_add(&page->out, ").</p>\n");
     }
-    const char *const settled = validation_key_text(v, VALIDATION_KEY_SETTLED_BY),
-                      *const verdict = validation_key_text(v, VALIDATION_KEY_VERDICT);
-    if (verdict != NULL)
-        page_reason(page, verdict);
-    if (settled != NULL) {
+    if (c->settled != NULL) {
         text_add(&page->out, "<p class=\"widest\">How to decide it: ");
-        text_typographic(&page->out, settled);
-        text_add(&page->out, "</p>\n");
+        text_typographic(&page->out, c->settled);
+        text_add(&page->out, ".</p>\n");
     }
+    write_key_figure(page, c->figure);
     text_add(&page->out, "</section>\n");
+}
+
+static void write_validation_cards(page_writer *page)
+{
+    const table_view *const v = &page->tables->validation, *const r =
+                                                               &page->tables->validation_running_in;
+    const double none = (double)NAN;
+    row_number ratio = {none, none, none, none, none, "1"},
+               needed = {none, none, none, none, none, "Pa"};
+    if (v->table != NULL) {
+        const int outcome = validation_key_enum(v, VALIDATION_KEY_OUTCOME);
+        ratio.value = validation_value(v, VALIDATION_KEY_RATIO).value;
+        ratio.low = validation_value(v, VALIDATION_KEY_RATIO_LOW).value;
+        ratio.high = validation_value(v, VALIDATION_KEY_RATIO_HIGH).value;
+        needed.value = validation_value(v, VALIDATION_KEY_NEEDED).value;
+        needed.low = validation_value(v, VALIDATION_KEY_NEEDED_LOW).value;
+        needed.high = validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value;
+        write_comparison_card(
+            page,
+            &(comparison_verdict){"Does theory match measured friction?",
+                                  validation_outcome_text((validation_outcome)outcome),
+                                  validation_key_text(v, VALIDATION_KEY_VERDICT),
+                                  validation_key_text(v, VALIDATION_KEY_SETTLED_BY), "validation",
+                                  outcome == OUTCOME_INCONCLUSIVE,
+                                  outcome < VALIDATION_OUTCOME_UNKNOWN},
+            &ratio, &needed);
+    }
+    if (r->table != NULL) {
+        const int verdict = validation_running_in_key_enum(r, VALIDATION_RUNNING_IN_KEY_VERDICT);
+        ratio.value = validation_running_in_value(r, VALIDATION_RUNNING_IN_KEY_TIME_RATIO).value;
+        ratio.low = validation_running_in_value(r, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_LOW).value;
+        ratio.high =
+            validation_running_in_value(r, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_HIGH).value;
+        needed.low = none;
+        write_comparison_card(
+            page,
+            &(comparison_verdict){
+                "Does theory match the time of running-in?",
+                stated_verdict_text((stated_verdict)verdict),
+                validation_running_in_key_text(r, VALIDATION_RUNNING_IN_KEY_VERDICT),
+                validation_running_in_key_text(r, VALIDATION_RUNNING_IN_KEY_SETTLED_BY),
+                "validation_course", verdict == VERDICT_INCONCLUSIVE, verdict < VERDICT_UNKNOWN},
+            &ratio, &needed);
+    }
 }
 
 void page_cards(page_writer *page)
@@ -250,17 +311,21 @@ void page_cards(page_writer *page)
     if (!findings_compute(&tables, findings) && !findings_are_stated(&page->tables->answer))
         return;
     text_add(&page->out, "<div class=\"findings\">\n");
-    const bool validation_first = findings[FINDING_TRACK_DIFFERS].verdict == FINDING_NOT_COMPUTED;
+    const bool validation_first = findings[FINDING_TRACK_DIFFERS].verdict == FINDING_NOT_COMPUTED,
+               validated = page->tables->validation.table != NULL;
     if (validation_first)
-        write_validation_card(page);
+        write_validation_cards(page);
     /* an answer that is there comes before one that is not */
     for (size_t i = 0; i < FINDING_QUESTIONS; i++)
         if (findings[i].verdict != FINDING_NOT_COMPUTED)
             write_card(page, &findings[i]);
     if (!validation_first)
-        write_validation_card(page);
+        write_validation_cards(page);
     for (size_t i = 0; i < FINDING_QUESTIONS; i++)
-        if (findings[i].verdict == FINDING_NOT_COMPUTED)
+        if (findings[i].verdict == FINDING_NOT_COMPUTED && !validated)
             write_card(page, &findings[i]);
     text_add(&page->out, "</div>\n");
+    for (size_t i = 0; i < FINDING_QUESTIONS; i++)
+        if (findings[i].verdict == FINDING_NOT_COMPUTED && validated)
+            write_missing_answer(page, &findings[i]);
 }

@@ -50,7 +50,7 @@ static void begin_html_table(page_writer *page, const char *caption, size_t n_co
               caption);
 }
 
-void page_table_end(page_writer *page)
+static void page_table_end(page_writer *page)
 {
     text_add(&page->out, "</tbody>\n</table>\n</div>\n");
 }
@@ -256,16 +256,6 @@ void page_whole_table(page_writer *page, const table_view *table, const char *ca
 static const char value_heading[] = "Value", statistical_heading[] = "Statistical error",
                   numerical_heading[] = "Numerical error";
 
-void page_estimates_begin(page_writer *page, const char *caption)
-{
-    begin_html_table(page, caption, 4);
-    heading_cell(page, "Quantity", "", false);
-    heading_cell(page, value_heading, "", true);
-    heading_cell(page, statistical_heading, "", true);
-    heading_cell(page, numerical_heading, "", true);
-    text_add(&page->out, "</tr></thead>\n<tbody>\n");
-}
-
 static void add_unit_label(text_buffer *text, const char *label)
 {
     if (label[0] != '\0')
@@ -289,98 +279,37 @@ static void add_value_text(text_buffer *text, const wt_estimate *e, const displa
                                         : (int)fmin(5, 1 - floor(log10(error)));
         text_add(text, FIXED(round_to_power_of_ten(value, decimals), decimals));
     }
-}
-
-static void add_error_text(text_buffer *text, double error, const display_unit *lab)
-{
-    if (isnan(error))
-        text_add(text, "error not known");
-    else if (error == 0)
-        text_add(text, "–");
-    else {
-        const double size = fabs(error) * lab->factor;
-        const int decimals = 1 - (int)floor(log10(size));
-        text_format(text, "± %s", NUMBER(round_to_power_of_ten(size, decimals), 2));
-        add_unit_label(text, lab->offset != 0 ? "K" : lab->label);
-    }
-}
-
-/* Begins a row with the name of a value and the value. */
-static void begin_value_row(page_writer *page, const char *words, const wt_estimate *estimate,
-                            const display_unit *lab)
-{
-    text_html(&page->out, "<tr><th scope=\"row\">%s</th>", words);
-    begin_labelled_cell(page, value_heading, "", true);
-    add_value_text(&page->out, estimate, lab);
-    if (isfinite(estimate->value))
-        add_unit_label(&page->out, lab->label);
-    text_add(&page->out, "</td>");
+    if (isfinite(e->value))
+        add_unit_label(text, lab->label);
 }
 
 static void write_error_cell(page_writer *page, const char *heading, double error,
                              const display_unit *lab)
 {
     begin_labelled_cell(page, heading, "", true);
-    add_error_text(&page->out, error, lab);
+    if (isnan(error))
+        text_add(&page->out, "error not known");
+    else if (error == 0)
+        text_add(&page->out, "–");
+    else {
+        const double size = fabs(error) * lab->factor;
+        const int decimals = 1 - (int)floor(log10(size));
+        text_format(&page->out, "± %s", NUMBER(round_to_power_of_ten(size, decimals), 2));
+        add_unit_label(&page->out, lab->offset != 0 ? "K" : lab->label);
+    }
     text_add(&page->out, "</td>");
 }
 
-void page_estimate(page_writer *page, const char *words, const wt_estimate *estimate,
-                   wt_quantity quantity)
+/* Writes value, statistical and numerical error. */
+static void write_estimate_cells(page_writer *page, const wt_estimate *estimate,
+                                 wt_quantity quantity)
 {
     const display_unit lab = select_display_unit(quantity, estimate->unit, estimate->value);
-    begin_value_row(page, words, estimate, &lab);
+    begin_labelled_cell(page, value_heading, "", true);
+    add_value_text(&page->out, estimate, &lab);
+    text_add(&page->out, "</td>");
     write_error_cell(page, statistical_heading, estimate->standard_error, &lab);
     write_error_cell(page, numerical_heading, estimate->numerical_error, &lab);
-    text_add(&page->out, "</tr>\n");
-}
-
-/* ---- main numbers ---------------------------------------------------------------------------- */
-
-static const char interval_heading[] = "95 % interval", choices_heading[] = "Model choices",
-                  remark_heading[] = "Remark";
-
-void page_numbers_begin(page_writer *page, const char *caption)
-{
-    begin_html_table(page, caption, 6);
-    heading_cell(page, "Quantity", "", false);
-    heading_cell(page, value_heading, "", true);
-    heading_cell(page, interval_heading, "", true);
-    heading_cell(page, choices_heading, "", true);
-    heading_cell(page, numerical_heading, "", true);
-    heading_cell(page, remark_heading, "", false);
-    text_add(&page->out, "</tr></thead>\n<tbody>\n");
-}
-
-/* Writes "0.59 to 0.69" in the unit of the value, `unknown` without limits. */
-static void write_limits_cell(page_writer *page, const char *heading, const display_unit *lab,
-                              double low, double high, int digits, const char *unknown)
-{
-    begin_labelled_cell(page, heading, "", true);
-    if (isfinite(low) && isfinite(high))
-        text_format(&page->out, "%s to %s", NUMBER(to_display_value(lab, low), digits),
-                    NUMBER(to_display_value(lab, high), digits));
-    else
-        text_add(&page->out, unknown);
-    text_add(&page->out, "</td>");
-}
-
-void page_number(page_writer *page, const char *words, const result_value *f, const char *remark)
-{
-    /* the digits of the value follow its interval */
-    const wt_estimate estimate = {f->number.value, (f->high - f->low) / 4,
-                                  f->number.numerical_error, f->number.unit};
-    const display_unit lab = select_display_unit(f->quantity, estimate.unit, estimate.value);
-    begin_value_row(page, words, &estimate, &lab);
-    write_limits_cell(page, interval_heading, &lab, f->low, f->high,
-                      result_value_digits(to_display_value(&lab, f->number.value),
-                                          to_display_value(&lab, f->low),
-                                          to_display_value(&lab, f->high)),
-                      f->number.standard_error == 0 ? "–" : "not known");
-    write_limits_cell(page, choices_heading, &lab, f->range.low, f->range.high, 3, "–");
-    write_error_cell(page, numerical_heading, f->number.numerical_error, &lab);
-    begin_labelled_cell(page, remark_heading, "", false);
-    text_html(&page->out, "%s</td></tr>\n", remark);
 }
 
 /* ---- keys ------------------------------------------------------------------------------------ */
@@ -422,22 +351,27 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
     const size_t n = table->table != NULL ? wt_table_n_keys(table->table) : 0;
     if (n == 0)
         return;
-    page_estimates_begin(page, caption);
+    begin_html_table(page, caption, 4);
+    heading_cell(page, "Quantity", "", false);
+    heading_cell(page, value_heading, "", true);
+    heading_cell(page, statistical_heading, "", true);
+    heading_cell(page, numerical_heading, "", true);
+    text_add(&page->out, "</tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < n; i++) {
         const char *name = wt_table_key_name(table->table, i);
         const schema_field *key = find_schema_key(table, name);
         char label[128];
         wt_estimate estimate;
         key_label(name, key, label, sizeof label);
+        text_html(&page->out, "<tr><th scope=\"row\">%s</th>", label);
         if (wt_table_estimate(table->table, name, &estimate))
-            page_estimate(page, label, &estimate, key != NULL ? key->quantity : WT_Q_NONE);
+            write_estimate_cells(page, &estimate, key != NULL ? key->quantity : WT_Q_NONE);
         else {
-            text_html(&page->out,
-                      "<tr><th scope=\"row\">%s</th><td data-label=\"%s\" colspan=\"3\">", label,
-                      value_heading);
+            text_html(&page->out, "<td data-label=\"%s\" colspan=\"3\">", value_heading);
             add_plain_value(page, key, wt_table_key(table->table, name));
-            text_add(&page->out, "</td></tr>\n");
+            text_add(&page->out, "</td>");
         }
+        text_add(&page->out, "</tr>\n");
     }
     page_table_end(page);
 }

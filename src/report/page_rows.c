@@ -30,39 +30,6 @@ static size_t end_of_parts(const result_rows *list, size_t first)
     return end;
 }
 
-/* Writes value and unit: the unit is behind the first blank. A value without an interval is not
- * large. */
-static void write_value(page_writer *page, const char *value, bool has_interval)
-{
-    const size_t n = strcspn(value, " ");
-    if (strpbrk(value, "0123456789") == NULL) { /* such as "not known" */
-        text_html(&page->out, "<p class=\"verdict\"><strong>%s</strong></p>\n", value);
-        return;
-    }
-    char number[sizeof((row_number_text *)0)->value];
-    (void)snprintf(number, sizeof number, "%.*s", (int)n, value);
-    text_add(&page->out, has_interval ? "<p class=\"number\">" : "<p class=\"number plain\">");
-    text_typographic(&page->out, number);
-    text_add(&page->out, " <span class=\"unit\">");
-    text_typographic(&page->out, value[n] != '\0' ? value + n + 1 : "");
-    text_add(&page->out, "</span></p>\n");
-}
-
-static void write_row_bar(page_writer *page, const char *name, const char *class,
-                          const row_number *number, const char *limits, double low, double high)
-{
-    text_buffer text = {0};
-    const double none = (double)NAN;
-    const result_value axis = {.number = {number->value, none, none, number->unit},
-                               .low = number->low,
-                               .high = number->high,
-                               .neutral = none,
-                               .range = {.low = number->range_low, .high = number->range_high}};
-    text_typographic(&text, limits);
-    page_bar(page, name, class, text_string(&text), &axis, low, high);
-    text_free(&text);
-}
-
 static void write_parts(page_writer *page, const result_rows *list, size_t from, size_t to)
 {
     text_add(&page->out, "<ul>\n");
@@ -112,7 +79,6 @@ static void write_reasons(page_writer *page, const result_row *row)
 static void write_row_card(page_writer *page, const result_rows *list, size_t first, size_t end)
 {
     const result_row *const row = &list->rows[first];
-    const row_number_text number = row_number_format(&row->number);
     text_add(&page->out, "<section class=\"finding\">\n<h2>");
     write_heading(page, row);
     text_add(&page->out, "</h2>\n");
@@ -121,13 +87,7 @@ static void write_row_card(page_writer *page, const result_rows *list, size_t fi
         text_typographic(&page->out, row->text);
         text_add(&page->out, "</strong></p>\n");
     } else {
-        write_value(page, number.value, number.interval[0] != '\0');
-        text_add(&page->out, "<dl>\n");
-        write_row_bar(page, "95 % interval", "interval", &row->number, number.interval,
-                      row->number.low, row->number.high);
-        write_row_bar(page, "Model choices", "choices", &row->number, number.range,
-                      row->number.range_low, row->number.range_high);
-        text_add(&page->out, "</dl>\n");
+        page_large_number(page, &row->number, NULL, (double)NAN);
     }
     /* the reason of a verdict is more complete than its note */
     if (row->note[0] != '\0' && !has_reason(row)) {
@@ -148,27 +108,39 @@ static void write_cell(page_writer *page, const char *label, const char *text)
     text_add(&page->out, "</td>");
 }
 
-/* Writes the rows that are on no card. */
-static void write_row_table(page_writer *page, const result_rows *list, const bool *shown)
+static void begin_row_table(page_writer *page, const char *caption)
+{
+    static const char *const headings[] = {"Quantity", "Value", "95 % interval", "Model choices",
+                                           "Note"};
+    text_add(&page->out, "<table class=\"few main\">\n<caption>");
+    text_typographic(&page->out, caption);
+    text_add(&page->out, "</caption>\n<thead><tr>");
+    for (size_t i = 0; i < sizeof headings / sizeof *headings; i++)
+        text_html(&page->out, "<th scope=\"col\">%s</th>", headings[i]);
+    text_add(&page->out, "</tr></thead>\n<tbody>\n");
+}
+
+/* Writes the rows that are on no card; `shown` NULL: all with a value. */
+static void write_row_table(page_writer *page, const result_rows *list, const bool *shown,
+                            const char *caption)
 {
     bool any = false;
     for (size_t i = 0; i < list->n; i++) {
-        if (shown[i])
+        const result_row *const row = &list->rows[i];
+        const bool is_text = row->kind == RESULT_ROW_TEXT;
+        if (shown != NULL ? shown[i] : is_text && row->text[0] == '\0')
             continue;
         if (!any)
-            text_add(&page->out,
-                     "<table class=\"few\" id=\"main\">\n<caption>Further numbers</caption>\n"
-                     "<thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Value</th>"
-                     "<th scope=\"col\">95 % interval</th><th scope=\"col\">Note</th></tr></thead>"
-                     "\n<tbody>\n");
+            begin_row_table(page, caption);
         any = true;
-        const result_row *const row = &list->rows[i];
         const row_number_text number = row_number_format(&row->number);
-        text_add(&page->out, "<tr><th scope=\"row\">");
+        text_add(&page->out, row->level > 0 ? "<tr><th scope=\"row\" class=\"part\">"
+                                            : "<tr><th scope=\"row\">");
         write_heading(page, row);
         text_add(&page->out, "</th>");
-        write_cell(page, "Value", row->kind == RESULT_ROW_TEXT ? row->text : number.value);
-        write_cell(page, "95 % interval", row->kind == RESULT_ROW_TEXT ? "" : number.interval);
+        write_cell(page, "Value", is_text ? row->text : number.value);
+        write_cell(page, "95 % interval", is_text ? "" : number.interval);
+        write_cell(page, "Model choices", is_text ? "" : number.range);
         write_cell(page, "Note", row->note);
         text_add(&page->out, "</tr>\n");
     }
@@ -176,14 +148,40 @@ static void write_row_table(page_writer *page, const result_rows *list, const bo
         text_add(&page->out, "</tbody>\n</table>\n");
 }
 
-void page_rows(page_writer *page)
+/* True if the cards of the findings are on the page. */
+static bool has_findings(const page_writer *page)
 {
     result_value_tables tables;
     finding findings[FINDING_QUESTIONS];
+    return result_values_bind(page->result, &tables, NULL) == WT_OK &&
+           (findings_compute(&tables, findings) || findings_are_stated(&page->tables->answer));
+}
+
+void page_section_rows(page_writer *page, page_section section)
+{
+    static const result_subject subjects[PAGE_SECTIONS] = {
+        [SECTION_INDENTATION] = SUBJECT_CURVES, [SECTION_MATERIAL] = SUBJECT_MATERIAL,
+        [SECTION_SURFACE] = SUBJECT_SURFACE,    [SECTION_FRICTION] = SUBJECT_FRICTION,
+        [SECTION_LAYER] = SUBJECT_LAYER,        [SECTION_COLLECTION] = RESULT_SUBJECTS,
+        [SECTION_UNCERTAINTY] = RESULT_SUBJECTS};
     result_rows list;
-    if (result_values_bind(page->result, &tables, NULL) == WT_OK &&
-        (findings_compute(&tables, findings) || findings_are_stated(&page->tables->answer)))
-        return; /* the cards of the findings are on the page */
+    if (subjects[section] == RESULT_SUBJECTS || !has_findings(page))
+        return;
+    result_rows_of_subject(page->result, subjects[section], &list);
+    text_buffer caption = {0};
+    text_add(&caption, "Main numbers");
+    if (list.heading[0] != '\0')
+        text_format(&caption, ": %s", list.heading);
+    write_row_table(page, &list, NULL, text_string(&caption));
+    text_free(&caption);
+    result_rows_clear(&list);
+}
+
+void page_rows(page_writer *page)
+{
+    result_rows list;
+    if (has_findings(page))
+        return;
     result_rows_compute(page->result, &list);
     bool *const shown = wt_alloc(list.n + 1, sizeof *shown);
     size_t n_cards = 0;
@@ -198,7 +196,7 @@ void page_rows(page_writer *page)
     }
     if (n_cards > 0)
         text_add(&page->out, "</div>\n");
-    write_row_table(page, &list, shown);
+    write_row_table(page, &list, shown, "Further numbers");
     free(shown);
     result_rows_clear(&list);
 }

@@ -6,16 +6,40 @@
 #include "core/table/result_row.h"
 #include "report/report_text.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+/* Writes a text of at most `most` characters as it is; of a longer one only the beginning is
+ * unfolded, up to a mark. */
+static void write_folded(page_writer *page, const char *text, size_t most)
+{
+    enum { BEGINNING = 20 }; /* "One scan: ..." alone says nothing */
+    size_t n = strlen(text);
+    for (size_t i = BEGINNING; n > most && i + 2 < n; i++)
+        if (strchr(":;.", text[i]) != NULL && text[i + 1] == ' ')
+            n = i;
+    const bool folded = text[n] != '\0';
+    char *const brief = wt_strndup(text, n);
+    text_add(&page->out, folded ? "<details class=\"printed\"><summary>" : "");
+    text_sentence(&page->out, brief);
+    if (folded) {
+        text_add(&page->out, "</summary>");
+        text_sentence(&page->out, text + n + 2);
+        text_add(&page->out, "</details>");
+    }
+    free(brief);
+}
 
 /* ---- more certain ---------------------------------------------------------------------------- */
 
 static void add_range(text_buffer *out, const result_value *f)
 {
-    const display_unit lab = select_finding_unit(f);
-    text_format(out, ": %s to %s%s%s", NUMBER(to_display_value(&lab, f->range.low), 3),
-                NUMBER(to_display_value(&lab, f->range.high), 3), lab.label[0] != '\0' ? " " : "",
-                lab.label);
+    const row_number number = row_number_of_value(f);
+    const row_number_text text = row_number_format(&number);
+    const char *const unit = strchr(text.value, ' ');
+    text_add(out, ": ");
+    text_typographic(out, text.range);
+    text_typographic(out, unit != NULL ? unit : "");
 }
 
 static void write_remedy_row(page_writer *page, const finding *f)
@@ -31,7 +55,7 @@ static void write_remedy_row(page_writer *page, const finding *f)
     } else
         text_add(&page->out, "the 95 % interval");
     text_add(&page->out, "</td><td data-label=\"Do this\">");
-    text_typographic(&page->out, f->remedy);
+    write_folded(page, f->remedy, 0);
     text_add(&page->out, "</td></tr>\n");
 }
 
@@ -64,15 +88,20 @@ static void write_remedies(page_writer *page, const finding *findings)
 
 /* ---- limits ---------------------------------------------------------------------------------- */
 
-static void write_limit_items(page_writer *page, size_t from, size_t to)
+/* Row of the limits, or of the notes of a result without limits. */
+typedef struct limit_line {
+    const char *text;
+    bool warned;
+} limit_line;
+
+/* The details of a long limit are folded, so that all limits are seen at once. */
+static void write_limit_items(page_writer *page, const limit_line *lines, size_t n)
 {
-    const table_view *const limits = &page->tables->limits;
+    enum { TWO_LINES = 110 };
     text_add(&page->out, "<ul>\n");
-    for (size_t i = from; i < to; i++) {
-        text_add(&page->out, limits_enum(limits, i, LIMITS_SEVERITY) == WT_WARNING
-                                 ? "<li class=\"warned\">"
-                                 : "<li>");
-        text_typographic(&page->out, limits_text(limits, i, LIMITS_LIMIT));
+    for (size_t i = 0; i < n; i++) {
+        text_add(&page->out, lines[i].warned ? "<li class=\"warned\">" : "<li>");
+        write_folded(page, lines[i].text, TWO_LINES);
         text_add(&page->out, "</li>\n");
     }
     text_add(&page->out, "</ul>\n");
@@ -81,18 +110,29 @@ static void write_limit_items(page_writer *page, size_t from, size_t to)
 static void write_limits(page_writer *page)
 {
     enum { SHOWN = 5 }; /* what is read on one screen */
-    const size_t n = page->tables->limits.n_rows;
-    if (n == 0)
-        return;
-    text_add(&page->out, "<section>\n<h2 id=\"limits\">Limits</h2>\n");
-    write_limit_items(page, 0, n < SHOWN ? n : SHOWN);
-    if (n > SHOWN) {
-        text_format(&page->out, "<details class=\"printed\">\n<summary>%zu more</summary>\n",
-                    n - SHOWN);
-        write_limit_items(page, SHOWN, n);
-        text_add(&page->out, "</details>\n");
+    const table_view *const limits = &page->tables->limits, *const notes = &page->tables->notes;
+    limit_line *const lines = wt_alloc(limits->n_rows + notes->n_rows + 1, sizeof *lines);
+    size_t n = 0;
+    for (; n < limits->n_rows; n++)
+        lines[n] = (limit_line){limits_text(limits, n, LIMITS_LIMIT),
+                                limits_enum(limits, n, LIMITS_SEVERITY) == WT_WARNING};
+    /* the notes on a result, which are worse, come after those on its data */
+    for (size_t i = limits->n_rows == 0 ? notes->n_rows : 0; i-- > 0;)
+        if (notes_enum(notes, i, NOTES_SEVERITY) != WT_NOTE)
+            lines[n++] = (limit_line){notes_text(notes, i, NOTES_TEXT), true};
+    if (n > 0) {
+        text_html(&page->out, "<section>\n<h2 id=\"limits\">%s</h2>\n",
+                  limits->n_rows > 0 ? "Limits" : "Warnings");
+        write_limit_items(page, lines, n < SHOWN ? n : SHOWN);
+        if (n > SHOWN) {
+            text_format(&page->out, "<details class=\"printed\">\n<summary>%zu more</summary>\n",
+                        n - SHOWN);
+            write_limit_items(page, lines + SHOWN, n - SHOWN);
+            text_add(&page->out, "</details>\n");
+        }
+        text_add(&page->out, "</section>\n");
     }
-    text_add(&page->out, "</section>\n");
+    free(lines);
 }
 
 /* ---- data used ------------------------------------------------------------------------------- */
@@ -293,32 +333,25 @@ void page_summary(page_writer *page)
     result_value_tables tables;
     finding findings[FINDING_QUESTIONS];
     const text_buffer before = page->out;
-    bool has_remedies = false; /* otherwise the data stand on the left */
+    text_buffer column[2]; /* remedies and data, limits */
     page->out = (text_buffer){0};
     if (result_values_bind(page->result, &tables, NULL) == WT_OK &&
         (findings_compute(&tables, findings) || findings_are_stated(&page->tables->answer)))
         write_remedies(page, findings);
-    if (page->out.length == 0)
-        write_data_used(page);
-    else
-        has_remedies = true;
-    text_buffer left = page->out;
+    write_data_used(page);
+    column[0] = page->out;
     page->out = (text_buffer){0};
     write_limits(page);
-    if (has_remedies)
-        write_data_used(page);
-    text_buffer right = page->out;
+    column[1] = page->out;
     page->out = before;
-    if (left.length > 0 || right.length > 0) {
-        text_html(&page->out, "<div class=\"%s\">\n",
-                  left.length > 0 && right.length > 0 ? "summary" : "summary alone");
-        if (left.length > 0)
-            text_format(&page->out, "<div>\n%s</div>\n", text_string(&left));
-        if (right.length > 0)
-            text_format(&page->out, "<div>\n%s</div>\n", text_string(&right));
-        text_add(&page->out, "</div>\n");
+    const int n = (column[0].length > 0) + (column[1].length > 0);
+    if (n > 0)
+        text_html(&page->out, "<div class=\"%s\">\n", n > 1 ? "summary" : "summary alone");
+    for (int i = 0; i < 2; i++) {
+        if (column[i].length > 0)
+            text_format(&page->out, "<div>\n%s</div>\n", text_string(&column[i]));
+        text_free(&column[i]);
     }
-    text_free(&left);
-    text_free(&right);
+    text_add(&page->out, n > 0 ? "</div>\n" : "");
     page_whole_table(page, &page->tables->data_quality, "What was done to the data", NULL, 0);
 }

@@ -526,7 +526,7 @@ static wt_status find_profile(const depth_group group[2], const wt_compare_job *
         f->obstacle = (track_obstacle){
             "the ratio of the moduli of track and bulk, or its error, is not known; the "
             "comparison says why",
-            "what the comparison says of that ratio"};
+            "more spots in both groups, as the comparison asks for"};
         return WT_OK;
     }
     if (tips_differ(&group[0].tip, &group[1].tip)) {

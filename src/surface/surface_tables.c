@@ -115,7 +115,8 @@ bool surface_is_anisotropic(const wt_surface_anisotropy *directions)
 TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
           double modes_error, modes_tie, law_error, self_affine, modes, scans; const char *source;)
 TABLE_ROW(place_errors, PLACE_ERRORS, size_t size, row; double wavenumber, error;)
-TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hurst, c0, roll_off;
+TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hurst, hurst_low,
+           hurst_high, c0, roll_off, roll_off_low, roll_off_high;
            const char *law; wt_estimate reliable_from, reliable_to; const char *ends_by;
            wt_estimate steep; const char *steep_by;
            wt_estimate extrapolated_share, place_scatter, place_error, anisotropy,
@@ -280,7 +281,7 @@ static wt_status build_spectrum_table(const surface_result *w, size_t n_scans, w
 {
     char law[256], directions[256], profiles[400], option[256], anisotropy[256];
     const wt_surface_spectrum *s = &w->spectrum;
-    const bool places = !isnan(s->place_scatter);
+    const bool places = !isnan(s->place_scatter), rolls_off = w->law.rolls_off && w->law.found;
     const double nan = (double)NAN;
     table_writer t = table_begin(&power_spectrum_schema, err);
     add_spectrum_rows(&t, w);
@@ -291,8 +292,12 @@ static wt_status build_spectrum_table(const surface_result *w, size_t n_scans, w
     print_anisotropy(w, anisotropy, sizeof anisotropy);
     TABLE_SET(power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
               .hurst = interval_estimate(w->law.hurst, w->law.found),
+              .hurst_low = plain_estimate(w->law.found ? w->law.hurst.low : nan, 0),
+              .hurst_high = plain_estimate(w->law.found ? w->law.hurst.high : nan, 0),
               .c0 = interval_estimate(w->law.c0, w->law.found),
-              .roll_off = interval_estimate(w->law.roll_off, w->law.rolls_off && w->law.found),
+              .roll_off = interval_estimate(w->law.roll_off, rolls_off),
+              .roll_off_low = plain_estimate(rolls_off ? w->law.roll_off.low : nan, 0),
+              .roll_off_high = plain_estimate(rolls_off ? w->law.roll_off.high : nan, 0),
               .law = law, .reliable_from = plain_estimate(s->bins[0].wavenumber, 0),
               .reliable_to = plain_estimate(s->bins[s->n - 1].wavenumber, 0), .ends_by = s->ends_by,
               .steep = plain_estimate(w->steep, 0),

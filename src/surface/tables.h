@@ -39,9 +39,15 @@
     X(POWER_SPECTRUM_KEY_RMS_SLOPE, AS(rms_slope), NUMBER,                                         \
       HEADLINE("Root-mean-square slope of the surface"))                                           \
     X(POWER_SPECTRUM_KEY_HURST, AS(hurst), NUMBER, LABEL("Hurst exponent"), OPTIONAL)              \
+    X(POWER_SPECTRUM_KEY_HURST_LOW, AS(hurst_low), NUMBER,                                         \
+      LABEL("Hurst exponent, 95 % interval from"), OPTIONAL)                                       \
+    X(POWER_SPECTRUM_KEY_HURST_HIGH, AS(hurst_high), NUMBER, LABEL("to"), OPTIONAL)                \
     X(POWER_SPECTRUM_KEY_C0, AS(c0), SI(POWER_SPECTRUM_2D), LABEL("C₀"), OPTIONAL)                 \
     X(POWER_SPECTRUM_KEY_ROLL_OFF, AS(roll_off), SI(WAVENUMBER), LABEL("Roll-off wavenumber"),     \
       OPTIONAL)                                                                                    \
+    X(POWER_SPECTRUM_KEY_ROLL_OFF_LOW, AS(roll_off_low), SI(WAVENUMBER),                           \
+      LABEL("Roll-off wavenumber, 95 % interval from"), OPTIONAL)                                  \
+    X(POWER_SPECTRUM_KEY_ROLL_OFF_HIGH, AS(roll_off_high), SI(WAVENUMBER), LABEL("to"), OPTIONAL)  \
     X(POWER_SPECTRUM_KEY_LAW, "law_verdict", TEXT, SHOWS(law), LABEL("Self-affine law"))           \
     X(POWER_SPECTRUM_KEY_FROM, AS(reliable_from), SI(WAVENUMBER), LABEL("Reliable from"))          \
     X(POWER_SPECTRUM_KEY_TO, AS(reliable_to), SI(WAVENUMBER), LABEL("Reliable to"))                \

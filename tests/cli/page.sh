@@ -17,6 +17,11 @@ browse() { # no user profile, no network
 }
 
 "$weartrack" run -q "$fixtures/case/case.xml" -o case.h5 --report case.html >/dev/null
+# The same with one spot each, a wrong tip and a cold track: three remedies, and warnings on the cards.
+cp -r "$fixtures/case" few
+sed -e '/spot="[bt][234]"/d' -e 's/radius=20nm/radius=2um/' -e 's/<temperature>30degC/<temperature>-10degC/' \
+  few/case.xml > few/warned.xml
+"$weartrack" run -q few/warned.xml -o warned.h5 --report warned.html >/dev/null
 "$weartrack" master -q "$fixtures/case/dma.txt" -o dma.h5
 "$weartrack" report -q dma.h5 -o dma.html
 "$weartrack" record -q "$fixtures/record/steps.csv" -o record.h5 >/dev/null 2>&1 || [ $? -eq 3 ]
@@ -124,7 +129,7 @@ async function all(text) {
 }
 JUDGE
 
-for name in case dma texture record; do
+for name in case warned dma texture record; do
   { echo '<!DOCTYPE html><meta charset="utf-8"><body><script>'; cat judge.js
     printf 'all(new TextDecoder().decode(Uint8Array.from(atob("'; base64 -w0 "$name.html"; echo '"), c => c.charCodeAt(0))));</script>'
   } > judge.html
@@ -153,6 +158,7 @@ for name in case dma texture record; do
     [ "$words" -gt 300 ] && [ "$words" -le 900 ] || fail "$name: $words words are not folded"
     [ "$(wc -c < "$name.html")" -lt 1000000 ] || fail "$name: $(wc -c < "$name.html") bytes"
   fi
+  [ $name != warned ] || grep -q 'class="warned">⚠' "$name.html" || fail "$name: no warning on a card"
   grep -q 'JUDGED links [1-9][0-9]* dead 0' "$name.judged" || fail "$name: $(grep links "$name.judged")"
   grep -q 'JUDGED xml whole same true' "$name.judged" || fail "$name: not the same as HTML and as XML: $(grep xml "$name.judged")"
   grep -q 'JUDGED ids [1-9][0-9]* twice 0' "$name.judged" || fail "$name: $(grep ids "$name.judged")"

@@ -69,7 +69,7 @@ next() {
   words=$1
   shift
   terminal "$@"
-  grep -qxF "next     weartrack $words" screen || fail "no next command: $*"
+  tr -s ' \n' ' ' < screen | grep -qF "next weartrack $words " || fail "no next command: $*"
   "$program" "$@" 2>&1 | grep -q '^next' && fail "a next command in a pipe: $*"
   return 0
 }
@@ -78,14 +78,17 @@ follows() { "$program" "$@" -o next.h5 > screen 2>&1 || fail "no such next comma
 {
   next 'compare BULK TRACK, the results of indent for both' indent $fit "$case"/bulk-1.jpk-force-map -o b.h5
   follows compare bulk.h5 track.h5
-  next 'friction --material RESULT, or compare BULK TRACK --master RESULT' master "$case/dma.txt" -o dma.h5
+  next 'friction --material dma.h5, or compare BULK TRACK --master dma.h5' master "$case/dma.txt" -o dma.h5
   follows friction $slide
   follows compare bulk.h5 track.h5 --master dma.h5
   next 'layer with these options, a wear rate and a critical energy' friction $slide -o friction.h5
   follows layer $slide --specific-wear-rate '1e-3mm^3/(N m)' --critical-energy 2e10J/m^3
-  next 'friction --roughness RESULT --material DMA' psd "$case/road-1.gsf" -o road.h5
+  next 'friction --roughness road.h5 --material DMA' psd "$case/road-1.gsf" -o road.h5
   follows friction ${slide%%--roughness*} --roughness road.h5 --pressure ${slide#*--pressure}
-  next 'validate CASE.xml RESULT' record "$fixtures/record/steps.csv" -o record.h5
+  next 'validate CASE.xml record.h5' record "$fixtures/record/steps.csv" -o record.h5
+  terminal record "$fixtures/record/steps.csv"
+  grep -qxF 'next     repeat with -o RESULT.h5, then weartrack validate CASE.xml RESULT.h5' screen ||
+    fail 'no next command without a result'
   follows validate "$case/case.xml" record.h5
 }
 # One result is a list, in which no line is cut.

@@ -128,7 +128,7 @@ estimate place_key(const stream *s, const place *p)
 verdict place_friction_verdict(const stream *found, const char *table)
 {
     static const char *const words[] = {
-        [YES] = "explains", [NO] = "does not", [INCONCLUSIVE] = "inconclusive"};
+        [YES] = "yes", [NO] = "no", [INCONCLUSIVE] = "inconclusive"};
     const char *said = stream_key(found, table, PLACE_VALIDATION_VERDICT);
     for (int v = 0; said != NULL && v < (int)(sizeof words / sizeof *words); v++)
         if (strncmp(said, words[v], strlen(words[v])) == 0)

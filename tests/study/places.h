@@ -63,7 +63,7 @@ extern const place place_needed_wear, place_needed_energy;
 #define PLACE_VALIDATION_RUNNING_IN "validation_running_in"
 #define PLACE_WEAR_AGREES "wear_agrees" /* begins with agrees, contradicts or inconclusive */
 #define PLACE_CONTRADICTS "contradicts"
-#define PLACE_VALIDATION_VERDICT "verdict"  /* begins with explains, does not or inconclusive */
+#define PLACE_VALIDATION_VERDICT "verdict"  /* begins with yes, no or inconclusive */
 #define PLACE_STEADY_CYCLES "steady_cycles" /* in `place_steady.table` */
 #define PLACE_WAVENUMBER "wavenumber"       /* [rad/m], with the density */
 #define PLACE_SOURCE "source"               /* with the density: source of the row */
@@ -109,7 +109,7 @@ typedef struct estimate {
 
 estimate place_row(const stream *s, const place *p, int row);
 estimate place_key(const stream *s, const place *p);
-/* Verdict of a validation on the measured friction: YES for "explains". */
+/* Verdict of a validation on the measured friction: YES for "yes". */
 verdict place_friction_verdict(const stream *found, const char *table);
 
 #endif

@@ -131,7 +131,7 @@ static void test_roughness(void **state)
     const struct {
         double rms;
         const char *verdict;
-    } cases[] = {{1e-9, "smooth enough: "}, {7e-9, "too rough: "}};
+    } cases[] = {{1e-9, "yes: "}, {7e-9, "no: "}};
     for (size_t i = 0; i < 2; i++) {
         wt_spot_job job = job_of(DEPTH);
         s.amplitude[0] = cases[i].rms * M_SQRT2;
@@ -198,7 +198,7 @@ static void test_hole(void **state)
         job.position_error = known ? 0 : 3 * CONTACT;
         wt_table *t = make(&job);
         const char *verdict = wt_table_key(t, "roughness_verdict");
-        if (strstr(verdict, known ? "smooth enough: " : "not measured about each place") == NULL)
+        if (strstr(verdict, known ? "yes: " : "not measured about each place") == NULL)
             fail_msg("%s", verdict);
         assert_int_equal(isnan(cell(t, 0, "roughness")), !known);
         wt_table_free(t);

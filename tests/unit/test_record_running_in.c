@@ -92,7 +92,7 @@ static void test_closed(void **state)
     (void)state;
     begin();
     (void)add(0, true, true);
-    check(judged().verdict, "explains: a change like that by the layer is complete after 1 "
+    check(judged().verdict, "yes: a change like that by the layer is complete after 1 "
                             "times");
     (void)add(2, true, true);
     check(judged().verdict, "inconclusive");
@@ -111,7 +111,7 @@ static void test_open_contradicts(void **state)
             if (order == 1)
                 (void)add(0, true, true);
             const run_verdict said = judged();
-            check(said.verdict, "does not: ");
+            check(said.verdict, "no: ");
             /* 6.69 from the record alone; the draws of the prediction depend on the order. */
             check(said.verdict, late ? "after 6.6" : "after 0.15");
             check_not(said.verdict, "6.69 times");
@@ -127,7 +127,7 @@ static void test_open_second(void **state)
     (void)add(0, true, false);
     (void)add(2, true, false);
     check(judged().verdict,
-          "does not: a change like that by the layer is not complete at the end of the record, "
+          "no: a change like that by the layer is not complete at the end of the record, "
           "after 6.65 times");
 }
 
@@ -187,7 +187,7 @@ static void test_bare(void **state)
         layer[i].n_bare = 2;
         check(judged().verdict, "inconclusive: within the stated errors there may be no layer");
         layer[i].n_bare = 1;
-        check(judged().verdict, "explains: ");
+        check(judged().verdict, "yes: ");
     }
 }
 
@@ -229,7 +229,7 @@ static void test_change_without_a_time(void **state)
     run_fit *const r = add(2, true, false);
     r->value[RUN_RATIO] = r->value[RUN_ABOVE_LOWER] = r->value[RUN_BELOW_UPPER] = (double)NAN;
     const run_verdict said = judged();
-    check(said.verdict, "does not: ");
+    check(said.verdict, "no: ");
     check(said.verdict, "the change of friction is not determined");
     check_not(said.verdict, "nan");
 }
@@ -492,7 +492,7 @@ static void check_interval(const char *text, double value, double low, double hi
     check_number(to + strlen(" to "), high);
 }
 
-/* Every number of the sentence is in the row of the run, and for "does not" the first stated one is
+/* Every number of the sentence is in the row of the run, and for "no" the first stated one is
  * outside the required range. */
 static void check_sentence(double margin)
 {
@@ -515,7 +515,7 @@ static void check_sentence(double margin)
     assert_int_equal(isnan(high), strstr(said, "predicted at least") != NULL);
     check_interval(change + strlen(is), number_cell(runs, 0, "change_ratio"), change_low,
                    change_high);
-    if (strncmp(said, "does not", strlen("does not")) != 0)
+    if (strncmp(said, "no:", strlen("no:")) != 0)
         return;
     const double most = 1 + margin;
     const bool by_time =
@@ -531,9 +531,9 @@ static void test_sentence_and_table(void **state)
         size_t rows;  /* of the record; 0: all */
         double scale; /* of its friction above 0.3 */
         const char *begins, *holds;
-    } tried[] = {{0, 1, "explains: ", "is complete after"},
+    } tried[] = {{0, 1, "yes: ", "is complete after"},
                  {60, 1, "inconclusive: ", "is not complete at the end of the record, after"},
-                 {0, -8, "does not: the change of friction is -", "is complete after"}};
+                 {0, -8, "no: the change of friction is -", "is complete after"}};
     (void)state;
     for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
         change_case(energy, energy);
@@ -601,9 +601,9 @@ static void test_before_the_first_friction(void **state)
         change_record(changed[i][0], changed[i][1], changed[i][2]);
         run_case(40);
         if (changed[i][2] == 0)
-            check(wt_table_key(runs, "verdict"), "explains: ");
+            check(wt_table_key(runs, "verdict"), "yes: ");
         else /* the limits of fewer cycles are wider */
-            check_not(wt_table_key(runs, "verdict"), "does not: ");
+            check_not(wt_table_key(runs, "verdict"), "no: ");
         const double ratio = number_cell(runs, 0, "time_ratio");
         assert_true(ratio > 0.8 && ratio < 1.2);
         case_end();

@@ -576,7 +576,7 @@ static void test_numbers_of_captions(void **state)
     (void)state;
     NEED_REPORT();
     static const char *const captions[][2] = {
-        {"force_displacement", " nm. The vertical line"},
+        {"force_displacement", " (95 %). The vertical line"},
         {"force_indentation", " Lines: contact model with the fitted modulus."},
         {"modulus_groups", " Unit of analysis of the interval: spot. bulk: n = 48, rejected 0. "
                            "track: n = 48, rejected 0."},
@@ -612,11 +612,11 @@ static void test_numbers_of_captions(void **state)
     assert_true(wt_table_estimate(curves, "contact_point_bulk", &bulk));
     assert_true(wt_table_estimate(curves, "contact_point_track", &track));
     char words[200];
-    (void)snprintf(words, sizeof words, " bulk: %s, standard error of the contact point %.3g nm. ",
-                   wt_table_key(curves, "curve_bulk"), 1e9 * bulk.standard_error);
+    (void)snprintf(words, sizeof words, " bulk: %s, contact point ± %.3g nm (95 %%). ",
+                   wt_table_key(curves, "curve_bulk"), 1e9 * NORMAL_95 * bulk.standard_error);
     check_caption("out", "force_displacement", words);
-    (void)snprintf(words, sizeof words, " curve 7, standard error of the contact point %.3g nm. ",
-                   1e9 * track.standard_error);
+    (void)snprintf(words, sizeof words, " curve 7, contact point ± %.3g nm (95 %%). ",
+                   1e9 * NORMAL_95 * track.standard_error);
     check_caption("out", "force_displacement", words);
 }
 

@@ -41,12 +41,11 @@ static void add(limit_list *list, wt_severity severity, limit_subject subject, c
     va_end(arguments);
 }
 
-/* Adds "PREFIX: TEXT." unless the text is absent. */
-static void add_stated(limit_list *list, limit_subject subject, const char *prefix,
-                       const char *text)
+/* Adds "TEXT (OF)." unless the text is absent. */
+static void add_stated(limit_list *list, limit_subject subject, const char *of, const char *text)
 {
     if (text != NULL)
-        add(list, WT_WARNING, subject, "%s: %s.", prefix, text);
+        add(list, WT_WARNING, subject, "%s (%s).", text, of);
 }
 
 /* ---- indentation ----------------------------------------------------------------------------- */
@@ -122,10 +121,9 @@ static void add_of_both_groups(limit_list *list, const answer_context *context, 
         add(list, WT_NOTE, LIMITS_INDENTATION, "%s: %s.", begin, bulk != NULL ? bulk : track);
 }
 
-static void add_comparison_limits(limit_list *list, const answer_context *context)
+static void add_dma_comparison_limits(limit_list *list, const answer_context *context)
 {
-    const table_view *const comparison = &context->values.comparison, *const dma =
-                                                                          &context->dma_comparison;
+    const table_view *const dma = &context->dma_comparison;
     double low, high;
     const size_t outside = count_extrapolated(dma);
     if (find_dma_ratio(dma, &low, &high) && is_different_rubber(low, high))
@@ -137,8 +135,13 @@ static void add_comparison_limits(limit_list *list, const answer_context *contex
         add(list, WT_WARNING, LIMITS_INDENTATION,
             "%zu of %zu comparisons with DMA lie outside the measured frequencies.", outside,
             dma->n_rows);
-    add_stated(list, LIMITS_INDENTATION, "Comparison with DMA",
+    add_stated(list, LIMITS_INDENTATION, "comparison with DMA",
                dma_comparison_key_text(dma, DMA_COMPARISON_KEY_MATERIAL_STATEMENT));
+}
+
+static void add_comparison_limits(limit_list *list, const answer_context *context)
+{
+    const table_view *const comparison = &context->values.comparison;
     for (int g = 0; g < 2; g++)
         add_group_limits(list, context, g);
     add_calibration_limits(list, context);
@@ -238,16 +241,16 @@ static void add_friction_limits(limit_list *list, const answer_context *context)
         add(list, WT_WARNING, LIMITS_FRICTION,
             "Up to %s of the hysteresis comes from frequencies outside the measured ones.",
             format_share(share).text);
-    add_stated(list, LIMITS_FRICTION, "Friction",
+    add_stated(list, LIMITS_FRICTION, "friction",
                known ? friction_key_text(friction, FRICTION_KEY_MATERIAL_STATEMENT)
                      : what_if_key_text(what_if, WHAT_IF_KEY_MATERIAL_STATEMENT));
     add_softening_limits(list, &context->softening);
     for (size_t i = 0; i < COUNT_OF(flash_statements); i++)
-        add_stated(list, LIMITS_FRICTION, "Flash temperature",
+        add_stated(list, LIMITS_FRICTION, "flash temperature",
                    flash_key_text(&context->flash, flash_statements[i]));
     if (!known)
         return;
-    add_stated(list, LIMITS_FRICTION, "Friction",
+    add_stated(list, LIMITS_FRICTION, "friction",
                friction_key_text(friction, FRICTION_KEY_NUMERICAL_STATEMENT));
     const double outside = friction_value(friction, FRICTION_KEY_LAYER_OUTSIDE).value;
     if (outside >= ANSWER_SHARE_MIN)
@@ -298,8 +301,8 @@ static void add_layer_limits(limit_list *list, const answer_context *context)
     const table_view *const layer = &context->values.layer;
     if (layer->table == NULL)
         return;
-    add_stated(list, LIMITS_LAYER, "Layer", layer_key_text(layer, LAYER_KEY_MATERIAL_STATEMENT));
-    add_stated(list, LIMITS_LAYER, "Layer", layer_key_text(layer, LAYER_KEY_NUMERICAL_STATEMENT));
+    add_stated(list, LIMITS_LAYER, "layer", layer_key_text(layer, LAYER_KEY_MATERIAL_STATEMENT));
+    add_stated(list, LIMITS_LAYER, "layer", layer_key_text(layer, LAYER_KEY_NUMERICAL_STATEMENT));
     const result_value thickness = result_value_thickness(&context->values);
     const wt_estimate energy = layer_value(layer, LAYER_KEY_CRITICAL_ENERGY);
     if (is_thickness_put_in(&context->values))
@@ -344,6 +347,7 @@ static limit_list find_limits(const answer_context *context)
     if (failed > 0)
         add(&list, WT_WARNING, LIMITS_DATA, "%zu file%s or stage%s failed; see the failures.",
             failed, failed == 1 ? "" : "s", failed == 1 ? "" : "s");
+    add_dma_comparison_limits(&list, context); /* two rubbers are the worst for an answer */
     add_material_limits(&list, context);
     add_layer_limits(&list, context);
     add_friction_limits(&list, context);

@@ -8,19 +8,30 @@
 #include <math.h>
 #include <stdlib.h>
 
-void result_rows_compute(const wt_result *result, result_rows *rows)
+static void add_subjects(const wt_result *result, int from, int to, result_rows *rows)
 {
-    static void (*const parts[])(rows_source *) = {
-        /* the answers of validate and accuracy, before the numbers that they are made of */
-        rows_of_records, rows_of_errors,  rows_of_curves,    rows_of_material,
-        rows_of_surface, rows_of_sliding, rows_of_collection};
+    static void (*const add[RESULT_SUBJECTS])(rows_source *) = {
+        [SUBJECT_RECORDS] = rows_of_records, [SUBJECT_ERRORS] = rows_of_errors,
+        [SUBJECT_CURVES] = rows_of_curves,   [SUBJECT_MATERIAL] = rows_of_material,
+        [SUBJECT_SURFACE] = rows_of_surface, [SUBJECT_FRICTION] = rows_of_friction,
+        [SUBJECT_LAYER] = rows_of_layer,     [SUBJECT_COLLECTION] = rows_of_collection};
     rows_source s = {.result = result, .rows = rows};
     *rows = (result_rows){.n = 0};
     if (result_values_bind(result, &s.values, NULL) != WT_OK) {
         /* A table without a required column adds no row; the other tables do. */
     }
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
-        parts[i](&s);
+    for (int i = from; i < to; i++)
+        add[i](&s);
+}
+
+void result_rows_compute(const wt_result *result, result_rows *rows)
+{
+    add_subjects(result, 0, RESULT_SUBJECTS, rows);
+}
+
+void result_rows_of_subject(const wt_result *result, result_subject subject, result_rows *rows)
+{
+    add_subjects(result, (int)subject, (int)subject + 1, rows);
 }
 
 /* Row of the number behind a finding. */

@@ -22,6 +22,8 @@ typedef struct row_number_text {
 } row_number_text;
 
 row_number_text row_number_format(const row_number *number);
+/* A ratio without a unit that has the neutral value 0 is a relative change, in percent. */
+row_number row_number_of_value(const result_value *value);
 
 typedef enum result_row_kind { RESULT_ROW_NUMBER, RESULT_ROW_TEXT } result_row_kind;
 
@@ -50,9 +52,25 @@ typedef struct result_rows {
     finding findings[FINDING_QUESTIONS]; /* of a result that has some */
 } result_rows;
 
+/* Subjects of rows, in the order of the rows of a result. The answers of validate and accuracy come
+ * before the numbers that they are made of. */
+typedef enum result_subject {
+    SUBJECT_RECORDS,
+    SUBJECT_ERRORS,
+    SUBJECT_CURVES,
+    SUBJECT_MATERIAL,
+    SUBJECT_SURFACE,
+    SUBJECT_FRICTION,
+    SUBJECT_LAYER,
+    SUBJECT_COLLECTION,
+    RESULT_SUBJECTS
+} result_subject;
+
 /* Computes the rows of a result, which must exist as long as the rows. A table that lacks a
  * required column adds no row. */
 void result_rows_compute(const wt_result *result, result_rows *rows);
+/* Variant for one subject. */
+void result_rows_of_subject(const wt_result *result, result_subject subject, result_rows *rows);
 /* Variant with a row for each finding of the result and its number. False without findings. */
 bool result_rows_of_findings(const wt_result *result, result_rows *rows);
 void result_rows_clear(result_rows *rows);

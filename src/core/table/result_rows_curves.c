@@ -141,6 +141,8 @@ static void add_spot(rows_source *s, const table_view *v)
     const char *verdict = spot_key_text(v, SPOT_KEY_VERDICT);
     if (v->n_rows == 0)
         return;
+    if (verdict != NULL)
+        rows_add_verdict(s, 0, verdict, "smooth enough for the depth");
     rows_add_number(s, 0,
                     rows_number(spot_get(v, 0, SPOT_ROUGHNESS), spot_get(v, 0, SPOT_ROUGHNESS_LOW),
                                 spot_get(v, 0, SPOT_ROUGHNESS_HIGH), "m"),
@@ -151,8 +153,6 @@ static void add_spot(rows_source *s, const table_view *v)
                                     spot_get(v, 0, SPOT_RATIO_HIGH), "1"),
                         "roughness / depth");
     rows_note(row, "limit %s", rows_short(spot_get(v, 0, SPOT_LIMIT), "1").value);
-    if (verdict != NULL)
-        rows_add_verdict(s, 0, verdict, "verdict");
 }
 
 static void add_track_layer(rows_source *s, const table_view *v)

@@ -230,12 +230,21 @@ void rows_of_surface(rows_source *s)
                   rows_short(to, "1").value);
     rows_add_text(s, 0, text, "reliable wavenumbers");
     if (!isnan(hurst.value))
-        rows_add_number(s, 0, rows_estimate(hurst), "Hurst exponent");
+        rows_add_number(
+            s, 0,
+            rows_number(hurst.value, power_spectrum_value(&v, POWER_SPECTRUM_KEY_HURST_LOW).value,
+                        power_spectrum_value(&v, POWER_SPECTRUM_KEY_HURST_HIGH).value, "1"),
+            "Hurst exponent");
     else
         rows_add_text(s, 0, "none", "Hurst exponent");
     rows_reason(&s->rows->rows[s->rows->n - 1], "self-affine law", law);
     if (!isnan(roll_off.value))
-        rows_add_number(s, 0, rows_estimate(roll_off), "roll-off wavenumber");
+        rows_add_number(
+            s, 0,
+            rows_number(
+                roll_off.value, power_spectrum_value(&v, POWER_SPECTRUM_KEY_ROLL_OFF_LOW).value,
+                power_spectrum_value(&v, POWER_SPECTRUM_KEY_ROLL_OFF_HIGH).value, roll_off.unit),
+            "roll-off wavenumber");
     if (!isnan(anisotropy.value)) {
         row = rows_add_number(s, 0, rows_estimate(anisotropy), "anisotropy");
         rows_reason(row, "directions", power_spectrum_key_text(&v, POWER_SPECTRUM_KEY_DIRECTIONS));

@@ -44,13 +44,21 @@ result_row *rows_add_number(rows_source *s, int level, row_number number, const 
     return row;
 }
 
+row_number row_number_of_value(const result_value *value)
+{
+    return (row_number){value->number.value,
+                        value->low,
+                        value->high,
+                        value->range.low,
+                        value->range.high,
+                        value->neutral == 0                   ? "%"
+                        : value->quantity == WT_Q_TEMPERATURE ? "degC"
+                                                              : value->number.unit};
+}
+
 result_row *rows_add_value(rows_source *s, int level, const result_value *value, const char *name)
 {
-    const char *unit = value->neutral == 0 ? "%" : value->number.unit;
-    result_row *row = rows_add_number(
-        s, level, rows_number(value->number.value, value->low, value->high, unit), "%s", name);
-    row->number.range_low = value->range.low;
-    row->number.range_high = value->range.high;
+    result_row *row = rows_add_number(s, level, row_number_of_value(value), "%s", name);
     rows_reason(row, "the interval includes", value->includes);
     rows_reason(row, "no error known of", value->lacks);
     rows_reason(row, "widest choice of the model", value->range.widest);

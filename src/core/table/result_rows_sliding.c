@@ -164,19 +164,23 @@ static void add_what_if(rows_source *s, const table_view *v, bool has_layer)
     }
 }
 
-void rows_of_sliding(rows_source *s)
+void rows_of_friction(rows_source *s)
 {
-    table_view view;
+    table_view view, layer;
     const bool has_friction = rows_bind(s, &friction_schema, &view);
     if (has_friction)
         add_friction(s, &view);
-    const bool has_layer = rows_bind(s, &layer_schema, &view);
-    if (has_layer)
-        add_layer(s, &view);
     if (!has_friction && rows_bind(s, &what_if_schema, &view))
-        add_what_if(s, &view, has_layer);
+        add_what_if(s, &view, rows_bind(s, &layer_schema, &layer));
     if (!has_friction && rows_bind(s, &contact_area_schema, &view))
         add_contact_area(s, &view);
+}
+
+void rows_of_layer(rows_source *s)
+{
+    table_view view;
+    if (rows_bind(s, &layer_schema, &view))
+        add_layer(s, &view);
     if (rows_bind(s, &identification_schema, &view))
         add_identification(s, &view);
 }
@@ -260,22 +264,16 @@ static void add_validation_step(rows_source *s, const table_view *v, size_t i)
     rows_reason(row, "step", validation_text(v, i, VALIDATION_NOTE));
 }
 
-/* Replaces the text of an outcome by the word of the closed list of verdicts. */
-static void set_verdict_word(result_row *row, int outcome)
-{
-    if (outcome == OUTCOME_DOES_NOT)
-        snprintf(row->text, sizeof row->text, "%s", stated_verdict_text(VERDICT_NO));
-    else if (outcome == OUTCOME_EXPLAINS)
-        snprintf(row->text, sizeof row->text, "%s", stated_verdict_text(VERDICT_YES));
-}
-
 static void add_validation(rows_source *s, const table_view *v)
 {
     const char *verdict = validation_key_text(v, VALIDATION_KEY_VERDICT),
                *plausible = validation_key_text(v, VALIDATION_KEY_PLAUSIBLE);
     result_row *row =
         rows_add_verdict(s, 0, verdict != NULL ? verdict : "not tested", "theory explains it");
-    set_verdict_word(row, validation_key_enum(v, VALIDATION_KEY_OUTCOME));
+    const int outcome = validation_key_enum(v, VALIDATION_KEY_OUTCOME);
+    if (outcome < VALIDATION_OUTCOME_UNKNOWN)
+        snprintf(row->text, sizeof row->text, "%s",
+                 validation_outcome_text((validation_outcome)outcome));
     const char *judged = validation_key_text(v, VALIDATION_KEY_JUDGED);
     if (judged != NULL)
         rows_note(row, "%s", judged);

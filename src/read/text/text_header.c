@@ -141,6 +141,7 @@ static void set_field(text_scanner *s, size_t f, const regmatch_t groups[REGEX_G
                   pattern_group(s->line, groups[field->unit_group]));
     else if (field->unit != NULL)
         snprintf(value->unit, sizeof value->unit, "%s", field->unit);
+    value->unit[strcspn(value->unit, ",;")] = '\0'; /* the rest of the line is not the unit */
     apply_field(s, field->sets, text);
     if (field->quantity == WT_Q_NONE || !parse_field_number(s, field, text, value, &number))
         return;
