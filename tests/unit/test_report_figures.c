@@ -209,7 +209,6 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"angular_spectrum", "title 'two terms'", "direction terms"},
         {"payne", "points ls 51", "strain storage_modulus angular_frequency"},
         {"payne", "points ls 52", "strain loss_modulus angular_frequency"},
-        {"payne", "lines ls 11 title 'law of Kraus'", "strain storage_kraus"},
         {"payne", "title 'a tenth lost'", "strain_tenth storage_start"},
         {"payne", "title 'half lost'", "strain_half storage_start"},
         {"power_spectrum", "lines ls 21", "wavenumber density"},
