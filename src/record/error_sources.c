@@ -49,13 +49,6 @@ static size_t find_drawn(flow_draw draw)
     return i;
 }
 
-const char *draw_source_name(flow_draw draw, const char **remedy)
-{
-    const size_t k = find_drawn(draw);
-    *remedy = drawn[k].remedy;
-    return validation_source_text(drawn[k].source);
-}
-
 typedef struct source {
     validation_source kind;
     const char *remedy;

@@ -148,8 +148,6 @@ wt_status required_cutoff_set_keys(const validation *v, table_writer *t,
 typedef struct source_advice {
     char narrows[320], settles[320];
 } source_advice;
-/* Returns the name of a draw and the remedy that reduces its error. */
-const char *draw_source_name(flow_draw draw, const char **remedy);
 wt_status error_sources_tabulate(const validation *v, source_advice *advice, wt_table **table,
                                  wt_error *err) WT_NODISCARD;
 

@@ -9,7 +9,7 @@
 #include "core/base/array.h"
 #include "core/math/students_t.h"
 #include "record/numerics/autocorrelation.h"
-#include "record/numerics/running_in_curve.h"
+#include "record/numerics/decay_fit.h"
 #include "weartrack/record.h"
 
 #include <math.h>
@@ -240,52 +240,33 @@ wt_running_in wt_running_in_find(const double *y, size_t n)
 
 /* ---- decay that goes on ---------------------------------------------------------------------- */
 
-/* Table of exp(-t^power), from a change of 3e-4 on to 7e-8. */
-enum { DECAY_POINTS = 240, DECAY_MAX_BATCHES = 120 };
-static const double decay_first = 1e-10, decay_last = 3000;
+enum { DECAY_MAX_BATCHES = 120 };
 static const double decay_power[] = {1, 0.8, 0.65, 0.5, 0.35};
-/* Remaining share that settles the decay: half, so that the times go far beyond the series. Prior
- * error of its time. */
-static const double decay_settled = 0.5, decay_expected = 1;
 /* The law of the decay is not known beyond the end of the series. Standard error for that: a share
  * of what is left, and of the distance from the plateau of an exponential. */
 static const double decay_left_error = 0.25, decay_law_error = 0.5;
 
-/* Fits one power, in units of the length of the series. */
-static bool fit_decay(const running_in_series *s, double power, running_in_curve_fit *fit)
-{
-    double value[DECAY_POINTS];
-    const double step = log(decay_last / decay_first) / (DECAY_POINTS - 1);
-    for (size_t i = 0; i < DECAY_POINTS; i++)
-        value[i] = exp(-pow(decay_first * exp((double)i * step), power));
-    const running_in_curve c = {DECAY_POINTS, log(decay_first), step, value};
-    return running_in_curve_fit_compute(&(running_in_curve_pair){s, &c}, 1, decay_settled,
-                                        decay_expected, fit, NULL) == WT_OK &&
-           fit->seen;
-}
-
 /* Averages the powers. */
-static steady_decay assess_decay(const running_in_series *s)
+static steady_decay assess_decay(const double *y, size_t n, double variance)
 {
     arena memory = {0};
-    const double variance = scatter_total_variance(s->friction, s->n), end = s->end[s->n - 1];
-    const likelihoods l = change_likelihoods(s->friction, s->n, variance, &memory);
+    const likelihoods l = change_likelihoods(y, n, variance, &memory);
     double odds = -(double)INFINITY, plateau = 0, square = 0, left = 0, exponential = (double)NAN;
     for (size_t i = 0; i < COUNT_OF(decay_power); i++) {
-        running_in_curve_fit f;
-        if (!fit_decay(s, decay_power[i], &f))
+        const decay_fit f = decay_fit_compute(y, n, decay_power[i]);
+        if (!f.seen)
             continue;
         const double all = log_add(odds, f.log_odds), old = exp(odds - all),
                      now = exp(f.log_odds - all);
         plateau = old * plateau + now * f.level;
         square = old * square + now * (f.level * f.level + f.level_error * f.level_error);
-        left = old * left + now * f.ratio * exp(-pow(end * exp(-f.log_factor), decay_power[i]));
+        left = old * left + now * f.ratio * exp(-pow(exp(-f.log_factor), decay_power[i]));
         odds = all;
         exponential = i == 0 ? f.level : exponential;
     }
-    for (size_t k = FEWEST_BEFORE; k < last_change(s->n); k++)
+    for (size_t k = FEWEST_BEFORE; k < last_change(n); k++)
         l.before[k] += l.behind[k];
-    const double change = change_log_odds(&l, l.before, FEWEST_BEFORE, last_change(s->n), variance);
+    const double change = change_log_odds(&l, l.before, FEWEST_BEFORE, last_change(n), variance);
     const double law = isnan(exponential) ? 0 : decay_law_error * (plateau - exponential),
                  error = hypot(sqrt(fmax(square - plateau * plateau, 0)),
                                hypot(decay_left_error * left, law));
@@ -299,18 +280,16 @@ static steady_decay assess_decay(const running_in_series *s)
 steady_decay steady_decay_find(const double *y, size_t n)
 {
     const size_t length = (n + DECAY_MAX_BATCHES - 1) / DECAY_MAX_BATCHES;
-    if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND || n / length < RUNNING_IN_CURVE_MIN_MEANS)
+    const size_t means = n / length, rest = n % length;
+    if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND || means < DECAY_MIN_MEANS)
         return (steady_decay){.is_detected = false};
-    running_in_series s = running_in_series_alloc(n / length);
-    const size_t rest = n % length;
-    for (size_t i = 0; i < s.n * length; i++)
-        s.friction[i / length] += y[rest + i] / (double)length;
-    for (size_t i = 0; i < s.n; i++)
-        s.end[i] = (double)(i + 1) / (double)s.n;
-    const steady_decay found = scatter_total_variance(s.friction, s.n) > 0
-                                   ? assess_decay(&s)
-                                   : (steady_decay){.is_detected = false};
-    running_in_series_clear(&s);
+    double *const mean = wt_alloc(means, sizeof *mean);
+    for (size_t i = 0; i < means * length; i++)
+        mean[i / length] += y[rest + i] / (double)length;
+    const double variance = scatter_total_variance(mean, means);
+    const steady_decay found =
+        variance > 0 ? assess_decay(mean, means, variance) : (steady_decay){.is_detected = false};
+    free(mean);
     return found;
 }
 
