@@ -399,8 +399,7 @@ static inline void fixture_accuracy(wt_case *read)
         wt_result_free(asked);
     }
     fixture_of_case("transverse", "transverse_isotropy");
-    fixture_of_case("texture", "anisotropy");
-    fixture_of_case("texture", "friction_decades");
+    fixture_of_case("decades", "friction_decades");
     fixture_of_case("layer", "identification");
 }
 

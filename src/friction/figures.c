@@ -1,5 +1,4 @@
-/* Figures of the sliding contact: power spectrum, friction, contact area, length scales,
- * direction of sliding.
+/* Figures of the sliding contact: power spectrum, friction, contact area, length scales.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -216,17 +215,6 @@ static void caption_decades(figure_drawing *d)
                 friction_decades_key_text(d->table, FRICTION_DECADES_KEY_STRONGEST));
 }
 
-/* ---- direction of sliding -------------------------------------------------------------------- */
-
-static void caption_anisotropy(figure_drawing *d)
-{
-    text_format(&d->caption,
-                " Power spectrum over its mean at an angle phi from the velocity: 1 + "
-                "%s. %s.",
-                anisotropy_key_text(d->table, ANISOTROPY_KEY_TEXTURE),
-                anisotropy_key_text(d->table, ANISOTROPY_KEY_EFFECT));
-}
-
 const figure_description figures_friction[] = {
     {.name = "power_spectrum",
      .in_depth = true,
@@ -354,21 +342,5 @@ const figure_description figures_friction[] = {
          "first and the last decade may be cut by the ends of the power spectrum.",
      .draw = draw_decades,
      .caption = caption_decades},
-    {.name = "anisotropy",
-     .title = "What the direction of sliding does",
-     .table = &anisotropy_schema,
-     .data_title = "hysteresis",
-     .x = {ANISOTROPY_VELOCITY, AXIS_LOG, "Sliding velocity"},
-     .y = {{ANISOTROPY_HYSTERESIS, AXIS_FROM_ZERO, "Hysteresis friction coefficient"}},
-     .curves = {CURVE(ANISOTROPY_HYSTERESIS, LINE, .style = 21, .title = "against the velocity"),
-                CURVE(ANISOTROPY_SIDE, LINE, .style = 22, .title = "to the side"),
-                CURVE(ANISOTROPY_HYSTERESIS_WITHOUT, LINE, .style = 24,
-                      .title = "the same roughness in all directions")},
-     .empty_reason = "no hysteresis friction is a number",
-     .caption_text =
-         "Hysteresis part of the friction coefficient against sliding velocity on roughness "
-         "with a preferred direction, the force to its side over the load, and the friction "
-         "on roughness that is the same in all directions.",
-     .caption = caption_anisotropy},
     {.name = NULL},
 };

@@ -168,7 +168,7 @@ TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
            wt_estimate layer_slope, layer_outside; char layer_moduli[512];
            wt_estimate relative_change, relative_change_low, relative_change_high;
            size_t replicates; const char *includes, *lacks, *statement;
-           char material[512], softening[512], anisotropy[192], numerical[512], flash[256];)
+           char material[512], softening[512], numerical[512], flash[256];)
 
 /* Result for the stated values with the standard error from the replicates. */
 static wt_estimate estimate_with_error(friction_task *task, int kind, size_t i,
@@ -267,7 +267,6 @@ static void set_friction_keys(friction_task *task, const sliding_contact *c, tab
         strain_softening_describe(s->strain_softening, keys.softening, sizeof keys.softening);
         keys.strain.value = task->strain;
     }
-    anisotropy_describe(&s->anisotropy, keys.anisotropy, sizeof keys.anisotropy);
     if (task->worst > 0)
         clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
                       task->work->tolerance, task->worst);

@@ -1,14 +1,12 @@
 /* Friction with and without an effect at one list of velocities: strain softening, flash
- * temperature, anisotropy of the roughness, transversely isotropic rubber.
+ * temperature, transversely isotropic rubber.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
 #include "core/table/table_rows.h"
 #include "dma/rubber.h"
-#include "friction/numerics/angular.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
 #include "weartrack/friction.h"
-#include "weartrack/surface.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -480,69 +478,5 @@ wt_status wt_flash_temperature_compute(const wt_sliding *sliding, const wt_job *
 {
     static const friction_effect effect = {"no flash temperature was asked for", is_warmed,
                                            leave_out_flash, NULL, tabulate_flash};
-    return tabulate_effect(&effect, sliding, work, table, err);
-}
-
-/* ---- anisotropy ------------------------------------------------------------------------------ */
-
-/* Row of the table: both results at one velocity. */
-TABLE_ROW(anisotropy, ANISOTROPY, wt_friction_point with, without;)
-
-TABLE_KEYS(anisotropy, ANISOTROPY, char texture[192], effect[320]; wt_estimate side;)
-
-void anisotropy_describe(const wt_anisotropy *anisotropy, char *text, size_t size)
-{
-    size_t used = 0;
-    text[0] = '\0';
-    for (size_t k = 0; k < WT_ANISOTROPY_ORDERS && used < size; k++)
-        if (anisotropy->amplitude[k] != 0) {
-            clocale_print(text + used, size - used, "%s%.4g cos %zu(phi - %.4g deg)",
-                          used > 0 ? " + " : "", anisotropy->amplitude[k], 2 * (k + 1),
-                          anisotropy->angle[k] * 180 / M_PI);
-            used = strlen(text);
-        }
-}
-
-static void describe_effect(const wt_friction_point *with, const wt_friction_point *without,
-                            char *text, size_t size)
-{
-    char against[128];
-    clocale_print(against, sizeof against,
-                  "roughness that is the same in all directions; the force of the hysteresis turns "
-                  "by %.1f deg to the side",
-                  atan2(with->lateral.value, with->hysteresis.value) * 180 / M_PI);
-    describe_change(with, without, against, text, size);
-}
-
-static wt_status tabulate_anisotropy(const friction_difference *c, wt_table **table, wt_error *err)
-{
-    const size_t n = c->n - 1;
-    table_writer t = table_begin(&anisotropy_schema, err);
-    for (size_t i = 0; i < n; i++)
-        TABLE_ADD(anisotropy, &t, c->with[i], c->without[i]);
-    anisotropy_keys keys = {.side = c->with[n].lateral};
-    keys.side.standard_error = (double)NAN; /* this table draws no replicates */
-    anisotropy_describe(&c->sliding->anisotropy, keys.texture, sizeof keys.texture);
-    describe_effect(&c->with[n], &c->without[n], keys.effect, sizeof keys.effect);
-    anisotropy_set_keys(&t, &keys);
-    return table_end(&t, table);
-}
-
-static bool is_anisotropic(const wt_sliding *sliding)
-{
-    return anisotropy_is_present(&sliding->anisotropy);
-}
-
-static void leave_out_anisotropy(wt_sliding *sliding)
-{
-    sliding->anisotropy = (wt_anisotropy){{0}, {0}};
-}
-
-wt_status wt_anisotropic_friction_compute(const wt_sliding *sliding, const wt_job *work,
-                                          wt_table **table, wt_error *err)
-{
-    static const friction_effect effect = {"the roughness is the same in all directions",
-                                           is_anisotropic, leave_out_anisotropy, NULL,
-                                           tabulate_anisotropy};
     return tabulate_effect(&effect, sliding, work, table, err);
 }

@@ -73,8 +73,6 @@ static const struct {
     {"contact-size", "5mm", "flash-temperature yes", NULL},
     {"heat-capacity", "1e6J/(m^3 K)", "flash-temperature yes", NULL},
     {"heat-diffusivity", "2e-7m^2/s", "flash-temperature yes", NULL},
-    {"anisotropy", "0.6", NULL, NULL},
-    {"texture-angle", "30deg", "anisotropy 0.6", NULL},
     {"layer-thickness", "2um", NULL, NULL},
     {"expected-thickness", "2um", NULL, NULL},
     {"modulus-ratio", "0.7", NULL, NULL},

@@ -208,8 +208,7 @@ static void test_cases(void **state)
     run_case("<temperature>30degC</temperature>",
              "<strain-softening><file>softening.txt</file></strain-softening>"
              "<temperature>30degC</temperature>"
-             "<anisotropy>0.6</anisotropy><decades>yes</decades>"
-             "<texture-angle>30deg</texture-angle>");
+             "<decades>yes</decades>");
     run_case("<temperature>30degC", "<flash-temperature>yes</flash-temperature>"
                                     "<temperature>30degC");
     run_case("</dma>", "<transverse><axial-storage>1.2</axial-storage></transverse></dma>");

@@ -225,10 +225,6 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"transverse_isotropy", "title 'isotropic'", "velocity hysteresis"},
         {"friction_decades", "boxxyerror ls 21", "from to hysteresis"},
         {"friction_decades", "boxxyerror ls 23", "to from hysteresis"},
-        {"anisotropy", "title 'against the velocity'", "velocity hysteresis"},
-        {"anisotropy", "title 'to the side'", "velocity side"},
-        {"anisotropy", "title 'the same roughness in all directions'",
-         "velocity hysteresis_without"},
         {"softening", "title 'moduli soften with strain'", "velocity hysteresis"},
         {"softening", "title 'moduli at small strain'", "velocity hysteresis_without"},
         {"flash_temperature", "title 'from cold'", "velocity temperature"},
@@ -583,8 +579,6 @@ static void test_numbers_of_captions(void **state)
         {"master_curve", " one relaxation spectrum of "},
         {"softening", " Softening: given table. Largest strain met: 0.40. more friction."},
         {"friction_decades", " The most: 1e+05 to 1e+06 rad/m"},
-        {"anisotropy", " Power spectrum over its mean at an angle phi from the velocity: 1 + 0.6 "
-                       "cos 2(phi - 30 deg). at 300 mm/s"},
         {"flash_temperature", " Surroundings at 20 °C; 28.9 K warmer. Two solutions: hot at 2 of 3 "
                               "velocities."},
         {"isotherms", " 12 isotherms. Curves that superposition"},

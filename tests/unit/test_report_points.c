@@ -114,7 +114,6 @@ static void test_whole_tables(void **state)
                                            {"contact_area", "contact_area"},
                                            {"friction_scales", "contact_area"},
                                            {"softening", "softening"},
-                                           {"anisotropy", "anisotropy"},
                                            {"flash_temperature", "flash_temperature"},
                                            {"flash_friction", "flash_temperature"},
                                            {"energy_density", "energy_density"},

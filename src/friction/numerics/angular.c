@@ -57,8 +57,7 @@ typedef struct series_list {
 
 struct angular_law {
     const wt_material *material;
-    const angular_weight *weight; /* NULL if none */
-    bool closed;                  /* the law has a closed form, and no weight is set */
+    bool closed; /* the law has a closed form */
     double tolerance, segment_width;
     const gauss_rule *rule;
     double goal;
@@ -273,7 +272,6 @@ static void extend_subintervals(angular_law *a, double low, double high)
     /* Beyond the end, because rounding may place a frequency there, where the integrand has a pole.
      */
     angular_subintervals_new(a->material, a->rule, low, 1.01 * high, a->goal, &a->subintervals);
-    a->subintervals.weight = a->weight;
 }
 
 /* Range in integer multiples of the segment width: the union of the present and the requested
@@ -474,11 +472,9 @@ void angular_prepare_outside(angular_law *angular)
     const double *limit = angular->limit;
     const double low = fmin(limit[0], limit[1]);
     for (size_t k = 0; k < 2; k++)
-        if (!isnan(limit[k]) && angular->below[k].n == 0) {
+        if (!isnan(limit[k]) && angular->below[k].n == 0)
             angular_subintervals_new(angular->material, angular->rule, low, limit[k], max_goal,
                                      &angular->below[k]);
-            angular->below[k].weight = angular->weight;
-        }
 }
 
 /* Parts of J1 from frequencies below a limit. */
@@ -526,26 +522,15 @@ static double frequency_limit(double frequency)
     return frequency > 0 && isfinite(frequency) ? frequency : (double)NAN;
 }
 
-static void choose_segments(angular_law *a, bool closed)
-{
-    a->closed = closed;
-    a->goal = fmin(fmax(goal_share * a->tolerance, min_goal), max_goal);
-    a->segment_width = closed ? closed_width : law_width;
-}
-
-void angular_set_weight(angular_law *angular, const angular_weight *weight)
-{
-    angular->weight = weight;
-    choose_segments(angular, false);
-}
-
 angular_law *angular_new(const wt_material *material, double tolerance, arena *memory)
 {
     angular_law *made = arena_alloc(memory, 1, sizeof *made);
     made->material = material;
     compute_fit_matrices(made);
     made->tolerance = tolerance;
-    choose_segments(made, material->law->angular != NULL);
+    made->goal = fmin(fmax(goal_share * tolerance, min_goal), max_goal);
+    made->closed = material->law->angular != NULL;
+    made->segment_width = made->closed ? closed_width : law_width;
     made->limit[0] = frequency_limit(material->frequency_min);
     made->limit[1] = frequency_limit(material->frequency_max);
     made->rule = gauss_rule_get(SUBINTERVAL_NODES);

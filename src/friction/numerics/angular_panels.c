@@ -392,9 +392,7 @@ static void add_far_series(const angular_subintervals *a, size_t edge, double w,
     const double c = a->edge_omega[edge] / w, square = c * c;
     const double *s1 = a->below[0] + edge * a->terms, *s2 = a->below[1] + edge * a->terms;
     double sum1 = 0, sum2 = 0, b = 1, power = 1;
-    if (a->weight != NULL)
-        weight_series_sum(a->weight, s1, s2, a->terms, square, &sum1, &sum2);
-    for (size_t m = 0; a->weight == NULL && m < a->terms && power > DBL_EPSILON / 64; m++) {
+    for (size_t m = 0; m < a->terms && power > DBL_EPSILON / 64; m++) {
         sum1 += b * power * s1[m];
         sum2 += b * power * s2[m];
         b *= (double)(2 * m + 1) / (double)(2 * m + 2);
@@ -423,12 +421,12 @@ void angular_subintervals_far(const angular_subintervals *subintervals, const do
 {
     const angular_subintervals *a = subintervals;
     const double *sums = a->below[0] + a->n * a->terms, edge = a->edge_omega[a->n];
-    double of[WEIGHT_SERIES_TERMS], b = 1, nearest = 0, power = 1;
+    double of[FAR_TERMS], b = 1, nearest = 0, power = 1;
     for (size_t i = 0; i < n; i++)
         nearest = nearest > edge / w[i] ? nearest : edge / w[i];
     size_t terms = 0;
-    for (; terms < a->terms && terms < WEIGHT_SERIES_TERMS && power > DBL_EPSILON / 64; terms++) {
-        of[terms] = sums[terms] * (a->weight != NULL ? a->weight->far[0][terms] : b);
+    for (; terms < a->terms && terms < FAR_TERMS && power > DBL_EPSILON / 64; terms++) {
+        of[terms] = sums[terms] * b;
         b *= (double)(2 * terms + 1) / (double)(2 * terms + 2);
         power *= nearest * nearest;
     }
@@ -469,15 +467,6 @@ static void add_node_sum(size_t n, const double *restrict omega, const double *r
     }
 }
 
-static void add_nodes(const angular_subintervals *a, size_t n, const double *omega,
-                      const double *f1, const double *f2, double w, double *j1, double *j2)
-{
-    if (a->weight != NULL)
-        weight_node_sum(a->weight, n, omega, f1, f2, w, j1, j2);
-    else
-        add_node_sum(n, omega, f1, f2, w, j1, j2);
-}
-
 /* Integrates from ln omega = `from` to `to` close below x = ln w, with ln omega = x - t^2. */
 static void add_near_integral(const angular_subintervals *a, double x, double from, double to,
                               double w, double *j1, double *j2)
@@ -498,16 +487,9 @@ static void add_near_integral(const angular_subintervals *a, double x, double fr
         weight[i] = half * a->rule->weight[i] * 2 * t[i] * cosine[i] / sqrt(-gap[i]);
     }
     a->material->law->modulus(a->material, omega, SUBINTERVAL_NODES, storage, loss);
-    const angular_weight *direction_weight = a->weight;
     for (size_t i = 0; i < SUBINTERVAL_NODES; i++) {
-        double part1 = weight[i] * cosine[i] * loss[i];
-        double part2 = weight[i] * (storage[i] * storage[i] + loss[i] * loss[i]);
-        if (direction_weight != NULL) {
-            part1 *= weight_evaluate(direction_weight->power[0], 1 + gap[i]);
-            part2 *= weight_evaluate(direction_weight->power[1], 1 + gap[i]);
-        }
-        *j1 += part1;
-        *j2 += part2;
+        *j1 += weight[i] * cosine[i] * loss[i];
+        *j2 += weight[i] * (storage[i] * storage[i] + loss[i] * loss[i]);
     }
 }
 
@@ -526,8 +508,8 @@ void angular_subintervals_integrate(const angular_subintervals *subintervals, do
             const subinterval_group *group;
             const size_t grouped = find_group(a, p, x, &group);
             if (grouped > 0) {
-                add_nodes(a, GROUP_NODES, group->omega, group->value[0], group->value[1], w, j1,
-                          j2);
+                add_node_sum(GROUP_NODES, group->omega, group->value[0], group->value[1], w, j1,
+                             j2);
                 p += grouped;
                 continue;
             }
@@ -536,8 +518,8 @@ void angular_subintervals_integrate(const angular_subintervals *subintervals, do
                    (p * SUBINTERVAL_NODES == from || find_group(a, p, x, &group) == 0))
                 p++;
             for (const size_t end = p * SUBINTERVAL_NODES; from < end; from += NODE_BATCH)
-                add_nodes(a, end - from < NODE_BATCH ? end - from : NODE_BATCH, a->omega + from,
-                          a->value[0] + from, a->value[1] + from, w, j1, j2);
+                add_node_sum(end - from < NODE_BATCH ? end - from : NODE_BATCH, a->omega + from,
+                             a->value[0] + from, a->value[1] + from, w, j1, j2);
             /* narrow subintervals may follow */
             for (; p < a->n && a->edge[p] < x && 2 * a->edge[p + 1] > x + a->edge[p]; p++)
                 add_near_integral(a, x, a->edge[p], fmin(a->edge[p + 1], x), w, j1, j2);
@@ -560,8 +542,6 @@ double angular_subintervals_error(const angular_subintervals *subintervals, doub
     const double kernel = 4 * c / sqrt((1 - c) * (1 + c)); /* value at the edge; smaller below it */
     const double error1 = 4 * a->start_error[0] * start * start + kernel * c * a->rounding[0][edge];
     const double error2 = 4 * a->start_error[1] * start + kernel * a->rounding[1][edge];
-    const double error = fmax(j1 > 0 ? error1 / j1 : 0, j2 > 0 ? error2 / j2 : 0) +
-                         pow(4, -(double)a->terms) + 8 * DBL_EPSILON +
-                         2 * DBL_EPSILON * (4 + largest);
-    return a->weight != NULL ? error * a->weight->cancellation : error;
+    return fmax(j1 > 0 ? error1 / j1 : 0, j2 > 0 ? error2 / j2 : 0) + pow(4, -(double)a->terms) +
+           8 * DBL_EPSILON + 2 * DBL_EPSILON * (4 + largest);
 }
