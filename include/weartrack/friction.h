@@ -65,11 +65,6 @@ typedef struct wt_friction_options {
 WT_API wt_friction_options wt_friction_defaults(void);
 WT_API const wt_params *wt_friction_params(void);
 
-/* A second solution at a velocity. */
-typedef struct wt_friction_branch {
-    double hysteresis, area_ratio, temperature;
-} wt_friction_branch;
-
 /* Friction at one velocity. numerical_error is an upper bound for the test against the tolerance,
  * not an estimate. The true error is typically some hundred times smaller and never exceeded it in
  * 39,000 random checks (tests/docs/accuracy.md). It is stated whether or not the tolerance is met.
@@ -88,8 +83,6 @@ typedef struct wt_friction_point {
     bool has_no_solution;    /* true if no flash temperature was found; the numbers are NaN */
     wt_estimate temperature; /* temperature of the finest scale, T(q1) [K]; NaN without a flash
                                 temperature */
-    wt_friction_branch
-        hot_branch; /* second solution, in which a hot contact stays hot; NaN if there is none */
 } wt_friction_point;
 
 /* Values at one wavenumber: contact area at magnification q/q0, friction up to q, temperature. */

@@ -93,13 +93,10 @@ static void caption_softening(figure_drawing *d)
 
 static void caption_flash(figure_drawing *d)
 {
-    const char *two = flash_key_text(d->table, FLASH_KEY_BRANCHES),
-               *none = flash_key_text(d->table, FLASH_KEY_UNSETTLED);
+    const char *none = flash_key_text(d->table, FLASH_KEY_UNSETTLED);
     text_format(&d->caption, " Surroundings at %s; %s.",
                 VALUE(WT_Q_TEMPERATURE, NULL, flash_value(d->table, FLASH_KEY_SURROUNDINGS).value),
                 flash_key_text(d->table, FLASH_KEY_EFFECT));
-    if (two != NULL)
-        text_format(&d->caption, " Two solutions: %s.", two);
     if (none != NULL)
         text_format(&d->caption, " Without one: %s.", none);
 }
@@ -309,9 +306,7 @@ const figure_description figures_friction[] = {
      .data_title = "temperature",
      .x = {FLASH_VELOCITY, AXIS_LOG, "Sliding velocity"},
      .y = {{FLASH_TEMPERATURE, AXIS_LINEAR, "Temperature at the finest scale"}},
-     .curves = {CURVE(FLASH_TEMPERATURE, LINE, .style = 21, .title = "from cold"),
-                CURVE(FLASH_HOT_TEMPERATURE, LINE, .style = 24,
-                      .title = "of a contact that stays hot")},
+     .curves = {CURVE(FLASH_TEMPERATURE, LINE, .style = 21)},
      .empty_reason = "no temperature is a number",
      .caption_text = "Temperature of the rubber at the finest scale of the contact against sliding "
                      "velocity: the heat of friction at every length scale warms it there.",
@@ -324,9 +319,7 @@ const figure_description figures_friction[] = {
      .y = {{FLASH_HYSTERESIS, AXIS_FROM_ZERO, "Hysteresis friction coefficient"}},
      .curves = {CURVE(FLASH_HYSTERESIS, LINE, .style = 21, .title = "with flash temperature"),
                 CURVE(FLASH_HYSTERESIS_WITHOUT, LINE, .style = 23,
-                      .title = "as warm as the surroundings"),
-                CURVE(FLASH_HOT_HYSTERESIS, LINE, .style = 24,
-                      .title = "of a contact that stays hot")},
+                      .title = "as warm as the surroundings")},
      .empty_reason = "no hysteresis friction is a number",
      .caption_text =
          "Hysteresis part of the friction coefficient against sliding velocity with flash "

@@ -172,14 +172,7 @@
     X(FLASH_AREA_RATIO_WITHOUT, "area_ratio_without", "the same without flash temperature",        \
       NUMBER, SHOWS(without.area_ratio), NUMERICAL_ERROR(FLASH_AREA_RATIO_WITHOUT))                \
     X(FLASH_AREA_RATIO_WITHOUT_NUMERICAL_ERROR, "area_ratio_without_numerical_error",              \
-      "its numerical error", NUMBER)                                                               \
-    X(FLASH_HOT_HYSTERESIS, "hot_hysteresis",                                                      \
-      "hysteresis friction of the second, hotter stable state; nan: there is none", NUMBER,        \
-      SHOWS(with.hot_branch.hysteresis))                                                           \
-    X(FLASH_HOT_AREA_RATIO, "hot_area_ratio", "its real over nominal contact area", NUMBER,        \
-      SHOWS(with.hot_branch.area_ratio))                                                           \
-    X(FLASH_HOT_TEMPERATURE, "hot_temperature", "its temperature at the finest scale",             \
-      SI(TEMPERATURE), SHOWS(with.hot_branch.temperature))
+      "its numerical error", NUMBER)
 
 #define FLASH_KEYS(X)                                                                              \
     X(FLASH_KEY_SURROUNDINGS, "surroundings", SI(TEMPERATURE), SHOWS(surroundings),                \
@@ -192,7 +185,6 @@
     X(FLASH_KEY_MACROSCOPIC, "macroscopic_area", PLAIN, SHOWS(macroscopic),                        \
       LABEL("Share of the area in macroscopic contacts"))                                          \
     X(FLASH_KEY_EFFECT, AS(effect), TEXT, LABEL("What it does"))                                   \
-    X(FLASH_KEY_BRANCHES, AS(branches), TEXT, LABEL("Two solutions"), OPTIONAL)                    \
     X(FLASH_KEY_UNSETTLED, AS(unsettled), TEXT, LABEL("Without a solution"), OPTIONAL)             \
     X(FLASH_KEY_LAW_RANGE, AS(law_range), TEXT, LABEL("Shift law"), OPTIONAL)
 

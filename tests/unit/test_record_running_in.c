@@ -156,7 +156,7 @@ static void test_with_draws(void **state)
     case_end();
 }
 
-/* The measured course lies between friction without a layer and that in the end. */
+/* The layer lowers friction all along, and the measured course is near the predicted one. */
 static void test_course(void **state)
 {
     (void)state;
@@ -166,14 +166,11 @@ static void test_course(void **state)
     const wt_table *const course = wt_result_find(result, "validation_course");
     const size_t n = wt_table_n_rows(course);
     assert_true(n > 20);
-    const double bare = number_cell(course, 0, "friction_without_layer"),
-                 end = number_cell(course, n - 1, "friction_with_layer"), change = end - bare;
-    assert_true(fabs(number_cell(course, 0, "friction_with_layer") - bare) < 0.3 * fabs(change));
     for (size_t i = 0; i < n; i++) {
-        const double measured = number_cell(course, i, "friction_measured"),
-                     with = number_cell(course, i, "friction_with_layer");
-        assert_true((with - bare) / change > -1e-6 && (with - bare) / change < 1 + 1e-6);
-        assert_true(fabs(measured - with) < 0.02);
+        const double with = number_cell(course, i, "friction_with_layer");
+        assert_true(number_cell(course, i, "friction_without_layer") > with + 0.01);
+        assert_true(fabs(number_cell(course, i, "friction_measured") - with) < 0.02);
+        assert_true(i == 0 || number_cell(course, i, "time") > number_cell(course, i - 1, "time"));
     }
     case_end();
 }

@@ -42,7 +42,7 @@ struct flash_scratch {
     double *loss_j1, *loss_j2;              /* [nodes] with softening */
     double *g, *running, *area, *mu, *heat; /* [nodes] */
     double *wave, *square, *sum;            /* [waves] */
-    double *amount[2];                      /* [waves] of each of two solutions */
+    double *amount;                         /* [waves] */
     double *coarse;                         /* [nodes] solution on the coarse grid */
     size_t nodes;
 };
@@ -67,7 +67,7 @@ flash_scratch *flash_scratch_new(const wt_friction_workspace *ws, arena *memory)
         *by_node[i] = arena_numbers(memory, n);
     s->steps = arena_numbers(memory, DEPTH * n);
     s->changes = arena_numbers(memory, DEPTH * n);
-    double **const by_wave[] = {&s->wave, &s->square, &s->sum, &s->amount[0], &s->amount[1]};
+    double **const by_wave[] = {&s->wave, &s->square, &s->sum, &s->amount};
     size_t waves = 0;
     for (size_t k = 0; k < FLASH_GRIDS; k++)
         waves = ws->flash->grid[k].n_k > waves ? ws->flash->grid[k].n_k : waves;
@@ -436,94 +436,30 @@ static search_result search_cold(flash_map *map)
     return found;
 }
 
-/* Uniform rises [K] at which the search for a hot contact begins. A hot solution exists if warm
- * rubber produces more heat than cold rubber, and enough to stay hot. The heat falls monotonically
- * above the glass transition. */
-static const double probes[] = {20, 60, 160};
-/* Halvings of the logarithmic bracket between two of these rises; the start value then has 10 %
- * error. */
-enum { HALVINGS = 3 };
+/* Uniform rises [K] from which a contact is searched that has no cold solution. */
+static const double probes[] = {160, 60, 20};
 
-/* Rise due to the heat at a uniform rise, averaged over the heat. */
-static double compute_mean_rise(flash_map *map, double rise)
-{
-    flash_scratch *s = map->s;
-    double sum = 0, weight = 0;
-    set_uniform_rise(s, map->grid, rise);
-    apply_map(map);
-    for (size_t i = 0; i < map->grid->n; i++) {
-        const double part = map->grid->weight[i] * s->mu[i];
-        weight += part;
-        sum += part * s->next[i];
-    }
-    return weight > 0 ? sum / weight : 0;
-}
-
-/* Searches from a uniform rise between `low`, which heats itself further, and `high`, which does
- * not. */
-static search_result search_bracket(flash_map *map, double low, double high)
+static search_result search_from_above(flash_map *map)
 {
     search_result found = {0};
-    double from = low, to = high;
-    for (size_t k = 0; k < HALVINGS; k++) {
-        const double middle = sqrt(from * to);
-        *(compute_mean_rise(map, middle) >= middle ? &from : &to) = middle;
-    }
-    const double starts[] = {to, high};
-    for (size_t k = 0; !found.found && k < COUNT_OF(starts); k++) {
-        set_uniform_rise(map->s, map->grid, starts[k]);
+    for (size_t k = 0; !found.found && k < COUNT_OF(probes); k++) {
+        set_uniform_rise(map->s, map->grid, fmin(probes[k], map->law->hottest));
         found = iterate_to_fixed_point(map, 0, coarse_tolerance, DAMPED_MAPS);
     }
     return found;
 }
 
-/* Finds the hottest solution from above; `next` is undefined if there is none. */
-static search_result search_hot(flash_map *map)
-{
-    const double cold = compute_mean_rise(map, 0);
-    double low = 0, high = map->law->hottest;
-    /* a contact that cools at 20 K and at 60 K does not heat up at 160 K */
-    for (size_t k = 0; k < COUNT_OF(probes) && probes[k] < map->law->hottest; k++) {
-        const double made = compute_mean_rise(map, probes[k]);
-        if (made > cold && made >= probes[k]) {
-            low = probes[k];
-            high = map->law->hottest;
-        } else if (high > probes[k]) {
-            high = fmin(high, probes[k]);
-        }
-        if (k > 0 && !(low > 0 && low == probes[k]))
-            break;
-    }
-    return low > 0 ? search_bracket(map, low, high) : (search_result){0};
-}
-
 flash_solution flash_solve(const wt_friction_workspace *ws, flash_scratch *s,
                            const friction_load *at)
 {
-    flash_map map = create_map(ws, s, FLASH_COARSE, at, s->amount[0]);
+    flash_map map = create_map(ws, s, FLASH_COARSE, at, s->amount);
     search_result found = search_cold(&map);
     size_t maps = found.maps;
     if (!found.found)
-        found = search_hot(&map);
+        found = search_from_above(&map);
     if (!found.found)
         return (flash_solution){.maps = maps};
-    flash_solution solution = refine(ws, s, at, s->amount[0]);
+    flash_solution solution = refine(ws, s, at, s->amount);
     solution.maps += maps;
     return solution;
-}
-
-/* Two solutions that differ by less are equal [K]: ten times the error of a coarse solution at 40
- * K. */
-static const double same_rise = 0.01;
-
-flash_solution flash_solve_hot(const wt_friction_workspace *ws, flash_scratch *s,
-                               const friction_load *at, const flash_solution *cold)
-{
-    flash_map map = create_map(ws, s, FLASH_COARSE, at, s->amount[1]);
-    const search_result found = search_hot(&map);
-    if (!found.found || s->next[map.grid->n - 1] < cold->rise + same_rise)
-        return (flash_solution){.maps = found.maps};
-    flash_solution hot = refine(ws, s, at, s->amount[1]);
-    hot.found = hot.found && hot.rise > cold->rise + same_rise;
-    return hot;
 }

@@ -93,12 +93,9 @@ typedef struct flash_solution {
     heat_profile heat;
 } flash_solution;
 
-/* Solutions from the temperature of the surroundings and from far above it. A hot solution that
- * equals the cold one counts as not found. */
+/* Solution from the temperature of the surroundings on; if there is none, from far above it. */
 flash_solution flash_solve(const struct wt_friction_workspace *ws, flash_scratch *scratch,
                            const struct friction_load *at);
-flash_solution flash_solve_hot(const struct wt_friction_workspace *ws, flash_scratch *scratch,
-                               const struct friction_load *at, const flash_solution *cold);
 /* Returns the number of nodes at which J1 and J2 were evaluated, and resets the count. */
 size_t flash_reset_node_count(flash_scratch *scratch);
 

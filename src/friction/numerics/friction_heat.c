@@ -46,8 +46,7 @@ static void set_unsolved_point(wt_friction_point *point)
                                  .hysteresis = unknown,
                                  .extrapolated_share = (double)NAN,
                                  .has_no_solution = true,
-                                 .temperature = {(double)NAN, (double)NAN, (double)NAN, "K"},
-                                 .hot_branch = {(double)NAN, (double)NAN, (double)NAN}};
+                                 .temperature = {(double)NAN, (double)NAN, (double)NAN, "K"}};
 }
 
 void friction_heated_point(const wt_friction_workspace *ws, friction_scratch *scratch,
@@ -57,20 +56,12 @@ void friction_heated_point(const wt_friction_workspace *ws, friction_scratch *sc
                                            wt_friction_point *point),
                            wt_friction_point *point)
 {
-    const flash_solution cold = flash_solve(ws, scratch->flash, &at);
+    const flash_solution heat = flash_solve(ws, scratch->flash, &at);
     set_unsolved_point(point);
-    if (cold.found) {
-        at.heat = &cold;
+    if (heat.found) {
+        at.heat = &heat;
         point->has_no_solution = false;
         compute(ws, scratch, &at, point);
-        const flash_solution hot = flash_solve_hot(ws, scratch->flash, &at, &cold);
-        if (hot.found) {
-            wt_friction_point other;
-            at.heat = &hot;
-            compute(ws, scratch, &at, &other);
-            point->hot_branch = (wt_friction_branch){other.hysteresis.value, other.area_ratio.value,
-                                                     other.temperature.value};
-        }
     }
     scratch->nodes += flash_reset_node_count(scratch->flash);
 }

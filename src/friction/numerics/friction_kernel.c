@@ -391,14 +391,12 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
     if (ws->flash == NULL || sign == 0) {
         compute_load(ws, scratch, &at, point);
         point->temperature = dimensionless_estimate((double)NAN, (double)NAN);
-        point->hot_branch = (wt_friction_branch){(double)NAN, (double)NAN, (double)NAN};
         point->has_no_solution = false;
     } else {
         friction_heated_point(ws, scratch, at, compute_load, point);
     }
     point->velocity = velocity;
     point->hysteresis.value *= sign;
-    point->hot_branch.hysteresis *= sign;
 }
 
 static wt_status compute_velocity(void *user, size_t i, unsigned worker)
