@@ -183,7 +183,7 @@ typedef struct wt_validation_tables {
 
 /* Compares measured with predicted friction at every step of the records, with both errors: the
  * verdict "explains", "does not" or "inconclusive" by the test in the key `test`; the shear stress
- * and largest wavenumber that the record requires; the error sources. */
+ * that the record requires; the error sources. */
 WT_API wt_status wt_validation_compute(const wt_validation_job *job, const wt_job *work,
                                        wt_validation_tables *tables, wt_error *err) WT_NODISCARD;
 

@@ -75,11 +75,6 @@
       LABEL("Is that shear stress plausible"), OPTIONAL)                                           \
     X(VALIDATION_KEY_SHAPE, "verdict_with_needed", TEXT,                                           \
       LABEL("With the shear stress that it asks for"), OPTIONAL)                                   \
-    X(VALIDATION_KEY_CUTOFF, "largest_wavenumber_needed", SI(WAVENUMBER),                          \
-      LABEL("Largest wavenumber q1 that the record asks for, all else as used"), OPTIONAL)         \
-    KEY_BOUNDS(X, VALIDATION_KEY_CUTOFF, "largest_wavenumber_needed", SI(WAVENUMBER), "q1 needed") \
-    X(VALIDATION_KEY_CUTOFF_NOTE, "largest_wavenumber_note", TEXT,                                 \
-      LABEL("Largest wavenumber q1 needed"), OPTIONAL)                                             \
     X(VALIDATION_KEY_WEAR_RATIO, "wear_ratio", UNIT("1"),                                          \
       LABEL("Specific wear rate, measured over used"), OPTIONAL)                                   \
     KEY_BOUNDS(X, VALIDATION_KEY_WEAR_RATIO, "wear_ratio", NUMBER, "Wear rate ratio")              \

@@ -358,9 +358,7 @@ static wt_status set_validation_keys(const validation *v, const source_advice *a
     if (v->has_shear)
         validation_set(t, VALIDATION_KEY_SHEAR, flow_stated_estimate(v->used.sliding.shear_stress));
     required_shear_set_keys(v, t);
-    wt_status status = v->has_shear ? required_cutoff_set_keys(v, t, err) : WT_OK;
-    if (status == WT_OK)
-        status = set_wear(v, t, err);
+    const wt_status status = set_wear(v, t, err);
     validation_set_print(t, VALIDATION_KEY_STEPS, "%zu", v->steps.n);
     validation_set_print(t, VALIDATION_KEY_LEFT_OUT, "%zu", v->steps.n_all - v->steps.n);
     if (v->steps.remarks[0] != '\0')

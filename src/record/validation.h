@@ -139,10 +139,6 @@ mean_ratio mean_ratio_compute(const model_variant *t); /* row: freed by the call
 /* Returns the 95 % interval of exp(value). */
 wt_interval validation_factor(double value, double error, double df);
 
-/* Sets the keys of the required largest wavenumber, all else as used. */
-wt_status required_cutoff_set_keys(const validation *v, table_writer *t,
-                                   wt_error *err) WT_NODISCARD;
-
 /* Advice of the table "validation_sources": what narrows the interval most, and how to decide an
  * inconclusive verdict. */
 typedef struct source_advice {

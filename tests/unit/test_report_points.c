@@ -105,8 +105,6 @@ static void test_whole_tables(void **state)
                                            {"relaxation_spectrum", "relaxation_spectrum"},
                                            {"influences", "influences"},
                                            {"van_gurp_palmen", "master_curve"},
-                                           {"wicket", "master_curve"},
-                                           {"cole_cole", "master_curve"},
                                            {"measured_spectrum", "power_spectrum"},
                                            {"angular_spectrum", "angular_spectrum"},
                                            {"power_spectrum", "roughness"},

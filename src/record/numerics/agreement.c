@@ -277,23 +277,6 @@ static gsl_matrix *total_covariance(const agreement_data *d, double scatter, are
     return v;
 }
 
-double agreement_likelihood(const agreement_data *d, double scatter)
-{
-    const double of_each = log(2 * M_PI);
-    arena memory = {0};
-    gsl_matrix *const v = total_covariance(d, scatter, &memory);
-    double *const x = arena_numbers(&memory, d->n), sum = (double)NAN;
-    if (dense_factor(v)) {
-        sum = 0;
-        memcpy(x, d->value, d->n * sizeof *x);
-        dense_forward(v, x);
-        for (size_t i = 0; i < d->n; i++)
-            sum += x[i] * x[i] + 2 * log(gsl_matrix_get(v, i, i)) + of_each;
-    }
-    arena_free(&memory);
-    return -0.5 * sum;
-}
-
 void agreement_solve(const agreement_data *d, double scatter, const double *b, double *x)
 {
     arena memory = {0};
