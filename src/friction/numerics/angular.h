@@ -61,13 +61,6 @@ enum { FAR_TERMS = 32 };
 
 enum { SUBINTERVAL_NODES = 10 }; /* see `max_width` in angular_panels.c */
 
-/* Group of many narrow subintervals. The values at its own nodes integrate any kernel that is a
- * polynomial over the group exactly as all subintervals do. */
-enum { GROUP_NODES = 16, GROUP_LEAST = 8, GROUP_LEVELS = 20 };
-typedef struct subinterval_group {
-    double omega[GROUP_NODES], value[2][GROUP_NODES];
-} subinterval_group;
-
 /* With y = ln(omega / w) the integrals are 4 int K F dy of F1 = E'', F2 = |E|^2 with
  *   K = c^s / sqrt(1 - c^2) = sum_m b_m c^(2m + s),   c = e^y,   s = 2 and 1. */
 typedef struct angular_subintervals {
@@ -84,8 +77,6 @@ typedef struct angular_subintervals {
     double start_error[2]; /* error of `below` at the first edge for m = 0 */
     double *rounding[2];   /* [n + 1] error of `below` for m = 0 from the rounding of ln omega */
     double *numbers;       /* memory of these arrays */
-    subinterval_group *group[GROUP_LEVELS]; /* groups of dense subintervals; level k has GROUP_LEAST
-                                         2^k of them in each group */
 } angular_subintervals;
 
 /* Creates subintervals for w from `low` to `high` > 0 with relative errors of about `goal`. The
