@@ -17,12 +17,6 @@ double validation_margin(const validation *v)
     return log1p(v->job->margin);
 }
 
-double validation_discrepancy_variance(const validation *v)
-{
-    const double off = validation_margin(v) / NORMAL_95;
-    return off * off;
-}
-
 const char *validation_verdict(agreement_verdict verdict)
 {
     static const char *const words[] = {[AGREEMENT_INCONCLUSIVE] = "inconclusive",
@@ -205,10 +199,10 @@ static wt_status find_draw_covariance(const prediction *p, model_variant_value *
 
 /* ---- model variant --------------------------------------------------------------------------- */
 
-agreement_data model_variant_agreement_data(const model_variant *t)
+static agreement_data model_variant_agreement_data(const model_variant *t)
 {
-    return (agreement_data){
-        t->n, t->log_velocity, t->value, t->measurement_variance, t->prediction_covariance, 0};
+    return (agreement_data){t->n, t->log_velocity, t->value, t->measurement_variance,
+                            t->prediction_covariance};
 }
 
 wt_status model_variant_fit(const prediction *p, const measured *steps, model_variant_value *of,

@@ -120,10 +120,6 @@
     X(VALIDATION_SOURCES_NEEDED_SHARE, AS(needed_share),                                           \
       "of the variance of the shear stress that is asked for", NUMBER,                             \
       LABEL("Share of the shear stress needed"), SPARSE)                                           \
-    X(VALIDATION_SOURCES_PULL, AS(pull), "how far the record moves it, in its standard errors",    \
-      NUMBER, LABEL("Moved by the record"), SPARSE)                                                \
-    X(VALIDATION_SOURCES_PULL_ERROR, AS(pull_error), "what is left of its standard error then",    \
-      NUMBER, LABEL("Left of its error"), SPARSE)                                                  \
     X(VALIDATION_SOURCES_REMEDY, AS(remedy), "what reduces it", TEXT, LABEL("What reduces it"))
 #define VALIDATION_SOURCES_KEYS(X)                                                                 \
     X(VALIDATION_SOURCES_KEY_ADVICE, "advice", TEXT, LABEL("What would narrow it most"))

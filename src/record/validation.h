@@ -70,8 +70,6 @@ wt_status model_variant_fit(const prediction *p, const measured *steps, model_va
                             const void *user, const double *measurement_variance, uint64_t seed,
                             size_t most_terms, model_variant *t, wt_error *err) WT_NODISCARD;
 void model_variant_clear(model_variant *t);
-/* Returns the input of the fit; its arrays are borrowed from `t`. */
-agreement_data model_variant_agreement_data(const model_variant *t);
 
 /* ln(measured/predicted) friction. shear: [1 + n_draws] shear stress of the nominal values and of
  * the draws [Pa]. */
@@ -123,8 +121,6 @@ typedef struct validation {
 
 /* Returns ln of the factor within which measured and predicted friction agree. */
 double validation_margin(const validation *v);
-/* Returns the variance of ln of the model discrepancy: 95 % of it are within the margin. */
-double validation_discrepancy_variance(const validation *v);
 /* Text such as "explains: ..." for a model variant of the ratio. */
 typedef struct verdict_text {
     char text[256];

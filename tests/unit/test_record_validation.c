@@ -281,6 +281,20 @@ static void test_layer_report(void **state)
     wt_tables_clear(&steep, sizeof steep);
 }
 
+/* A record of another wavenumber: the limits of its numbers, and one line of a figure. */
+static void test_limits(void **state)
+{
+    (void)state;
+    set_up();
+    make_record(5e6, 0.8 * surface.q1, 0, 0.003, false);
+    const wt_validation_job job = job_of(false);
+    wt_validation_tables t = made(&job);
+    assert_int_equal(wt_table_block(t.validation, STEPS - 1), 0);
+    check_ends(t.validation, "ratio");
+    check_ends(t.validation, "shear_stress_needed");
+    wt_tables_clear(&t, sizeof t);
+}
+
 static void test_verdicts(void **state)
 {
     (void)state;
@@ -475,13 +489,21 @@ static int tear_down(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_required_shear), cmocka_unit_test(test_endless_layer),
-        cmocka_unit_test(test_layer_shear),    cmocka_unit_test(test_slope),
-        cmocka_unit_test(test_layer_report),   cmocka_unit_test(test_few_replicates),
-        cmocka_unit_test(test_verdicts),       cmocka_unit_test(test_sources),
-        cmocka_unit_test(test_no_shear),       cmocka_unit_test(test_below_hysteresis),
-        cmocka_unit_test(test_threads),        cmocka_unit_test(test_rest),
-        cmocka_unit_test(test_temperatures),   cmocka_unit_test(test_no_replicates),
+        cmocka_unit_test(test_required_shear),
+        cmocka_unit_test(test_endless_layer),
+        cmocka_unit_test(test_layer_shear),
+        cmocka_unit_test(test_slope),
+        cmocka_unit_test(test_layer_report),
+        cmocka_unit_test(test_few_replicates),
+        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_verdicts),
+        cmocka_unit_test(test_sources),
+        cmocka_unit_test(test_no_shear),
+        cmocka_unit_test(test_below_hysteresis),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_temperatures),
+        cmocka_unit_test(test_no_replicates),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, tear_down);

@@ -259,33 +259,3 @@ void agreement_assess(agreement *a, double margin)
         }
     }
 }
-
-/* ---- likelihood ------------------------------------------------------------------------------ */
-
-/* Covariance of all values. */
-static gsl_matrix *total_covariance(const agreement_data *d, double scatter, arena *memory)
-{
-    gsl_matrix *const v = arena_matrix(memory, d->n, d->n);
-    for (size_t i = 0; i < d->n; i++)
-        for (size_t k = 0; k < d->n; k++) {
-            const double apart = (d->log_velocity[i] - d->log_velocity[k]) / AGREEMENT_LENGTH;
-            gsl_matrix_set(v, i, k,
-                           d->prediction_covariance[i * d->n + k] +
-                               d->allowed * exp(-0.5 * apart * apart) +
-                               (i == k ? d->measurement_variance[i] + scatter : 0));
-        }
-    return v;
-}
-
-void agreement_solve(const agreement_data *d, double scatter, const double *b, double *x)
-{
-    arena memory = {0};
-    gsl_matrix *const v = total_covariance(d, scatter, &memory);
-    const bool good = dense_factor(v);
-    gsl_vector_view out = gsl_vector_view_array(x, d->n);
-    for (size_t i = 0; i < d->n; i++)
-        x[i] = good ? b[i] : (double)NAN;
-    if (good)
-        gsl_linalg_cholesky_svx(v, &out.vector);
-    arena_free(&memory);
-}
