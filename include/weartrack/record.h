@@ -77,14 +77,6 @@ typedef struct wt_steady {
 WT_API wt_status wt_steady_mean(const double *y, size_t n, wt_steady *steady,
                                 wt_error *err) WT_NODISCARD;
 
-/* Stick-slip: significant falls of the samples that follow slower rises. */
-typedef struct wt_stick_slip {
-    size_t n;              /* number of slips; 0: none significant */
-    double amplitude;      /* mean height of the falls; NaN if none */
-    double standard_error; /* from their scatter */
-} wt_stick_slip;
-WT_API wt_stick_slip wt_stick_slip_find(const double *y, size_t n);
-
 /* ---- wear tracks ---------------------------------------------------------------------------- */
 
 /* A wear track in a profile across it: heights relative to a line through the outer quarters. */

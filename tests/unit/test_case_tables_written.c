@@ -809,7 +809,7 @@ static void test_calibration(void **state)
     (void)remove(path);
 }
 
-/* A reciprocating record with all channels, then a disc with stick-slip, once with all data of its
+/* A reciprocating record with all channels, then a disc, once with all data of its
  * wear and once without. */
 static void test_record(void **state)
 {
