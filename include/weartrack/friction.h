@@ -75,14 +75,13 @@ typedef struct wt_friction_point {
     wt_estimate area_ratio;      /* P(q1) = A/A0 */
     wt_estimate one_minus_area;  /* 1 - P without cancellation */
     wt_estimate hysteresis;      /* mu_hys */
-    double
-        extrapolated_share;  /* share of mu_hys from frequencies outside the material's range, where
-                                the angle integral is truncated at q v cos(phi); accurate to 1e-5 */
-    size_t nodes;            /* wavenumber nodes of the final quadrature */
-    bool meets_tolerance;    /* G, P and mu_hys each meet the relative tolerance */
-    bool has_no_solution;    /* true if no flash temperature was found; the numbers are NaN */
-    wt_estimate temperature; /* temperature of the finest scale, T(q1) [K]; NaN without a flash
-                                temperature */
+    double extrapolated_share; /* share of mu_hys from frequencies outside the material's range, of
+                                 a loss modulus that is constant over a turn of q v cos(phi) */
+    size_t nodes;              /* wavenumber nodes of the final quadrature */
+    bool meets_tolerance;      /* G, P and mu_hys each meet the relative tolerance */
+    bool has_no_solution;      /* true if no flash temperature was found; the numbers are NaN */
+    wt_estimate temperature;   /* temperature of the finest scale, T(q1) [K]; NaN without a flash
+                                  temperature */
 } wt_friction_point;
 
 /* Values at one wavenumber: contact area at magnification q/q0, friction up to q, temperature. */

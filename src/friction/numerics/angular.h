@@ -36,8 +36,6 @@ void angular_clear(angular_law *angular); /* no effect on NULL */
 void angular_extend(angular_law *angular, double w_min, double w_max);
 /* True if angular_extend has nothing to do for this range. */
 bool angular_covers_range(const angular_law *angular, double w_min, double w_max);
-/* Prepares angular_extrapolated_part. */
-void angular_prepare_outside(angular_law *angular);
 /* Evaluates J1 and J2 at n values of w in the covered range; x = ln w. The first and the last value
  * must both be inside or both outside the range of the series. Rising values are fastest. */
 void angular_eval(const angular_law *angular, const double *w, const double *x, size_t n,
@@ -47,15 +45,6 @@ bool angular_uses_closed_form(const angular_law *angular, double x_min, double x
 /* Largest relative error of J1 and J2 in a range of ln w, from series and subintervals. *piece is
  * the start of the search: 0, or the value from a lower range. */
 double angular_error(const angular_law *angular, double x_min, double x_max, size_t *segment);
-/* Parts of J1(w) from frequencies outside the measured range, at n <= GAUSS_NODES_MAX values of w;
- * j1 = J1(w). */
-void angular_extrapolated_part(const angular_law *angular, const double *w, const double *j1,
-                               size_t n, double *outside);
-/* True if the material has at least one limit of its measured range. */
-bool angular_has_limits(const angular_law *angular);
-
-/* Number of terms of the series far below w: 4^-m falls to 1e-16 within it. */
-enum { FAR_TERMS = 32 };
 
 /* ---- subintervals of the frequency ----------------------------------------------------------- */
 
@@ -85,9 +74,6 @@ void angular_subintervals_new(const wt_material *material, const gauss_rule *rul
                               double high, double goal, angular_subintervals *subintervals);
 void angular_subintervals_clear(angular_subintervals *subintervals);
 
-/* J1 at n frequencies >= 2 `high`. */
-void angular_subintervals_far(const angular_subintervals *subintervals, const double *w, size_t n,
-                              double *j1);
 /* J1 and J2 at w from frequencies up to `high` only. */
 void angular_subintervals_integrate(const angular_subintervals *subintervals, double w, double *j1,
                                     double *j2);

@@ -310,37 +310,6 @@ static void add_far_series(const angular_subintervals *a, size_t edge, double w,
     *j2 += sum2 * c;
 }
 
-/* Evaluates sum_m of[m] c^(2m), c = edge / w, times 4 c^2. */
-WIDE_REGISTERS
-static void evaluate_far_series(const double *restrict of, size_t terms, double edge,
-                                const double *restrict w, size_t n, double *restrict j1)
-{
-    for (size_t i = 0; i < n; i++) {
-        const double c = edge / w[i], square = c * c;
-        double sum = 0;
-        for (size_t m = terms; m-- > 0;)
-            sum = sum * square + of[m];
-        j1[i] = 4 * square * sum;
-    }
-}
-
-void angular_subintervals_far(const angular_subintervals *subintervals, const double *w, size_t n,
-                              double *j1)
-{
-    const angular_subintervals *a = subintervals;
-    const double *sums = a->below[0] + a->n * a->terms, edge = a->edge_omega[a->n];
-    double of[FAR_TERMS], b = 1, nearest = 0, power = 1;
-    for (size_t i = 0; i < n; i++)
-        nearest = nearest > edge / w[i] ? nearest : edge / w[i];
-    size_t terms = 0;
-    for (; terms < a->terms && terms < FAR_TERMS && power > DBL_EPSILON / 64; terms++) {
-        of[terms] = sums[terms] * b;
-        b *= (double)(2 * terms + 1) / (double)(2 * terms + 2);
-        power *= nearest * nearest;
-    }
-    evaluate_far_series(of, terms, edge, w, n, j1);
-}
-
 enum { NODE_BATCH = 8 * SUBINTERVAL_NODES }; /* nodes of one batch, which fits on the stack */
 
 /* Adds n <= NODE_BATCH nodes of subintervals whose distance below w is at least their width. */

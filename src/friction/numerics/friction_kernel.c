@@ -347,7 +347,8 @@ typedef struct compute_job {
 static bool needs_extrapolated_share(const wt_friction_workspace *ws)
 {
     return !ws->options.skip_extrapolated_share &&
-           (ws->layer != NULL || angular_has_limits(ws->angular));
+           (ws->layer != NULL || ws->material->frequency_min > 0 ||
+            ws->material->frequency_max > 0);
 }
 
 /* Computes a load with known temperatures, for a positive velocity. */
@@ -417,8 +418,6 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
     wt_status status = friction_prepare(workspace, pressure, velocity, n, err);
     if (status != WT_OK)
         return status;
-    if (n > 0 && workspace->layer == NULL && needs_extrapolated_share(workspace))
-        angular_prepare_outside(workspace->angular);
     compute_job job = {
         .ws = workspace, .pressure = pressure, .velocity = velocity, .n = n, .points = points};
     status = wt_parallel_for(n, workspace->threads, compute_velocity, &job, NULL, "friction");
