@@ -286,17 +286,12 @@ recorded_run *recorded_read(const table_view *record, const table_view *cycles,
             continue;
         recorded_run *const r = &runs[(*n)++];
         const size_t row = first_sliding(record, i, sliding);
-        *r = (recorded_run){
-            .at = measured_step_read(record, row, sliding),
-            .step = (size_t)record_get(record, row, RECORD_STEP),
-            .end = wt_alloc(cycles->n_rows, sizeof *r->end),
-            .friction = wt_alloc(cycles->n_rows, sizeof *r->friction),
-            .samples = record_get(record, row, RECORD_SAMPLES),
-            .settled = {record_get(record, row, RECORD_RUNNING_IN_TIME),
-                        record_get(record, row, RECORD_RUNNING_IN_TIME_STANDARD_ERROR),
-                        record_get(record, row, RECORD_RUNNING_IN_TIME_LOW),
-                        record_get(record, row, RECORD_RUNNING_IN_TIME_HIGH)},
-            .note = ""};
+        *r = (recorded_run){.at = measured_step_read(record, row, sliding),
+                            .step = (size_t)record_get(record, row, RECORD_STEP),
+                            .end = wt_alloc(cycles->n_rows, sizeof *r->end),
+                            .friction = wt_alloc(cycles->n_rows, sizeof *r->friction),
+                            .samples = record_get(record, row, RECORD_SAMPLES),
+                            .note = ""};
         read_cycles(cycles, r);
     }
     return runs;

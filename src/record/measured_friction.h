@@ -42,14 +42,13 @@ size_t measured_group_length(const measured *m, size_t first);
 /* First sliding step of a record, on a surface without a layer. Later steps begin with one. */
 typedef struct recorded_run {
     measured_step at;
-    size_t n, step;      /* cycles; number of the step in its file, from 1 on */
-    double begin;        /* start of the first cycle with a friction, from the start of sliding on
-                            [s] */
-    double samples;      /* samples in a cycle */
-    double *end;         /* [n] ends of the cycles, from the start of the step on [s] */
-    double *friction;    /* [n] */
-    wt_interval settled; /* end of the running-in, by the scatter alone [s]; NaN if unknown */
-    const char *note;    /* reason of exclusion, or "" */
+    size_t n, step;   /* cycles; number of the step in its file, from 1 on */
+    double begin;     /* start of the first cycle with a friction, from the start of sliding on
+                         [s] */
+    double samples;   /* samples in a cycle */
+    double *end;      /* [n] ends of the cycles, from the start of the step on [s] */
+    double *friction; /* [n] */
+    const char *note; /* reason of exclusion, or "" */
 } recorded_run;
 
 /* Returns [*n] runs, freed by recorded_free. */

@@ -2,10 +2,12 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/param.h"
+#include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
 #include "record/layer_growth.h"
+#include "record/numerics/course_fit.h"
 #include "record/validation.h"
 
 #include <math.h>
@@ -19,6 +21,7 @@ enum { MOST_ROWS = 48 };
 typedef struct running_in {
     const recorded_run *rec;
     const growth *growth; /* NULL if not predicted */
+    wt_interval factor;   /* of the predicted times, by the record */
     char note[256];       /* reason */
 } running_in;
 
@@ -116,6 +119,27 @@ static wt_status predict_run(running_in_task *task, size_t i, wt_error *err)
     return WT_OK;
 }
 
+static double nominal_course(const void *user, double time)
+{
+    return growth_friction_at(user, 0, time);
+}
+
+/* Fits the predicted course to the means of the cycles. */
+static void fit_course(running_in *run)
+{
+    const recorded_run *const rec = run->rec;
+    double *const middle = wt_alloc(rec->n, sizeof *middle);
+    for (size_t i = 0; i < rec->n; i++)
+        middle[i] = 0.5 * ((i > 0 ? rec->end[i - 1] : rec->begin) + rec->end[i]);
+    run->factor = course_fit_factor(middle, rec->friction, rec->n, nominal_course, run->growth);
+    if (isnan(run->factor.value))
+        snprintf(run->note, sizeof run->note,
+                 "no change like that by the layer exceeds the scatter of the cycles");
+    else if (isnan(run->factor.low) || isnan(run->factor.high))
+        snprintf(run->note, sizeof run->note, "the record does not determine the time both ways");
+    free(middle);
+}
+
 static wt_status predict_runs(running_in_task *task, wt_error *err)
 {
     table_view record = {0}, cycles = {0};
@@ -140,6 +164,8 @@ static wt_status predict_runs(running_in_task *task, wt_error *err)
                      "it");
         else
             status = predict_run(task, i, err);
+        if (run->growth != NULL)
+            fit_course(run);
         task->n_compared += run->growth != NULL;
     }
     return status;
@@ -157,14 +183,53 @@ static void task_clear(running_in_task *task)
 
 /* ---- table of the runs ----------------------------------------------------------------------- */
 
-TABLE_ROW(validation_running_in, VALIDATION_RUNNING_IN, measured_step at; wt_interval settled;
-          wt_estimate predicted, change; const char *note, *file;)
+TABLE_ROW(validation_running_in, VALIDATION_RUNNING_IN, measured_step at;
+          wt_interval settled, time_ratio; wt_estimate predicted, change; const char *note, *file;)
+
+static wt_interval scaled_interval(wt_interval x, double by)
+{
+    return (wt_interval){x.value * by, x.standard_error * by, x.low * by, x.high * by};
+}
+
+/* Measured over predicted time, with the error of the prediction, too; it is that of a
+ * logarithm. */
+static wt_interval time_ratio(const running_in *run)
+{
+    const wt_estimate predicted = growth_estimate(run->growth, growth_settling_time, (double)NAN);
+    const wt_interval x = run->factor;
+    const double by = NORMAL_95 * predicted.standard_error / predicted.value,
+                 low = exp(-hypot(log(x.value / x.low), by)) * x.value,
+                 high = exp(hypot(log(x.high / x.value), by)) * x.value;
+    return (wt_interval){x.value, (high - low) / (2 * NORMAL_95), low, high};
+}
+
+/* The keys are of a single record that determines a time. */
+static void set_time_ratio_keys(const running_in_task *task, table_writer *t)
+{
+    wt_interval ratio = {0, 0, 0, 0};
+    size_t n = 0;
+    for (size_t i = 0; i < task->n; i++)
+        if (task->run[i].growth != NULL && !isnan(task->run[i].factor.value)) {
+            ratio = time_ratio(&task->run[i]);
+            n++;
+        }
+    if (n != 1)
+        return;
+    validation_running_in_set_value(t, VALIDATION_RUNNING_IN_KEY_TIME_RATIO, ratio.value,
+                                    ratio.standard_error, (double)NAN);
+    if (isnan(ratio.low) || isnan(ratio.high))
+        return;
+    /* the limits follow the value, see KEY_BOUNDS, and have no error */
+    validation_running_in_set_value(t, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_LOW, ratio.low, 0, 0);
+    validation_running_in_set_value(t, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_HIGH, ratio.high, 0, 0);
+}
 
 static void add_run_row(const running_in *run, const wt_sliding *sliding, table_writer *t)
 {
     const double none = (double)NAN;
     validation_running_in_row row = {.at = run->rec->at,
-                                     .settled = run->rec->settled,
+                                     .settled = {none, none, none, none},
+                                     .time_ratio = {none, none, none, none},
                                      .predicted = {none, none, none, NULL},
                                      .change = {none, none, none, NULL},
                                      .note = run->note,
@@ -174,6 +239,8 @@ static void add_run_row(const running_in *run, const wt_sliding *sliding, table_
     if (run->growth != NULL) {
         row.predicted = growth_estimate(run->growth, growth_settling_time, none);
         row.change = growth_estimate(run->growth, growth_change, none);
+        row.time_ratio = time_ratio(run);
+        row.settled = scaled_interval(row.time_ratio, row.predicted.value);
     }
     validation_running_in_add_row(t, &row);
 }
@@ -210,6 +277,7 @@ static wt_status tabulate_runs(const running_in_task *task, wt_table **table, wt
     table_writer t = table_begin(&validation_running_in_schema, err);
     for (size_t i = 0; i < task->n; i++)
         add_run_row(&task->run[i], task->job->sliding, &t);
+    set_time_ratio_keys(task, &t);
     validation_running_in_set_print(&t, VALIDATION_RUNNING_IN_KEY_RUNS, "%zu", task->n_compared);
     validation_running_in_set_text(&t, VALIDATION_RUNNING_IN_KEY_INCLUDES,
                                    prediction_error_sources(task));

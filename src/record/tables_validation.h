@@ -133,14 +133,18 @@
     X(VALIDATION_RUNNING_IN_PRESSURE, IN(at, pressure),                                            \
       "nominal pressure that it is predicted at", SI(PRESSURE), LABEL("Pressure"))                 \
     NUMBER_AND_INTERVAL(X, VALIDATION_RUNNING_IN_SETTLED, "settled_measured",                      \
-                        "time until friction is steady within its scatter, as measured", SI(TIME), \
-                        "Steady after, measured", SHOWS(settled))                                  \
+                        "time until 5 % of the change of friction are left, by the predicted "     \
+                        "course that lies nearest to the record",                                  \
+                        SI(TIME), "Steady after, measured", SHOWS(settled))                        \
     X(VALIDATION_RUNNING_IN_PREDICTED, "settled_predicted",                                        \
       "time until 5 % of the change of friction are left, as predicted with the layer", SI(TIME),  \
       SHOWS(predicted), LABEL("predicted"), STANDARD_ERROR(VALIDATION_RUNNING_IN_PREDICTED),       \
       SPARSE)                                                                                      \
     X(VALIDATION_RUNNING_IN_PREDICTED_STANDARD_ERROR, "settled_predicted_standard_error",          \
       "its standard error", SI(TIME), LABEL("± stat."), SPARSE)                                    \
+    NUMBER_AND_INTERVAL(X, VALIDATION_RUNNING_IN_TIME_RATIO, "time_ratio",                         \
+                        "time measured over predicted", NUMBER, "Time, measured over predicted",   \
+                        SHOWS(time_ratio))                                                         \
     X(VALIDATION_RUNNING_IN_CHANGE, "change_predicted",                                            \
       "friction in the end less that which is farthest from it, as predicted", NUMBER,             \
       SHOWS(change), LABEL("Change predicted"), STANDARD_ERROR(VALIDATION_RUNNING_IN_CHANGE),      \
@@ -150,6 +154,9 @@
     X(VALIDATION_RUNNING_IN_NOTE, AS(note), "what is lacking", TEXT, LABEL("Note"))                \
     X(VALIDATION_RUNNING_IN_FILE, AS(file), "file of the record", TEXT, LABEL("File"))
 #define VALIDATION_RUNNING_IN_KEYS(X)                                                              \
+    X(VALIDATION_RUNNING_IN_KEY_TIME_RATIO, "time_ratio", UNIT("1"),                               \
+      HEADLINE("Running-in time, measured over predicted"), OPTIONAL)                              \
+    KEY_BOUNDS(X, VALIDATION_RUNNING_IN_KEY_TIME_RATIO, "time_ratio", NUMBER, "Time ratio")        \
     X(VALIDATION_RUNNING_IN_KEY_RUNS, "n_runs", PLAIN, LABEL("Running-ins predicted"))             \
     X(VALIDATION_RUNNING_IN_KEY_INCLUDES, "includes", TEXT, LABEL("Errors in the prediction"))     \
     X(VALIDATION_RUNNING_IN_KEY_REMARKS, "remarks", TEXT, LABEL("Assumed"), OPTIONAL)

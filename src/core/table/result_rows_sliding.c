@@ -320,6 +320,13 @@ static void add_validation_running_in(rows_source *s, const table_view *v)
                 validation_running_in_get(v, i, VALIDATION_RUNNING_IN_PREDICTED_STANDARD_ERROR),
                 (double)NAN, "s"}),
             "predicted with the layer");
+        rows_add_number(
+            s, 1,
+            rows_number(validation_running_in_get(v, i, VALIDATION_RUNNING_IN_TIME_RATIO),
+                        validation_running_in_get(v, i, VALIDATION_RUNNING_IN_TIME_RATIO_LOW),
+                        validation_running_in_get(v, i, VALIDATION_RUNNING_IN_TIME_RATIO_HIGH),
+                        "1"),
+            "time, measured / predicted");
     }
 }
 
