@@ -173,6 +173,7 @@ wt_running_in wt_running_in_find(const double *y, size_t n)
 
 /* ---- decay that goes on ---------------------------------------------------------------------- */
 
+/* More averages of the series do not change the fit. From exponential to nearly logarithmic. */
 enum { DECAY_MAX_BATCHES = 120 };
 static const double decay_power[] = {1, 0.8, 0.65, 0.5, 0.35};
 /* The law of the decay is not known beyond the end of the series. Standard error for that: a share
