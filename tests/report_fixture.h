@@ -170,13 +170,11 @@ static inline wt_status fixture_rubber(const wt_result *result, wt_rubber *rubbe
     return wt_rubber_from_tables(&tables, 0.5, rubber, err);
 }
 
-/* Friction at three velocities with and without flash temperature; at the last two a hot contact
- * stays hot. */
+/* Friction at three velocities with and without flash temperature. */
 static inline void fixture_flash(void)
 {
     static const double velocity[] = {1e-3, 1e-1, 10}, with[] = {0.1, 0.3, 0.4},
-                        without[] = {0.1, 0.35, 0.7}, temperature[] = {293.2, 297, 322},
-                        hot[] = {(double)NAN, 0.5, 0.6};
+                        without[] = {0.1, 0.35, 0.7}, temperature[] = {293.2, 297, 322};
     wt_table *table = NULL;
     table_writer t = table_begin(&flash_schema, NULL);
     for (size_t i = 0; i < 3; i++) {
@@ -192,9 +190,6 @@ static inline void fixture_flash(void)
         flash_put(&t, FLASH_AREA_RATIO_NUMERICAL_ERROR, 1e-12);
         flash_put(&t, FLASH_AREA_RATIO_WITHOUT, 0.09);
         flash_put(&t, FLASH_AREA_RATIO_WITHOUT_NUMERICAL_ERROR, 1e-12);
-        flash_put(&t, FLASH_HOT_HYSTERESIS, hot[i]);
-        flash_put(&t, FLASH_HOT_AREA_RATIO, hot[i] / 2);
-        flash_put(&t, FLASH_HOT_TEMPERATURE, 100 + 500 * hot[i]);
     }
     flash_set_value(&t, FLASH_KEY_SURROUNDINGS, 293.15, (double)NAN, (double)NAN);
     flash_set_value(&t, FLASH_KEY_CONTACT_SIZE, 1e-3, 0, 0);
@@ -202,7 +197,6 @@ static inline void fixture_flash(void)
     flash_set_value(&t, FLASH_KEY_DIFFUSIVITY, 1e-7, 0, 0);
     flash_set_value(&t, FLASH_KEY_MACROSCOPIC, 0.3, 0, 0);
     flash_set_text(&t, FLASH_KEY_EFFECT, "28.9 K warmer");
-    flash_set_text(&t, FLASH_KEY_BRANCHES, "hot at 2 of 3 velocities");
     fixture_check(table_end(&t, &table));
     fixture_check(wt_result_add(fixture_case, table, NULL));
 }
@@ -399,8 +393,7 @@ static inline void fixture_accuracy(wt_case *read)
         wt_result_free(asked);
     }
     fixture_of_case("transverse", "transverse_isotropy");
-    fixture_of_case("texture", "anisotropy");
-    fixture_of_case("texture", "friction_decades");
+    fixture_of_case("decades", "friction_decades");
     fixture_of_case("layer", "identification");
 }
 

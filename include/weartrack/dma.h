@@ -446,10 +446,8 @@ typedef struct wt_master_job {
     const char *const *leave_out; /* "temperature:LOW..HIGH" or "frequency:LOW..HIGH"; one limit may
                                      be missing, or one value replaces both */
     size_t n_leave_out;
-    const char *shift_law;  /* "wlf:reference-temperature=T,c1=X,c2=X" or
-                               "arrhenius:activation-energy=E", the law of all shifts; or NULL */
-    const wt_table *shifts; /* columns temperature, log_a and optionally log_b of fixed shifts,
-                               borrowed; or NULL */
+    const char *shift_law;          /* "wlf:reference-temperature=T,c1=X,c2=X" or
+                                       "arrhenius:activation-energy=E", the law of all shifts; or NULL */
     const char *const *hand_shifts; /* "T=LOG_AT", the shift of an isotherm against that nearest to
                                        the reference temperature */
     size_t n_hand_shifts;
@@ -530,16 +528,6 @@ WT_API wt_status wt_ramp_compute(const wt_ramp_job *job, const wt_job *work, wt_
 
 /* ---- strain sweeps (Payne effect) ----------------------------------------------------------- */
 
-/* Law of Kraus (1984), as in Rutherford et al., Polymers 15 (2023) 1675
- * (doi:10.3390/polym15071675):
- * storage = storage_inf + (storage_0 - storage_inf) / (1 + x^2),
- * loss = loss_inf + (loss_m - loss_inf) 2 x / (1 + x^2), x = (strain / strain_c)^exponent. */
-typedef struct wt_kraus {
-    double storage_0, storage_inf, strain_c, exponent, loss_m, loss_inf;
-} wt_kraus;
-WT_API double wt_kraus_storage(const wt_kraus *law, double strain);
-WT_API double wt_kraus_loss(const wt_kraus *law, double strain);
-
 /* Result for one strain sweep. Values outside of the measured range are NaN. */
 typedef struct wt_payne {
     /* Measured values: means of up to three points with the smallest amplitudes (within a factor of
@@ -548,21 +536,12 @@ typedef struct wt_payne {
      * modulus, and its amplitude unless that is one of the outer two on a side. */
     double storage_start, loss_start, storage_end;
     double strain_tenth, strain_half, loss_max, strain_loss_max;
-    /* Least squares with equal errors of the storage moduli; the loss moduli then use its strain_c
-     * and exponent. Intervals follow from the profiled sum of squares; bounds that the points do
-     * not determine are NaN. strain_c is the amplitude of half the fall. */
-    bool fitted;
-    wt_kraus law;
-    wt_interval storage_0, storage_inf, strain_c, exponent, loss_m, loss_inf;
-    double storage_misfit,
-        loss_misfit;       /* root mean square deviations over storage_0 and loss_max */
-    const char *note;      /* "", a remark, or the reason why there is no fit; static */
-    const char *loss_note; /* note on the loss modulus */
+    const char *loss_note; /* what the loss modulus lacks; "" or static */
 } wt_payne;
-/* Fits a strain sweep. strain increasing; strain and moduli > 0. loss NULL: not measured, and its
- * results are NaN. */
-WT_API wt_status wt_payne_fit(const double *strain, const double *storage, const double *loss,
-                              size_t n, wt_payne *payne, wt_error *err) WT_NODISCARD;
+/* Characterises a strain sweep. strain increasing; strain and moduli > 0. loss NULL: not measured,
+ * and its results are NaN. */
+WT_API wt_status wt_payne_measure(const double *strain, const double *storage, const double *loss,
+                                  size_t n, wt_payne *payne, wt_error *err) WT_NODISCARD;
 
 /* Strain softening from strain sweeps. */
 typedef struct wt_payne_job {

@@ -1,5 +1,5 @@
 /* weartrack - friction: contact area and hysteresis friction of rubber on a rough surface, with a
- * surface layer, softening with strain, flash temperature and anisotropy. Equations: Persson, J.
+ * surface layer, softening with strain and flash temperature. Equations: Persson, J.
  * Chem. Phys. 115 (2001) 3840; Mokhtari, thesis, Univ. Twente 2015, with its misprints corrected.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
@@ -56,20 +56,14 @@ typedef struct wt_friction_options {
     bool skip_extrapolated_share; /* extrapolated_share is not computed (NaN); default false */
     struct angular_law *series; /* internal: angular law of the material, borrowed; default NULL */
     const wt_softening
-        *softening;           /* borrowed while the workspace is created; NULL (default) = none */
-    double strain_factor;     /* strain over rms slope, > 0; default 1 */
-    wt_anisotropy anisotropy; /* of the roughness; default none */
-    wt_flash flash;           /* default off */
-    wt_shift_law shift;       /* shift law of the material for a flash temperature */
-    double temperature;       /* ambient and material temperature for a flash temperature [K] */
+        *softening;       /* borrowed while the workspace is created; NULL (default) = none */
+    double strain_factor; /* strain over rms slope, > 0; default 1 */
+    wt_flash flash;       /* default off */
+    wt_shift_law shift;   /* shift law of the material for a flash temperature */
+    double temperature;   /* ambient and material temperature for a flash temperature [K] */
 } wt_friction_options;
 WT_API wt_friction_options wt_friction_defaults(void);
 WT_API const wt_params *wt_friction_params(void);
-
-/* A second solution at a velocity. */
-typedef struct wt_friction_branch {
-    double hysteresis, area_ratio, temperature;
-} wt_friction_branch;
 
 /* Friction at one velocity. numerical_error is an upper bound for the test against the tolerance,
  * not an estimate. The true error is typically some hundred times smaller and never exceeded it in
@@ -81,19 +75,13 @@ typedef struct wt_friction_point {
     wt_estimate area_ratio;      /* P(q1) = A/A0 */
     wt_estimate one_minus_area;  /* 1 - P without cancellation */
     wt_estimate hysteresis;      /* mu_hys */
-    double
-        extrapolated_share; /* share of mu_hys from frequencies outside the material's range, where
-                               the angle integral is truncated at q v cos(phi); accurate to 1e-5 */
-    size_t nodes;           /* wavenumber nodes of the final quadrature */
-    bool meets_tolerance;   /* G, P and mu_hys each meet the relative tolerance */
-    wt_estimate
-        lateral; /* lateral coefficient mu_side for anisotropic roughness; the shear stress on the
-                 rubber is -pressure (mu_hys x + mu_side y), x along the velocity, y at +90 deg */
-    bool has_no_solution;    /* true if no flash temperature was found; the numbers are NaN */
-    wt_estimate temperature; /* temperature of the finest scale, T(q1) [K]; NaN without a flash
-                                temperature */
-    wt_friction_branch
-        hot_branch; /* second solution, in which a hot contact stays hot; NaN if there is none */
+    double extrapolated_share; /* share of mu_hys from frequencies outside the material's range, of
+                                 a loss modulus that is constant over a turn of q v cos(phi) */
+    size_t nodes;              /* wavenumber nodes of the final quadrature */
+    bool meets_tolerance;      /* G, P and mu_hys each meet the relative tolerance */
+    bool has_no_solution;      /* true if no flash temperature was found; the numbers are NaN */
+    wt_estimate temperature;   /* temperature of the finest scale, T(q1) [K]; NaN without a flash
+                                  temperature */
 } wt_friction_point;
 
 /* Values at one wavenumber: contact area at magnification q/q0, friction up to q, temperature. */
@@ -189,7 +177,6 @@ typedef struct wt_sliding {
                                   list */
     const wt_strain_softening *strain_softening; /* borrowed; NULL = none */
     double strain_factor;                        /* as in wt_friction_options; default 1 */
-    wt_anisotropy anisotropy;                    /* of the roughness; default none */
     bool decades;   /* requests friction by decades of the wavenumber */
     wt_flash flash; /* as in wt_friction_options; `temperature` is then the ambient temperature */
 } wt_sliding;
@@ -258,10 +245,6 @@ WT_API wt_status wt_flash_temperature_compute(const wt_sliding *sliding, const w
 WT_API wt_status wt_transverse_isotropy_compute(const wt_sliding *sliding, const wt_job *work,
                                                 wt_table **table, wt_error *err) WT_NODISCARD;
 
-/* Creates the table "anisotropy": hysteresis friction, contact area and lateral force with and
- * without the anisotropy of `sliding`. WT_E_ARG without anisotropy. */
-WT_API wt_status wt_anisotropic_friction_compute(const wt_sliding *sliding, const wt_job *work,
-                                                 wt_table **table, wt_error *err) WT_NODISCARD;
 /* Creates the table "friction_decades": contributions of each decade of the wavenumber to
  * hysteresis friction and to shearing of bare rubber, at the slowest, the reference and the fastest
  * velocity. */

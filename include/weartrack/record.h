@@ -77,14 +77,6 @@ typedef struct wt_steady {
 WT_API wt_status wt_steady_mean(const double *y, size_t n, wt_steady *steady,
                                 wt_error *err) WT_NODISCARD;
 
-/* Stick-slip: significant falls of the samples that follow slower rises. */
-typedef struct wt_stick_slip {
-    size_t n;              /* number of slips; 0: none significant */
-    double amplitude;      /* mean height of the falls; NaN if none */
-    double standard_error; /* from their scatter */
-} wt_stick_slip;
-WT_API wt_stick_slip wt_stick_slip_find(const double *y, size_t n);
-
 /* ---- wear tracks ---------------------------------------------------------------------------- */
 
 /* A wear track in a profile across it: heights relative to a line through the outer quarters. */
@@ -168,14 +160,13 @@ typedef struct wt_validation_job {
     const wt_layer_observation *layer_observation; /* NULL as in wt_model_sensitivity_compute; its
                                           thickness is the one used for the layer */
     const wt_table *record;                        /* table "record" */
-    const wt_table *cycles;   /* table "record_cycles", for the running-in only */
-    const wt_table *wear;     /* table "wear", or NULL */
-    double margin;            /* irrelevant deviation of measured over predicted; default 0.2 */
-    double running_in_margin; /* margin of times and changes of a running-in; default 1 */
-    bool wanted;              /* in a case: validates its records; default true */
+    const wt_table *cycles; /* table "record_cycles", for the running-in only */
+    const wt_table *wear;   /* table "wear", or NULL */
+    double margin;          /* irrelevant deviation of measured over predicted; default 0.2 */
+    bool wanted;            /* in a case: validates its records; default true */
 } wt_validation_job;
 WT_API wt_validation_job
-wt_validation_job_defaults(void); /* Sets the margins and the following members. */
+wt_validation_job_defaults(void); /* Sets the margin and the following members. */
 WT_API const wt_params *wt_validation_job_params(void);
 
 typedef struct wt_validation_tables {
@@ -184,7 +175,7 @@ typedef struct wt_validation_tables {
 
 /* Compares measured with predicted friction at every step of the records, with both errors: the
  * verdict "yes", "no" or "inconclusive" by the test in the key `test`; the shear stress
- * and largest wavenumber that the record requires; the error sources. */
+ * that the record requires; the error sources. */
 WT_API wt_status wt_validation_compute(const wt_validation_job *job, const wt_job *work,
                                        wt_validation_tables *tables, wt_error *err) WT_NODISCARD;
 
@@ -192,10 +183,9 @@ typedef struct wt_running_in_tables {
     wt_table *running_in, *running_in_curve; /* "validation_running_in", "validation_course" */
 } wt_running_in_tables;
 
-/* Compares the running-in of the first step of every record with that predicted for the growing
- * layer of `layer` and `known` (not NULL): time to the steady state and change of friction, with
- * both errors; a verdict as above; the specific wear rate and critical energy that the time
- * requires. */
+/* Sets the running-in of the first step of every record beside that predicted for the growing layer
+ * of `layer` and `layer_observation` (not NULL): time to the steady state, change of friction, and
+ * friction in time, with the errors of the prediction. */
 WT_API wt_status wt_running_in_validation_compute(const wt_validation_job *job, const wt_job *work,
                                                   wt_running_in_tables *tables,
                                                   wt_error *err) WT_NODISCARD;

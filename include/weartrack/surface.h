@@ -47,22 +47,6 @@ WT_API double wt_roughness_rms_slope(const wt_roughness *roughness);  /* 1 */
  * does not. */
 WT_API double wt_roughness_slope_wavenumber(const wt_roughness *roughness, double slope);
 
-/* ---- roughness that is not the same in all directions --------------------------------------- */
-
-/* Anisotropic roughness, such as that of a ground surface. Its power spectrum is
- *   C(q, phi) = C(q) [1 + sum_k amplitude[k] cos(2 (k + 1) (phi - angle[k]))],
- * with phi from the velocity, positive in the sense of the lateral force. All 0: isotropic. */
-enum { WT_ANISOTROPY_ORDERS = 4 };
-typedef struct wt_anisotropy {
-    double amplitude[WT_ANISOTROPY_ORDERS]; /* of orders 2, 4, 6, 8 */
-    double angle[WT_ANISOTROPY_ORDERS]; /* direction of a maximum of each order, from the velocity
-                                           [rad] */
-} wt_anisotropy;
-/* WT_E_RANGE unless the spectrum is finite and nowhere negative. */
-WT_API wt_status wt_anisotropy_check(const wt_anisotropy *anisotropy, wt_error *err) WT_NODISCARD;
-/* Returns C(q, phi) / C(q) at an angle from the velocity [rad]. */
-WT_API double wt_anisotropy_density(const wt_anisotropy *anisotropy, double angle);
-
 /* ---- heights, power spectra, their self-affine law ------------------------------------------ */
 
 typedef enum wt_surface_window {

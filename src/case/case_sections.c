@@ -231,8 +231,6 @@ wt_status case_read_sliding(wt_case *c, const xmlNode *section, wt_error *err)
     c->has_sliding = true;
     c->softens = softening != NULL;
     wt_status status = case_read_params(c, section, wt_sliding_params(), &c->sliding, err);
-    if (status == WT_OK && wt_anisotropy_check(&c->sliding.anisotropy, err) != WT_OK)
-        return case_add_location(section, WT_E_RANGE, err);
     if (status == WT_OK && softening != NULL && case_child(softening, "file") != NULL)
         status = case_read_files(c, softening, "file", &c->softening, err);
     return status;

@@ -36,8 +36,6 @@
       c->has_wear)                                                                                 \
     X(MEASURED_WEAR, "wear of the layer by the records", "a specific wear rate in <layer>",        \
       c->has_layer &&isnan(c->layer.specific_wear_rate.value))                                     \
-    X(GIVEN_ANISOTROPY, "anisotropic roughness", "no anisotropy (<anisotropy> in <sliding>)",      \
-      c->sliding.anisotropy.amplitude[0] != 0 || c->sliding.anisotropy.amplitude[1] != 0)          \
     X(REQUESTED_DECADES, "decades of the wavenumber",                                              \
       "no decades asked for (<decades> in <sliding>)", c->sliding.decades)                         \
     X(REQUESTED_IDENTIFICATION, "what is seen of the layer",                                       \
@@ -91,7 +89,6 @@
     X(CONTACT_AREA, "contact_area", &contact_area_schema, "")                                      \
     X(TRANSVERSE_ISOTROPY, "transverse_isotropy", &transverse_isotropy_schema, "")                 \
     X(SOFTENING_EFFECT, "softening", &softening_schema, "")                                        \
-    X(ANISOTROPY, "anisotropy", &anisotropy_schema, "")                                            \
     X(FRICTION_DECADES, "friction_decades", &friction_decades_schema, "")                          \
     X(FLASH_EFFECT, "flash_temperature", &flash_schema, "")                                        \
     X(WHAT_IF, "what_if", &what_if_schema, "")                                                     \

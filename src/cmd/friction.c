@@ -3,7 +3,7 @@
 #include "cmd/sliding_options.h"
 
 /* The tables that follow that of friction, each where it has something to say. */
-enum { AREA, TRANSVERSE_ISOTROPY, SOFTENING, FLASH, ANISOTROPY, DECADES, N_FURTHER };
+enum { AREA, TRANSVERSE_ISOTROPY, SOFTENING, FLASH, DECADES, N_FURTHER };
 
 static bool is_table_requested(const wt_sliding *s, size_t k)
 {
@@ -14,8 +14,6 @@ static bool is_table_requested(const wt_sliding *s, size_t k)
         return s->strain_softening != NULL;
     case FLASH:
         return s->flash.on;
-    case ANISOTROPY:
-        return s->anisotropy.amplitude[0] != 0 || s->anisotropy.amplitude[1] != 0;
     case DECADES:
         return s->decades;
     default:
@@ -33,7 +31,6 @@ static wt_status compute_further_tables(cmd_sliding *s, wt_table *further[N_FURT
         [TRANSVERSE_ISOTROPY] = {"transverse_isotropy", wt_transverse_isotropy_compute},
         [SOFTENING] = {"softening", wt_softened_friction_compute},
         [FLASH] = {"flash_temperature", wt_flash_temperature_compute},
-        [ANISOTROPY] = {"anisotropy", wt_anisotropic_friction_compute},
         [DECADES] = {"friction_decades", wt_friction_by_scale_compute}};
     wt_status status = WT_OK;
     for (size_t k = 0; status == WT_OK && k < N_FURTHER; k++) {
@@ -57,7 +54,7 @@ int cmd_friction(int argc, char **argv)
             "modified layer on top if its thickness and modulus ratio are given.",
         .common = "output formats columns files-from provenance cost",
         .first = "material dma roughness pressure velocity sliding-temperature shear-stress "
-                 "layer-thickness modulus-ratio strain-softening flash-temperature anisotropy "
+                 "layer-thickness modulus-ratio strain-softening flash-temperature "
                  "output",
         .master = CMD_DMA_OPTIONS};
     wt_layer_observation layer = wt_layer_observation_defaults();
@@ -83,10 +80,13 @@ int cmd_friction(int argc, char **argv)
         if (status == WT_OK)
             status = wt_model_sensitivity_compute(&s.conditions, NULL, observation, &s.session.work,
                                                   &what_if, &s.session.err);
-        wt_table **const parts[] = {
-            &tables.friction,    &further[AREA],  &further[TRANSVERSE_ISOTROPY],
-            &further[SOFTENING], &further[FLASH], &further[ANISOTROPY],
-            &further[DECADES],   &what_if};
+        wt_table **const parts[] = {&tables.friction,
+                                    &further[AREA],
+                                    &further[TRANSVERSE_ISOTROPY],
+                                    &further[SOFTENING],
+                                    &further[FLASH],
+                                    &further[DECADES],
+                                    &what_if};
         cmd_finish(&s.session, status, parts, COUNT_OF(parts));
     }
     return cmd_sliding_free(&s);

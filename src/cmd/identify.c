@@ -24,7 +24,7 @@ int cmd_identify(int argc, char **argv)
     /* the energy does not depend on the shear stress */
     s.parts[CMD_CONTACT].only =
         "material dma roughness strain-softening softening-temperature wear-of";
-    s.parts[CMD_CONDITIONS].only = "pressure velocity sliding-temperature anisotropy texture-angle "
+    s.parts[CMD_CONDITIONS].only = "pressure velocity sliding-temperature "
                                    "flash-temperature contact-size heat-capacity heat-diffusivity";
     if (!cmd_sliding_parse(&s, &usage, argc, argv))
         return cmd_sliding_free(&s);

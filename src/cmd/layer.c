@@ -53,7 +53,7 @@ int cmd_layer(int argc, char **argv)
     cmd_sliding_init(&s, (cmd_option_group){wt_layer_job_params(), &job, NULL, 0});
     s.parts[CMD_CONTACT].only =
         "material dma roughness strain-softening softening-temperature wear-of";
-    s.parts[CMD_CONDITIONS].only = "pressure velocity sliding-temperature anisotropy texture-angle "
+    s.parts[CMD_CONDITIONS].only = "pressure velocity sliding-temperature "
                                    "flash-temperature contact-size heat-capacity "
                                    "heat-diffusivity shear-stress";
     wt_layer_tables tables = {0};

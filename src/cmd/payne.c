@@ -11,8 +11,8 @@ int cmd_payne(int argc, char **argv)
             "Determines from DMA strain sweeps how a filled rubber softens with the strain "
             "amplitude (Payne effect), at each frequency and temperature: moduli relative to those "
             "of the smallest amplitudes, the amplitudes at which the storage modulus has lost a "
-            "tenth and half, the maximum of the loss modulus, and the constants of the law of "
-            "Kraus with their errors. Folders and patterns are allowed.",
+            "tenth and half, and the maximum of the loss modulus. Folders and patterns are "
+            "allowed.",
         .common = "output formats columns files-from provenance cost",
         .notes = "The tables payne and payne_sweep follow one another.",
         .n_files = CMD_ONE_OR_MORE};

@@ -10,7 +10,7 @@ int cmd_record(int argc, char **argv)
         .arguments = "[OPTION]... FILE...",
         .description =
             "Records of pin-on-disc, linear and reciprocating tribometers: where the running-in "
-            "ends, the friction coefficient behind it, its drift and its stick-slip, each with "
+            "ends, the friction coefficient behind it, and its drift, each with "
             "its error, at every velocity, load and temperature of the record; with the loss "
             "of the track the specific wear rate. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",

@@ -95,8 +95,6 @@ bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **
         return cmd_usage_error(session, "--softening-temperature goes with --strain-softening");
     if (!check_layer_modulus(s))
         return false;
-    if (wt_anisotropy_check(&s->conditions.anisotropy, &session->err) != WT_OK)
-        return cmd_param_error(session);
     if (s->contact.material != NULL && cmd_option_is_set(&s->parts[CMD_READ], "temperature"))
         return cmd_usage_error(session, "--temperature is that of --dma files; the rubber's while "
                                         "it slides is --sliding-temperature");

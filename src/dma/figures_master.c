@@ -1,5 +1,5 @@
-/* Figures of isotherms and of the master curve, and superposition plots without a frequency
- * axis.
+/* Figures of isotherms and of the master curve, and the superposition plot without a
+ * frequency axis.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
@@ -7,18 +7,6 @@
 #include <string.h>
 
 /* ---- quantities computed from both moduli ---------------------------------------------------- */
-
-static double storage_value(double storage, double loss)
-{
-    (void)loss;
-    return storage;
-}
-
-static double loss_value(double storage, double loss)
-{
-    (void)storage;
-    return loss;
-}
 
 static double loss_factor_value(double storage, double loss)
 {
@@ -44,11 +32,7 @@ typedef struct derived_quantity {
     const char *label, *suffix; /* for a modulus: text before and after its letter */
 } derived_quantity;
 
-static const derived_quantity storage_log = {"storage", storage_value, AXIS_LOG, true, "", "′"},
-                              storage_linear = {"storage", storage_value, AXIS_FROM_ZERO, true, "",
-                                                "′"},
-                              loss_linear = {"loss", loss_value, AXIS_FROM_ZERO, true, "", "″"},
-                              loss_ratio = {"ratio", loss_factor_value, AXIS_LOG,
+static const derived_quantity loss_ratio = {"ratio", loss_factor_value, AXIS_LOG,
                                             false,   "tan δ",           ""},
                               size_log = {"size", modulus_magnitude, AXIS_LOG, true, "|", "*|"},
                               angle = {"angle", phase_angle_degrees, AXIS_FROM_ZERO, false, "δ (°)",
@@ -59,7 +43,7 @@ enum { STORAGE = 1, TEMPERATURE = 3, FITTED = 4 };
 
 static void define_derived_quantities(figure_drawing *d)
 {
-    text_add(&d->script, "storage(s, l) = s\nloss(s, l) = l\nratio(s, l) = s > 0 ? l/s : NaN\n"
+    text_add(&d->script, "ratio(s, l) = s > 0 ? l/s : NaN\n"
                          "size(s, l) = sqrt(s**2 + l**2)\nangle(s, l) = atan2(l, s)*180/pi\n");
 }
 
@@ -281,61 +265,24 @@ static void caption_step_master_curve(figure_drawing *d)
 
 /* ---- superposition without a frequency ------------------------------------------------------- */
 
-static void plot_plane(figure_drawing *d, const derived_quantity *x, const derived_quantity *y,
-                       size_t column, bool line)
-{
-    char using[128];
-    (void)snprintf(using, sizeof using, "(%s($%zu,$%zu)*x_unit):(%s($%zu,$%zu)*y_unit)", x->name,
-                   column, column + 1, y->name, column, column + 1);
-    if (line)
-        plot_item(d, d->data[0], "%s with lines ls 11 title '%s'", using, spectrum_title);
-    else
-        plot_measured_points(d, using, "points ls 51");
-}
-
-static void draw_plane(figure_drawing *d, const derived_quantity *x, const derived_quantity *y)
+static void draw_van_gurp_palmen(figure_drawing *d)
 {
     if (!drawing_build_data(d))
         return;
     d->width = 1.15;
     define_derived_quantities(d);
-    derived_quantity_axis(d, "x", x);
-    derived_quantity_axis(d, "y", y);
+    derived_quantity_axis(d, "x", &size_log);
+    derived_quantity_axis(d, "y", &angle);
     if (!span_is_empty(&d->colour))
         drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
-    plot_plane(d, x, y, STORAGE + 1, false);
-    plot_plane(d, x, y, FITTED + 1, true);
+    plot_measured_points(d, "(size($2,$3)*x_unit):(angle($2,$3)*y_unit)", "points ls 51");
+    plot_item(d, d->data[0],
+              "(size($5,$6)*x_unit):(angle($5,$6)*y_unit) with lines ls 11 title '%s'",
+              spectrum_title);
     plot_end(d);
 }
 
-static void draw_cole_cole(figure_drawing *d)
-{
-    draw_plane(d, &storage_linear, &loss_linear);
-}
-
-static void draw_van_gurp_palmen(figure_drawing *d)
-{
-    draw_plane(d, &size_log, &angle);
-}
-
-static void draw_wicket(figure_drawing *d)
-{
-    draw_plane(d, &storage_log, &loss_ratio);
-}
-
 /* ---- descriptions ---------------------------------------------------------------------------- */
-
-/* Members that all superposition plots share. */
-#define PLANE_FIGURE                                                                               \
-    .table = &master_curve_schema, .data_title = "master curve",                                   \
-    .x = {MASTER_CURVE_ANGULAR_FREQUENCY, AXIS_LOG, "Reduced angular frequency"},                  \
-    .y = {{MASTER_CURVE_STORAGE_MODULUS, AXIS_LOG, "Storage modulus"}},                            \
-    .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},                              \
-    .empty_reason = "there are no positive oscillatory moduli; step tests have a figure "          \
-                    "against time",                                                                \
-    .curves = {CURVE(MASTER_CURVE_STORAGE_MODULUS, OWN), CURVE(MASTER_CURVE_LOSS_MODULUS, OWN),    \
-               CURVE(MASTER_CURVE_TEMPERATURE, DATA), CURVE(MASTER_CURVE_FITTED_STORAGE, DATA),    \
-               CURVE(MASTER_CURVE_FITTED_LOSS, DATA)}
 
 /* Figures of step experiments. Without step data no message about missing data is printed. */
 #define STEP_MASTER_FIGURE(id, heading, quantity, label, OWN_VALUE)                                \
@@ -458,32 +405,21 @@ const figure_description figures_master[] = {
     {.name = "van_gurp_palmen",
      .in_depth = true,
      .title = "Superposition: van Gurp-Palmen plot",
-     PLANE_FIGURE,
+     .table = &master_curve_schema,
+     .data_title = "master curve",
+     .x = {MASTER_CURVE_ANGULAR_FREQUENCY, AXIS_LOG, "Reduced angular frequency"},
+     .y = {{MASTER_CURVE_STORAGE_MODULUS, AXIS_LOG, "Storage modulus"}},
+     .colour = {MASTER_CURVE_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .empty_reason = "there are no positive oscillatory moduli; step tests have a figure "
+                     "against time",
+     .curves = {CURVE(MASTER_CURVE_STORAGE_MODULUS, OWN), CURVE(MASTER_CURVE_LOSS_MODULUS, OWN),
+                CURVE(MASTER_CURVE_TEMPERATURE, DATA), CURVE(MASTER_CURVE_FITTED_STORAGE, DATA),
+                CURVE(MASTER_CURVE_FITTED_LOSS, DATA)},
      .caption_text =
          "Phase angle against the magnitude of the modulus, shifted vertically only (van "
          "Gurp-Palmen plot): frequency and horizontal shift do not enter. If superposition "
          "holds, the isotherms lie on one line. Where they spread with temperature, no "
          "horizontal shift can join them.",
      .draw = draw_van_gurp_palmen},
-    {.name = "wicket",
-     .in_depth = true,
-     .title = "Superposition: wicket plot",
-     PLANE_FIGURE,
-     .caption_text =
-         "tan δ against the storage modulus, shifted vertically only. If superposition holds, "
-         "all temperatures lie on one line, which is an arch over a glass transition (wicket "
-         "plot). Single points beside it are outliers. An isotherm beside it was measured on a "
-         "changed sample or at the limit of the instrument.",
-     .draw = draw_wicket},
-    {.name = "cole_cole",
-     .in_depth = true,
-     .title = "Superposition: Cole-Cole plot",
-     PLANE_FIGURE,
-     .caption_text =
-         "Loss against storage modulus on linear axes, shifted vertically only (Cole-Cole "
-         "plot). Linear axes show the stiff end. If superposition holds, the isotherms follow "
-         "one arc without steps. Where clamps or instrument yield under the glass, the points "
-         "bend away from it.",
-     .draw = draw_cole_cole},
     {.name = NULL},
 };

@@ -52,8 +52,8 @@ typedef struct softening_sweep {
     double *log_strain, *f, *g;
 } softening_sweep;
 
-/* Amplitudes closer than this [ln] are merged: 5 %, over which the law of Kraus falls by at most
- * 1.5 % of its height. */
+/* Amplitudes closer than this [ln] are merged: 5 %, over which the law of Kraus (1984)
+ * falls by at most 1.5 % of its height. */
 static const double same_strain = 0.05;
 
 /* Sweeps within 1.5 K have one temperature, as two runs of a chamber. A warning appears if the
@@ -476,7 +476,7 @@ wt_payne_job wt_payne_job_defaults(void)
     return (wt_payne_job){.n_sets = 0};
 }
 
-/* Points with positive moduli, to which a law is fitted. */
+/* Points with positive moduli. */
 typedef struct usable_points {
     size_t n;
     double *strain, *storage, *loss;
@@ -511,7 +511,7 @@ static usable_points select_usable_points(const wt_strain_sweep *sweep, arena *m
 
 TABLE_ROW(payne_sweep, PAYNE_SWEEP, double strain, angular_frequency, temperature, storage, loss,
           loss_factor;
-          double storage_ratio, loss_ratio, storage_kraus, loss_kraus; const char *source, *sample;)
+          double storage_ratio, loss_ratio; const char *source, *sample;)
 
 static void add_sweep_point_rows(table_writer *t, const wt_strain_sweep *s, const wt_payne *p)
 {
@@ -522,8 +522,7 @@ static void add_sweep_point_rows(table_writer *t, const wt_strain_sweep *s, cons
                      loss = s->loss_modulus[i];
         TABLE_ADD(payne_sweep, t, strain, s->angular_frequency, s->temperature, storage, loss,
                   storage > 0 ? loss / storage : unknown, storage / p->storage_start,
-                  loss / p->loss_start, p->fitted ? wt_kraus_storage(&p->law, strain) : unknown,
-                  p->fitted ? wt_kraus_loss(&p->law, strain) : unknown, s->source, s->sample);
+                  loss / p->loss_start, s->source, s->sample);
     }
 }
 
@@ -537,7 +536,7 @@ static wt_status build_payne_tables(const wt_job *work, const wt_sweep *sweep, w
     table_writer points = table_begin(&payne_sweep_schema, err),
                  numbers = table_begin(&payne_schema, err);
     wt_status status = WT_OK;
-    size_t n_fitted = 0;
+    size_t n_measured = 0;
     payne_sweep_set_text(&points, PAYNE_SWEEP_KEY_DEFORMATION, deformation);
     payne_set_text(&numbers, PAYNE_KEY_DEFORMATION, deformation);
     for (size_t i = 0; i < sweep->n_strain_sweeps && status == WT_OK; i++) {
@@ -546,17 +545,17 @@ static wt_status build_payne_tables(const wt_job *work, const wt_sweep *sweep, w
         const usable_points u = select_usable_points(s, &memory, work->log);
         wt_payne payne;
         if (u.n > 0) {
-            status = wt_payne_fit(u.strain, u.storage, u.loss_measured ? u.loss : NULL, u.n, &payne,
-                                  err);
+            status = wt_payne_measure(u.strain, u.storage, u.loss_measured ? u.loss : NULL, u.n,
+                                      &payne, err);
             if (status == WT_OK) {
                 add_sweep_point_rows(&points, s, &payne);
                 TABLE_ADD(payne, &numbers, *s, payne, u.n, u.strain[0], u.strain[u.n - 1]);
-                n_fitted++;
+                n_measured++;
             }
         }
         arena_free(&memory);
     }
-    if (status == WT_OK && n_fitted == 0) {
+    if (status == WT_OK && n_measured == 0) {
         status = wt_fail(err, WT_E_RANGE, "no strain sweep has a positive modulus");
         wt_error_place(err, "%s", sweep->strain_sweeps[0].source);
     }

@@ -1,5 +1,4 @@
-/* Figures of the sliding contact: power spectrum, friction, contact area, length scales,
- * direction of sliding.
+/* Figures of the sliding contact: power spectrum, friction, contact area, length scales.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -94,13 +93,10 @@ static void caption_softening(figure_drawing *d)
 
 static void caption_flash(figure_drawing *d)
 {
-    const char *two = flash_key_text(d->table, FLASH_KEY_BRANCHES),
-               *none = flash_key_text(d->table, FLASH_KEY_UNSETTLED);
+    const char *none = flash_key_text(d->table, FLASH_KEY_UNSETTLED);
     text_format(&d->caption, " Surroundings at %s; %s.",
                 VALUE(WT_Q_TEMPERATURE, NULL, flash_value(d->table, FLASH_KEY_SURROUNDINGS).value),
                 flash_key_text(d->table, FLASH_KEY_EFFECT));
-    if (two != NULL)
-        text_format(&d->caption, " Two solutions: %s.", two);
     if (none != NULL)
         text_format(&d->caption, " Without one: %s.", none);
 }
@@ -216,17 +212,6 @@ static void caption_decades(figure_drawing *d)
                 friction_decades_key_text(d->table, FRICTION_DECADES_KEY_STRONGEST));
 }
 
-/* ---- direction of sliding -------------------------------------------------------------------- */
-
-static void caption_anisotropy(figure_drawing *d)
-{
-    text_format(&d->caption,
-                " Power spectrum over its mean at an angle phi from the velocity: 1 + "
-                "%s. %s.",
-                anisotropy_key_text(d->table, ANISOTROPY_KEY_TEXTURE),
-                anisotropy_key_text(d->table, ANISOTROPY_KEY_EFFECT));
-}
-
 const figure_description figures_friction[] = {
     {.name = "power_spectrum",
      .in_depth = true,
@@ -320,9 +305,7 @@ const figure_description figures_friction[] = {
      .data_title = "temperature",
      .x = {FLASH_VELOCITY, AXIS_LOG, "Sliding velocity"},
      .y = {{FLASH_TEMPERATURE, AXIS_LINEAR, "Temperature at the finest scale"}},
-     .curves = {CURVE(FLASH_TEMPERATURE, LINE, .style = 21, .title = "from cold"),
-                CURVE(FLASH_HOT_TEMPERATURE, LINE, .style = 24,
-                      .title = "of a contact that stays hot")},
+     .curves = {CURVE(FLASH_TEMPERATURE, LINE, .style = 21)},
      .empty_reason = "no temperature is a number",
      .caption_text = "Temperature of the rubber at the finest scale of the contact against sliding "
                      "velocity: the heat of friction at every length scale warms it there.",
@@ -335,9 +318,7 @@ const figure_description figures_friction[] = {
      .y = {{FLASH_HYSTERESIS, AXIS_FROM_ZERO, "Hysteresis friction coefficient"}},
      .curves = {CURVE(FLASH_HYSTERESIS, LINE, .style = 21, .title = "with flash temperature"),
                 CURVE(FLASH_HYSTERESIS_WITHOUT, LINE, .style = 23,
-                      .title = "as warm as the surroundings"),
-                CURVE(FLASH_HOT_HYSTERESIS, LINE, .style = 24,
-                      .title = "of a contact that stays hot")},
+                      .title = "as warm as the surroundings")},
      .empty_reason = "no hysteresis friction is a number",
      .caption_text =
          "Hysteresis part of the friction coefficient against sliding velocity with flash "
@@ -353,21 +334,5 @@ const figure_description figures_friction[] = {
          "first and the last decade may be cut by the ends of the power spectrum.",
      .draw = draw_decades,
      .caption = caption_decades},
-    {.name = "anisotropy",
-     .title = "What the direction of sliding does",
-     .table = &anisotropy_schema,
-     .data_title = "hysteresis",
-     .x = {ANISOTROPY_VELOCITY, AXIS_LOG, "Sliding velocity"},
-     .y = {{ANISOTROPY_HYSTERESIS, AXIS_FROM_ZERO, "Hysteresis friction coefficient"}},
-     .curves = {CURVE(ANISOTROPY_HYSTERESIS, LINE, .style = 21, .title = "against the velocity"),
-                CURVE(ANISOTROPY_SIDE, LINE, .style = 22, .title = "to the side"),
-                CURVE(ANISOTROPY_HYSTERESIS_WITHOUT, LINE, .style = 24,
-                      .title = "the same roughness in all directions")},
-     .empty_reason = "no hysteresis friction is a number",
-     .caption_text =
-         "Hysteresis part of the friction coefficient against sliding velocity on roughness "
-         "with a preferred direction, the force to its side over the load, and the friction "
-         "on roughness that is the same in all directions.",
-     .caption = caption_anisotropy},
     {.name = NULL},
 };

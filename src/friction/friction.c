@@ -14,48 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Up to this number of velocities, the replicates are computed at each. A longer list uses this
- * number of nodes, equally spaced in ln v. Over 20 decades the spacing h is 0.05. Linear
- * interpolation then has the error h^2/8, or 3e-4, if the standard error changes e-fold with v. The
- * standard error of 200 replicates has an uncertainty of 5e-2. */
-enum { ERROR_NODES = 1000 };
-
-/* Creates the nodes for the replicates. The velocities v [n] rise, except the last, which is the
- * reference. The nodes [*m] end with the reference; the caller frees them. NULL means that the
- * nodes are v. */
-static double *error_nodes_create(const double *v, size_t n, size_t *m)
-{
-    const size_t last = n - 1;
-    *m = n;
-    if (n <= ERROR_NODES + 1)
-        return NULL;
-    double *const made = wt_alloc(ERROR_NODES + 1, sizeof *made);
-    const double from = log(v[0]), to = log(v[last - 1]);
-    for (size_t i = 0; i < ERROR_NODES; i++)
-        made[i] = exp(from + (to - from) * (double)i / (ERROR_NODES - 1));
-    made[0] = v[0];
-    made[ERROR_NODES - 1] = v[last - 1];
-    made[ERROR_NODES] = v[last];
-    *m = ERROR_NODES + 1;
-    return made;
-}
-
-/* Interpolates the errors from at_nodes [m] to error [n] at v, linearly in ln v. The last value is
- * copied. */
-static void error_nodes_interpolate(const double *nodes, size_t m, const double *at_nodes,
-                                    const double *v, size_t n, double *error)
-{
-    size_t k = 0; /* v[i] lies between the nodes k and k + 1 */
-    for (size_t i = 0; i + 1 < n; i++) {
-        while (k + 3 < m && v[i] > nodes[k + 1])
-            k++;
-        const double width = log(nodes[k + 1] / nodes[k]);
-        const double share = width > 0 ? log(v[i] / nodes[k]) / width : 0;
-        error[i] = at_nodes[k] + share * (at_nodes[k + 1] - at_nodes[k]);
-    }
-    error[n - 1] = at_nodes[m - 1];
-}
-
 /* Quantities that a replicate returns for each velocity. */
 enum { HYSTERESIS, AREA, TOTAL, LAYERED, CHANGE, RELATIVE, N_KINDS };
 
@@ -168,7 +126,7 @@ TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
            wt_estimate layer_slope, layer_outside; char layer_moduli[512];
            wt_estimate relative_change, relative_change_low, relative_change_high;
            size_t replicates; const char *includes, *lacks, *statement;
-           char material[512], softening[512], anisotropy[192], numerical[512], flash[256];)
+           char material[512], softening[512], numerical[512], flash[256];)
 
 /* Result for the stated values with the standard error from the replicates. */
 static wt_estimate estimate_with_error(friction_task *task, int kind, size_t i,
@@ -267,7 +225,6 @@ static void set_friction_keys(friction_task *task, const sliding_contact *c, tab
         strain_softening_describe(s->strain_softening, keys.softening, sizeof keys.softening);
         keys.strain.value = task->strain;
     }
-    anisotropy_describe(&s->anisotropy, keys.anisotropy, sizeof keys.anisotropy);
     if (task->worst > 0)
         clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
                       task->work->tolerance, task->worst);
@@ -397,34 +354,6 @@ static wt_status compute_nominal_friction(friction_task *task, sliding_contact *
     return status;
 }
 
-/* Draws the replicates at the nodes of the velocity and interpolates the standard errors to all
- * velocities. */
-static wt_status draw_error_nodes(friction_task *task, wt_error *err)
-{
-    replicates *r = &task->replicates;
-    const friction_task all = *task;
-    double *error = NULL, *const nodes = error_nodes_create(all.velocity, all.n, &task->n);
-    if (nodes != NULL) {
-        task->velocity = nodes;
-        error = wt_alloc(N_KINDS * all.n, sizeof *error);
-    }
-    wt_status status = replicates_draw(r, N_KINDS * task->n, compute_friction_replicate, task, err);
-    for (int kind = 0; status == WT_OK && nodes != NULL && kind < N_KINDS; kind++)
-        error_nodes_interpolate(nodes, task->n, kind_values(r->error, task->n, kind), all.velocity,
-                                all.n, kind_values(error, all.n, kind));
-    if (status == WT_OK && nodes != NULL) {
-        free(r->error);
-        r->error = error;
-        error = NULL;
-    }
-    task->drawn = r->n * task->n;
-    task->n = all.n;
-    task->velocity = all.velocity;
-    free(error);
-    free(nodes);
-    return status;
-}
-
 /* Draws the replicates. If only inputs of the layer vary, results without the layer have no
  * standard error. */
 static wt_status draw_friction_replicates(friction_task *task, wt_error *err)
@@ -440,7 +369,8 @@ static wt_status draw_friction_replicates(friction_task *task, wt_error *err)
                        "thickness of the layer");
         replicates_add_layer(r, layer, "modulus ratio of the layer");
     }
-    wt_status status = draw_error_nodes(task, err);
+    wt_status status = replicates_draw(r, N_KINDS * task->n, compute_friction_replicate, task, err);
+    task->drawn = r->n * task->n;
     for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)
         kind_values(r->error, task->n, HYSTERESIS)[i] = kind_values(r->error, task->n, AREA)[i] =
             kind_values(r->error, task->n, TOTAL)[i] = (double)NAN;

@@ -1,14 +1,12 @@
 /* Friction with and without an effect at one list of velocities: strain softening, flash
- * temperature, anisotropy of the roughness, transversely isotropic rubber.
+ * temperature, transversely isotropic rubber.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
 #include "core/table/table_rows.h"
 #include "dma/rubber.h"
-#include "friction/numerics/angular.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
 #include "weartrack/friction.h"
-#include "weartrack/surface.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -350,61 +348,39 @@ TABLE_ROW(flash, FLASH, double velocity; wt_friction_point with, without;)
 
 TABLE_KEYS(flash, FLASH, wt_estimate surroundings;
            double contact_size, heat_capacity, diffusivity, macroscopic;
-           char effect[192], branches[192], unsettled[192], law_range[192];)
+           char effect[192], unsettled[192], law_range[192];)
 
-/* Number of points in a subset, with their slowest and fastest velocity. */
-typedef struct velocity_extent {
-    size_t n;
-    double slowest, fastest;
-} velocity_extent;
-
-static velocity_extent find_velocity_extent(const wt_friction_point *points, size_t n,
-                                            bool (*counts)(const wt_friction_point *point))
-{
-    velocity_extent e = {0, (double)INFINITY, 0};
-    for (size_t i = 0; i < n; i++) {
-        if (!counts(&points[i]))
-            continue;
-        e.n++;
-        e.slowest = fmin(e.slowest, fabs(points[i].velocity));
-        e.fastest = fmax(e.fastest, fabs(points[i].velocity));
-    }
-    return e;
-}
-
-static bool has_hot_solution(const wt_friction_point *point)
-{
-    return !isnan(point->hot_branch.hysteresis);
-}
-
-static bool is_unsolved(const wt_friction_point *point)
-{
-    return point->has_no_solution;
-}
-
-static void describe_extent(velocity_extent e, size_t n, const char *label, char *text, size_t size)
+static void describe_unsolved(const wt_friction_point *points, size_t n, const char *label,
+                              char *text, size_t size)
 {
     char slowest[32], fastest[32];
+    double least = (double)INFINITY, most = 0;
+    size_t unsolved = 0;
     text[0] = '\0';
-    if (e.n == 0)
+    for (size_t i = 0; i < n; i++) {
+        if (!points[i].has_no_solution)
+            continue;
+        unsolved++;
+        least = fmin(least, fabs(points[i].velocity));
+        most = fmax(most, fabs(points[i].velocity));
+    }
+    if (unsolved == 0)
         return;
-    wt_format_si(e.slowest, "m/s", 3, slowest, sizeof slowest);
-    wt_format_si(e.fastest, "m/s", 3, fastest, sizeof fastest);
-    snprintf(text, size, "%s at %zu of %zu velocities, %s to %s", label, e.n, n, slowest, fastest);
+    wt_format_si(least, "m/s", 3, slowest, sizeof slowest);
+    wt_format_si(most, "m/s", 3, fastest, sizeof fastest);
+    snprintf(text, size, "%s at %zu of %zu velocities, %s to %s", label, unsolved, n, slowest,
+             fastest);
 }
 
 void flash_describe(const wt_sliding *sliding, const wt_friction_point *points, size_t n,
                     char text[256])
 {
-    char two[160], none[160];
+    char none[160];
     text[0] = '\0';
     if (!sliding->flash.on)
         return;
-    describe_extent(find_velocity_extent(points, n, has_hot_solution), n,
-                    "; a second, hot solution", two, sizeof two);
-    describe_extent(find_velocity_extent(points, n, is_unsolved), n, "; none found", none,
-                    sizeof none);
-    clocale_print(text, 256, "contacts of %.3g m%s%s", sliding->flash.contact_size, two, none);
+    describe_unsolved(points, n, "; none found", none, sizeof none);
+    clocale_print(text, 256, "contacts of %.3g m%s", sliding->flash.contact_size, none);
 }
 
 static void describe_flash_effect(const friction_difference *e, char text[192])
@@ -431,8 +407,7 @@ static void describe_law_range(const friction_difference *e, char text[192])
     double hottest = 0;
     text[0] = '\0';
     for (size_t i = 0; i < e->n; i++)
-        hottest =
-            fmax(hottest, fmax(e->with[i].temperature.value, e->with[i].hot_branch.temperature));
+        hottest = fmax(hottest, e->with[i].temperature.value);
     if (hottest > most)
         clocale_print(text, 192,
                       "up to %.1f degC, above the isotherms (to %.1f degC): the shift law is "
@@ -455,11 +430,8 @@ static wt_status tabulate_flash(const friction_difference *e, wt_table **table, 
                        .diffusivity = flash->diffusivity,
                        .macroscopic = flash->macroscopic};
     describe_flash_effect(e, keys.effect);
-    describe_extent(find_velocity_extent(e->with, n, has_hot_solution), n,
-                    "a contact that was hot stays hot", keys.branches, sizeof keys.branches);
-    describe_extent(find_velocity_extent(e->with, n, is_unsolved), n,
-                    "no stable temperature below 300 degC was found", keys.unsettled,
-                    sizeof keys.unsettled);
+    describe_unsolved(e->with, n, "no stable temperature below 300 degC was found", keys.unsettled,
+                      sizeof keys.unsettled);
     describe_law_range(e, keys.law_range);
     flash_set_keys(&t, &keys);
     return table_end(&t, table);
@@ -480,69 +452,5 @@ wt_status wt_flash_temperature_compute(const wt_sliding *sliding, const wt_job *
 {
     static const friction_effect effect = {"no flash temperature was asked for", is_warmed,
                                            leave_out_flash, NULL, tabulate_flash};
-    return tabulate_effect(&effect, sliding, work, table, err);
-}
-
-/* ---- anisotropy ------------------------------------------------------------------------------ */
-
-/* Row of the table: both results at one velocity. */
-TABLE_ROW(anisotropy, ANISOTROPY, wt_friction_point with, without;)
-
-TABLE_KEYS(anisotropy, ANISOTROPY, char texture[192], effect[320]; wt_estimate side;)
-
-void anisotropy_describe(const wt_anisotropy *anisotropy, char *text, size_t size)
-{
-    size_t used = 0;
-    text[0] = '\0';
-    for (size_t k = 0; k < WT_ANISOTROPY_ORDERS && used < size; k++)
-        if (anisotropy->amplitude[k] != 0) {
-            clocale_print(text + used, size - used, "%s%.4g cos %zu(phi - %.4g deg)",
-                          used > 0 ? " + " : "", anisotropy->amplitude[k], 2 * (k + 1),
-                          anisotropy->angle[k] * 180 / M_PI);
-            used = strlen(text);
-        }
-}
-
-static void describe_effect(const wt_friction_point *with, const wt_friction_point *without,
-                            char *text, size_t size)
-{
-    char against[128];
-    clocale_print(against, sizeof against,
-                  "roughness that is the same in all directions; the force of the hysteresis turns "
-                  "by %.1f deg to the side",
-                  atan2(with->lateral.value, with->hysteresis.value) * 180 / M_PI);
-    describe_change(with, without, against, text, size);
-}
-
-static wt_status tabulate_anisotropy(const friction_difference *c, wt_table **table, wt_error *err)
-{
-    const size_t n = c->n - 1;
-    table_writer t = table_begin(&anisotropy_schema, err);
-    for (size_t i = 0; i < n; i++)
-        TABLE_ADD(anisotropy, &t, c->with[i], c->without[i]);
-    anisotropy_keys keys = {.side = c->with[n].lateral};
-    keys.side.standard_error = (double)NAN; /* this table draws no replicates */
-    anisotropy_describe(&c->sliding->anisotropy, keys.texture, sizeof keys.texture);
-    describe_effect(&c->with[n], &c->without[n], keys.effect, sizeof keys.effect);
-    anisotropy_set_keys(&t, &keys);
-    return table_end(&t, table);
-}
-
-static bool is_anisotropic(const wt_sliding *sliding)
-{
-    return anisotropy_is_present(&sliding->anisotropy);
-}
-
-static void leave_out_anisotropy(wt_sliding *sliding)
-{
-    sliding->anisotropy = (wt_anisotropy){{0}, {0}};
-}
-
-wt_status wt_anisotropic_friction_compute(const wt_sliding *sliding, const wt_job *work,
-                                          wt_table **table, wt_error *err)
-{
-    static const friction_effect effect = {"the roughness is the same in all directions",
-                                           is_anisotropic, leave_out_anisotropy, NULL,
-                                           tabulate_anisotropy};
     return tabulate_effect(&effect, sliding, work, table, err);
 }

@@ -70,8 +70,6 @@ replicates replicates_create(const wt_sliding *sliding, const wt_job *work, cons
                        measured ? "places of the surface" : "roughness");
     if (measured)
         add_error_source(&r, "scatter of the spectrum");
-    if (anisotropy_is_present(&sliding->anisotropy))
-        append_list_item(r.lacks, sizeof r.lacks, "anisotropy of the roughness");
     if (sliding->strain_softening != NULL) {
         const bool drawn = strain_softening_has_errors(sliding->strain_softening);
         replicates_add(&r, drawn, FLOW_DRAW_SOFT_STORAGE, "softening with strain");

@@ -49,7 +49,6 @@ static const wt_param rows[] = {
              "friction"},
     FRICTION_GAMMA(wt_sliding),
     FRICTION_STRAIN_FACTOR(wt_sliding),
-    FRICTION_ANISOTROPY(wt_sliding),
     {PARAM_FLAG_OF("decades", wt_sliding, decades),
      .help = "also the contribution of each decade of the wavenumber to the friction"},
     FLASH_ROWS(wt_sliding, flash.),
@@ -67,8 +66,6 @@ wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work, wt_e
     wt_status status = param_check(wt_sliding_params(), sliding, err);
     if (status == WT_OK)
         status = param_check(wt_job_params(), work, err);
-    if (status == WT_OK)
-        status = wt_anisotropy_check(&sliding->anisotropy, err);
     if (status == WT_OK && sliding->pressure.value > max_rubber_pressure)
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "the nominal pressure of %.4g MPa is above the %.4g MPa that rubber bears: "
@@ -149,7 +146,6 @@ wt_status sliding_contact_create(const wt_sliding *sliding, const wt_job *work, 
     wt_friction_options options = wt_friction_defaults();
     options.tolerance = drawn ? REPLICATE_TOLERANCE : work->tolerance;
     options.gamma = sliding->gamma;
-    options.anisotropy = sliding->anisotropy;
     options.flash = sliding->flash;
     options.shift = flow_rubber_shift_law(sliding->rubber, seed, replicate);
     options.temperature = c.temperature =

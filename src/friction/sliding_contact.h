@@ -39,9 +39,6 @@ wt_layer_state sliding_layer_at_shear_rate(const sliding_contact *contact, wt_la
                                            double velocity);
 void sliding_contact_clear(sliding_contact *contact);
 
-/* Writes the terms of the anisotropy, with phi measured from the velocity. The text is "" without
- * an anisotropy. */
-void anisotropy_describe(const wt_anisotropy *anisotropy, char *text, size_t size);
 /* Writes the model, and the velocities with no solution or with two. The text is "" without a flash
  * temperature. */
 void flash_describe(const wt_sliding *sliding, const wt_friction_point *points, size_t n,

@@ -67,8 +67,6 @@
       LABEL("Material statement"), OPTIONAL)                                                       \
     X(FRICTION_KEY_SOFTENING, AS(softening), TEXT, LABEL("Softening with strain"), OPTIONAL)       \
     X(FRICTION_KEY_STRAIN, AS(strain), NUMBER, LABEL("Largest strain met"), OPTIONAL)              \
-    X(FRICTION_KEY_ANISOTROPY, AS(anisotropy), TEXT, LABEL("Texture of the counter surface"),      \
-      OPTIONAL)                                                                                    \
     X(FRICTION_KEY_NUMERICAL_STATEMENT, "numerical_statement", TEXT, SHOWS(numerical),             \
       LABEL("Numerical statement"), OPTIONAL)                                                      \
     X(FRICTION_KEY_FLASH, "flash_temperature", TEXT, SHOWS(flash), LABEL("Flash temperature"),     \
@@ -174,14 +172,7 @@
     X(FLASH_AREA_RATIO_WITHOUT, "area_ratio_without", "the same without flash temperature",        \
       NUMBER, SHOWS(without.area_ratio), NUMERICAL_ERROR(FLASH_AREA_RATIO_WITHOUT))                \
     X(FLASH_AREA_RATIO_WITHOUT_NUMERICAL_ERROR, "area_ratio_without_numerical_error",              \
-      "its numerical error", NUMBER)                                                               \
-    X(FLASH_HOT_HYSTERESIS, "hot_hysteresis",                                                      \
-      "hysteresis friction of the second, hotter stable state; nan: there is none", NUMBER,        \
-      SHOWS(with.hot_branch.hysteresis))                                                           \
-    X(FLASH_HOT_AREA_RATIO, "hot_area_ratio", "its real over nominal contact area", NUMBER,        \
-      SHOWS(with.hot_branch.area_ratio))                                                           \
-    X(FLASH_HOT_TEMPERATURE, "hot_temperature", "its temperature at the finest scale",             \
-      SI(TEMPERATURE), SHOWS(with.hot_branch.temperature))
+      "its numerical error", NUMBER)
 
 #define FLASH_KEYS(X)                                                                              \
     X(FLASH_KEY_SURROUNDINGS, "surroundings", SI(TEMPERATURE), SHOWS(surroundings),                \
@@ -194,7 +185,6 @@
     X(FLASH_KEY_MACROSCOPIC, "macroscopic_area", PLAIN, SHOWS(macroscopic),                        \
       LABEL("Share of the area in macroscopic contacts"))                                          \
     X(FLASH_KEY_EFFECT, AS(effect), TEXT, LABEL("What it does"))                                   \
-    X(FLASH_KEY_BRANCHES, AS(branches), TEXT, LABEL("Two solutions"), OPTIONAL)                    \
     X(FLASH_KEY_UNSETTLED, AS(unsettled), TEXT, LABEL("Without a solution"), OPTIONAL)             \
     X(FLASH_KEY_LAW_RANGE, AS(law_range), TEXT, LABEL("Shift law"), OPTIONAL)
 
@@ -256,8 +246,6 @@
     X(LAYER_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement),                  \
       LABEL("Material statement"), OPTIONAL)                                                       \
     X(LAYER_KEY_SOFTENING, AS(softening), TEXT, LABEL("Softening with strain"), OPTIONAL)          \
-    X(LAYER_KEY_ANISOTROPY, AS(anisotropy), TEXT, LABEL("Texture of the counter surface"),         \
-      OPTIONAL)                                                                                    \
     X(LAYER_KEY_ENERGY_FROM, AS(energy_from), TEXT, LABEL("What modifies the rubber"), OPTIONAL)   \
     X(LAYER_KEY_HYSTERESIS_POWER, AS(hysteresis_power), UNIT("W/m^2"),                             \
       LABEL("Power of hysteresis"), OPTIONAL)                                                      \
@@ -293,35 +281,5 @@
       OPTIONAL)
 #define FRICTION_DECADES_KEYS(X)                                                                   \
     X(FRICTION_DECADES_KEY_STRONGEST, AS(strongest), TEXT, LABEL("Decade that makes the most"))
-
-#define ANISOTROPY_COLUMNS(X)                                                                      \
-    X(ANISOTROPY_VELOCITY, IN(with, velocity), "sliding velocity", SI(VELOCITY))                   \
-    X(ANISOTROPY_HYSTERESIS, IN(with, hysteresis), "hysteresis friction", NUMBER,                  \
-      NUMERICAL_ERROR(ANISOTROPY_HYSTERESIS))                                                      \
-    X(ANISOTROPY_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error", "its numerical error",  \
-      NUMBER)                                                                                      \
-    X(ANISOTROPY_SIDE, "side",                                                                     \
-      "force to the side over the load, against the side +90 deg from the velocity", NUMBER,       \
-      SHOWS(with.lateral), NUMERICAL_ERROR(ANISOTROPY_SIDE))                                       \
-    X(ANISOTROPY_SIDE_NUMERICAL_ERROR, "side_numerical_error", "its numerical error", NUMBER)      \
-    X(ANISOTROPY_AREA_RATIO, IN(with, area_ratio), "real over nominal contact area", NUMBER,       \
-      NUMERICAL_ERROR(ANISOTROPY_AREA_RATIO))                                                      \
-    X(ANISOTROPY_AREA_RATIO_NUMERICAL_ERROR, "area_ratio_numerical_error", "its numerical error",  \
-      NUMBER)                                                                                      \
-    X(ANISOTROPY_HYSTERESIS_WITHOUT, "hysteresis_without",                                         \
-      "hysteresis friction on roughness that is the same in all directions", NUMBER,               \
-      SHOWS(without.hysteresis), NUMERICAL_ERROR(ANISOTROPY_HYSTERESIS_WITHOUT))                   \
-    X(ANISOTROPY_HYSTERESIS_WITHOUT_NUMERICAL_ERROR, "hysteresis_without_numerical_error",         \
-      "its numerical error", NUMBER)                                                               \
-    X(ANISOTROPY_AREA_RATIO_WITHOUT, "area_ratio_without", "contact area on the same", NUMBER,     \
-      SHOWS(without.area_ratio), NUMERICAL_ERROR(ANISOTROPY_AREA_RATIO_WITHOUT))                   \
-    X(ANISOTROPY_AREA_RATIO_WITHOUT_NUMERICAL_ERROR, "area_ratio_without_numerical_error",         \
-      "its numerical error", NUMBER)
-
-#define ANISOTROPY_KEYS(X)                                                                         \
-    X(ANISOTROPY_KEY_TEXTURE, AS(texture), TEXT, LABEL("Texture of the counter surface"))          \
-    X(ANISOTROPY_KEY_SIDE, AS(side), NUMBER,                                                       \
-      LABEL("Force to the side over the load, at the reference velocity"))                         \
-    X(ANISOTROPY_KEY_EFFECT, AS(effect), TEXT, LABEL("What it does"))
 
 #endif

@@ -331,7 +331,7 @@ TABLE_ROW_OF(layer, LAYER, wt_layer_point)
 TABLE_KEYS(layer, LAYER, wt_layer_regime regime;
            const char *critical_energy_from, *includes, *lacks, *statement; double velocity, duty;
            wt_estimate pressure, wear_rate, observed;
-           char energy_from[256], softening[256], anisotropy[192], numerical[512];
+           char energy_from[256], softening[256], numerical[512];
            wt_estimate hysteresis_power, shear_power;)
 
 static void set_layer_keys(const layer_task *task, const layer_run *run, table_writer *t)
@@ -364,7 +364,6 @@ static void set_layer_keys(const layer_task *task, const layer_run *run, table_w
     if (task->sliding->strain_softening != NULL)
         strain_softening_describe(task->sliding->strain_softening, keys.softening,
                                   sizeof keys.softening);
-    anisotropy_describe(&task->sliding->anisotropy, keys.anisotropy, sizeof keys.anisotropy);
     if (run->energy.source.numerical_error > task->work->tolerance)
         clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
                       task->work->tolerance, run->energy.source.numerical_error);

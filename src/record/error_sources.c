@@ -13,7 +13,7 @@
 #include <string.h>
 
 TABLE_ROW(validation_sources, VALIDATION_SOURCES, validation_source source; const char *remedy;
-          double error, share, needed_share, pull, pull_error;)
+          double error, share, needed_share;)
 
 /* Sources of the random draws. Draws with the same source have one row. */
 static const struct {
@@ -49,19 +49,11 @@ static size_t find_drawn(flow_draw draw)
     return i;
 }
 
-const char *draw_source_name(flow_draw draw, const char **remedy)
-{
-    const size_t k = find_drawn(draw);
-    *remedy = drawn[k].remedy;
-    return validation_source_text(drawn[k].source);
-}
-
 typedef struct source {
     validation_source kind;
     const char *remedy;
     double variance, needed; /* variances of ln(measured/predicted) and of the required shear
                                 stress */
-    double pull, left;       /* as in the columns pull and pull_error */
 } source;
 
 typedef struct source_list {
@@ -76,7 +68,7 @@ static source *find_source(source_list *list, validation_source kind, const char
         if (list->of[i].kind == kind)
             return &list->of[i];
     source *const s = &list->of[list->n++];
-    *s = (source){.kind = kind, .remedy = remedy, .pull = (double)NAN, .left = (double)NAN};
+    *s = (source){.kind = kind, .remedy = remedy};
     return s;
 }
 
@@ -128,31 +120,6 @@ static void list_sources(const validation *v, bool split, const variance_compone
         s->needed += needed->line[u];
     }
     add_other_sources(list, v->job->sliding, split, parts, needed);
-}
-
-/* Computes how far the record shifts each drawn number, whose prior is 0 +- 1. The value is noise
- * plus slope times the true offset of the number. This is the inverse problem. */
-static void find_source_pulls(const validation *v, const model_variant *t, source_list *list)
-{
-    agreement_data data = model_variant_agreement_data(t);
-    data.allowed = validation_discrepancy_variance(v);
-    double *const weight = wt_alloc(t->n, sizeof *weight);
-    for (size_t u = 0; u < t->n_lines; u++) {
-        const double *const slope = t->slope + u * t->n;
-        const size_t k = find_drawn(v->p.line[u]);
-        double pull = 0, told = 0;
-        agreement_solve(&data, t->fit.scatter, slope, weight);
-        for (size_t i = 0; i < t->n; i++) {
-            pull += weight[i] * t->value[i];
-            told += weight[i] * slope[i];
-        }
-        source *const s = find_source(list, drawn[k].source, drawn[k].remedy);
-        if (!isnan(s->pull)) /* a source of two numbers has no single pull */
-            pull = told = (double)NAN;
-        s->pull = -pull;
-        s->left = sqrt(fmax(1 - told, 0));
-    }
-    free(weight);
 }
 
 /* ---- advice ---------------------------------------------------------------------------------- */
@@ -223,16 +190,14 @@ wt_status error_sources_tabulate(const validation *v, source_advice *advice, wt_
     const bool split = t->split || v->p.n_draws == 0; /* without draws there is nothing to
                                                          attribute */
     list_sources(v, split, &parts, &needed, &list);
-    if (v->has_shear && split)
-        find_source_pulls(v, t, &list);
     qsort(list.of, list.n, sizeof *list.of, compare_variances);
     write_advice(v, t, &list, advice);
     table_writer w = table_begin(&validation_sources_schema, err);
     for (size_t i = 0; i < list.n; i++) {
         const source *const s = &list.of[i];
-        TABLE_ADD(
-            validation_sources, &w, s->kind, s->remedy, sqrt(s->variance), s->variance / list.all,
-            list.all_needed > 0 ? s->needed / list.all_needed : (double)NAN, s->pull, s->left);
+        TABLE_ADD(validation_sources, &w, s->kind, s->remedy, sqrt(s->variance),
+                  s->variance / list.all,
+                  list.all_needed > 0 ? s->needed / list.all_needed : (double)NAN);
     }
     validation_sources_set_text(&w, VALIDATION_SOURCES_KEY_ADVICE, advice->narrows);
     return table_end(&w, table);

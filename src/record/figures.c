@@ -99,12 +99,6 @@ static void caption_verdict(figure_drawing *d)
                 validation_key_text(d->table, VALIDATION_KEY_VERDICT));
 }
 
-static void caption_running_in_verdict(figure_drawing *d)
-{
-    text_format(&d->caption, " Running-in: %s.",
-                validation_course_key_text(d->table, VALIDATION_COURSE_KEY_VERDICT));
-}
-
 /* Marks the ratio 1, at which measured and predicted friction agree. */
 static void mark_agreement(figure_drawing *d)
 {
@@ -156,14 +150,9 @@ const figure_description figures_validation[] = {
                       .band = 71),
                 CURVE(VALIDATION_COURSE_LAYER, LINE, .style = 24,
                       .title = "predicted while the layer grows", .band = 74),
-                CURVE(VALIDATION_COURSE_FITTED, FIT, .style = 22,
-                      .title = "in the time that the record asks for"),
-                CURVE(VALIDATION_COURSE_MEASURED, BARS, .style = 1, .title = "measured",
-                      .with_errors = true)},
+                CURVE(VALIDATION_COURSE_MEASURED, POINTS, .style = 1, .title = "measured")},
      .caption_text =
-         "Friction coefficient of the records from their start on, means of the cycles with "
-         "their interval of 95 %, as predicted while the layer grows and without one, with "
-         "its interval of 95 %, and the predicted course as it lies nearest to the record.",
-     .caption = caption_running_in_verdict},
+         "Friction coefficient of the records from their start on, means of the cycles, and as "
+         "predicted while the layer grows and without one, with its interval of 95 %."},
     {.name = NULL},
 };

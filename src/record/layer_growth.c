@@ -1,8 +1,8 @@
 /* Friction during the growth of a layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/layer_growth.h"
 #include "job/random_draws.h"
 #include "layer/layer_energy.h"
-#include "record/running_in_validation.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -28,6 +28,13 @@ typedef struct growth_inputs {
     double *time; /* [n] */
     size_t n;
 } growth_inputs;
+
+/* Remaining fraction of the change of friction at the settling time. An instrument hardly resolves
+ * the remainder. */
+static const double remainder_share = 0.05;
+
+/* Numbers of one draw that precede its friction in time. */
+enum { BARE, END, N_FIRST };
 
 /* ---- one draw -------------------------------------------------------------------------------- */
 
@@ -115,7 +122,7 @@ static wt_status evaluate_friction(const growth_draw *d, double thickness, doubl
     return status;
 }
 
-/* out: [GROWTH_QUANTITIES + n] */
+/* out: [N_FIRST + n] */
 static wt_status compute_draw(const growth_inputs *g, layer_context *scene, double *out,
                               wt_error *err)
 {
@@ -124,13 +131,10 @@ static wt_status compute_draw(const growth_inputs *g, layer_context *scene, doub
     if (status == WT_OK)
         status = find_layer_friction(g, &d, err);
     for (size_t i = 0; status == WT_OK && i < g->n; i++)
-        status =
-            evaluate_friction(&d, d.points[i].thickness.value, &out[GROWTH_QUANTITIES + i], err);
+        status = evaluate_friction(&d, d.points[i].thickness.value, &out[N_FIRST + i], err);
     if (status == WT_OK)
-        status = evaluate_friction(&d, d.thickness, &out[GROWTH_END], err);
-    out[GROWTH_BARE] = d.bare;
-    out[GROWTH_WEAR] = d.parameters.specific_wear_rate;
-    out[GROWTH_ENERGY] = d.parameters.critical_energy;
+        status = evaluate_friction(&d, d.thickness, &out[END], err);
+    out[BARE] = d.bare;
     layer_friction_model_clear(&d.friction_of);
     free(d.points);
     return status;
@@ -207,7 +211,6 @@ static wt_status draw_growth(const growth_inputs *g, growth *out, wt_error *err)
     const growth_replicates d = {*g, &r};
     out->n_draws = r.n;
     out->value = wt_alloc((1 + r.n) * out->stride, sizeof *out->value);
-    out->running_in_curve = wt_alloc((1 + r.n) * out->n, sizeof *out->running_in_curve);
     wt_layer_job job;
     layer_context nominal;
     wt_status status = draw_context(g, WT_NO_REPLICATE, NULL, &job, &nominal, err);
@@ -217,24 +220,9 @@ static wt_status draw_growth(const growth_inputs *g, growth *out, wt_error *err)
         status = replicates_draw(&r, out->stride, compute_replicate, &d, err);
     if (status == WT_OK && r.n > 0)
         memcpy(out->value + out->stride, r.value, r.n * out->stride * sizeof *r.value);
-    memcpy(out->line, r.draw, sizeof out->line);
-    out->n_lines = r.n_draws;
     snprintf(out->includes, sizeof out->includes, "%s", replicates_included_errors(&r));
     replicates_clear(&r);
     return status;
-}
-
-static void find_curves(growth *g)
-{
-    for (size_t k = 0; k <= g->n_draws; k++) {
-        const double *const v = g->value + k * g->stride;
-        double most = 0;
-        for (size_t i = 0; i < g->n; i++) {
-            g->running_in_curve[k * g->n + i] = v[GROWTH_QUANTITIES + i] - v[GROWTH_END];
-            most = fmax(most, fabs(g->running_in_curve[k * g->n + i]));
-        }
-        g->n_bare += isfinite(v[GROWTH_END]) && most <= 0;
-    }
 }
 
 wt_status growth_compute(const wt_sliding *sliding, const wt_layer_job *layer,
@@ -252,7 +240,7 @@ wt_status growth_compute(const wt_sliding *sliding, const wt_layer_job *layer,
                        .work = &own,
                        .n = layer->incubation ? TIMES_TRANSPORT : TIMES_RATES};
     measured_step_conditions(at, &g.sliding);
-    *out = (growth){.n = g.n, .stride = GROWTH_QUANTITIES + g.n};
+    *out = (growth){.n = g.n, .stride = N_FIRST + g.n};
     g.sliding.velocity = &g.velocity;
     g.sliding.n_velocity = 1;
     g.sliding.reference_velocity = g.velocity;
@@ -260,8 +248,6 @@ wt_status growth_compute(const wt_sliding *sliding, const wt_layer_job *layer,
     wt_status status = choose_times(&g, out, err);
     if (status == WT_OK)
         status = draw_growth(&g, out, err);
-    if (status == WT_OK)
-        find_curves(out);
     free(g.time);
     return status;
 }
@@ -269,27 +255,62 @@ wt_status growth_compute(const wt_sliding *sliding, const wt_layer_job *layer,
 void growth_clear(growth *g)
 {
     free(g->value);
-    free(g->running_in_curve);
     *g = (growth){.n = 0};
 }
 
-double growth_quantity_value(const growth *g, size_t k, growth_quantity number)
+static const double *draw_values(const growth *g, size_t k)
 {
-    return g->value[k * g->stride + (size_t)number];
+    return g->value + k * g->stride;
 }
 
-running_in_curve growth_curve(const growth *g, size_t k)
+double growth_bare_friction(const growth *g, size_t k, double time)
 {
-    return (running_in_curve){g->n, g->log_first, g->log_step, g->running_in_curve + k * g->n};
+    (void)time;
+    return draw_values(g, k)[BARE];
 }
 
+/* Friction is constant before the first time, and that of the steady state after the last. */
 double growth_friction_at(const growth *g, size_t k, double time)
 {
-    const running_in_curve c = growth_curve(g, k);
-    return growth_quantity_value(g, k, GROWTH_END) + running_in_curve_at(&c, log(time));
+    const double *const v = draw_values(g, k), *const friction = v + N_FIRST;
+    const double place = (log(time) - g->log_first) / g->log_step;
+    if (!(place > 0))
+        return friction[0];
+    if (place >= (double)(g->n - 1))
+        return v[END];
+    const size_t i = (size_t)place;
+    return friction[i] + (place - (double)i) * (friction[i + 1] - friction[i]);
 }
 
-double growth_standard_deviation(const growth *g, growth_function *of, double time)
+double growth_change(const growth *g, size_t k, double time)
+{
+    const double *const v = draw_values(g, k);
+    double most = isfinite(v[END]) ? 0 : (double)NAN;
+    (void)time;
+    for (size_t i = 0; i < g->n; i++)
+        if (fabs(v[END] - v[N_FIRST + i]) > fabs(most))
+            most = v[END] - v[N_FIRST + i];
+    return most;
+}
+
+double growth_settling_time(const growth *g, size_t k, double time)
+{
+    const double *const v = draw_values(g, k),
+                        limit = remainder_share * fabs(growth_change(g, k, time));
+    for (size_t i = g->n; limit > 0 && i-- > 0;) {
+        const double here = fabs(v[N_FIRST + i] - v[END]);
+        if (!(here > limit))
+            continue;
+        if (i + 1 == g->n)
+            return (double)NAN;
+        const double next = fabs(v[N_FIRST + i + 1] - v[END]),
+                     part = (here - limit) / (here - next);
+        return exp(g->log_first + ((double)i + part) * g->log_step);
+    }
+    return (double)NAN;
+}
+
+wt_estimate growth_estimate(const growth *g, growth_function *of, double time)
 {
     double sum = 0, squares = 0, n = 0;
     for (size_t k = 1; k <= g->n_draws; k++) {
@@ -300,5 +321,7 @@ double growth_standard_deviation(const growth *g, growth_function *of, double ti
             n++;
         }
     }
-    return n > 1 ? sqrt(fmax(squares - sum * sum / n, 0) / (n - 1)) : (double)NAN;
+    return (wt_estimate){of(g, 0, time),
+                         n > 1 ? sqrt(fmax(squares - sum * sum / n, 0) / (n - 1)) : (double)NAN,
+                         (double)NAN, NULL};
 }

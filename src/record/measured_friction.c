@@ -6,7 +6,6 @@
 #include "core/base/array.h"
 #include "core/base/clocale.h"
 #include "friction/sliding_contact.h"
-#include "record/numerics/running_in_curve.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -190,8 +189,8 @@ size_t measured_group_length(const measured *m, size_t first)
 
 /* ---- cycles of running-in -------------------------------------------------------------------- */
 
-/* Longer series are replaced by means over equal numbers of cycles, which bounds the work. */
-enum { MOST_MEANS = 1000 };
+/* Fewer cycles do not show a course. */
+enum { MIN_CYCLES = 16 };
 
 /* A sample at the start is that of the bare surface at one time, and no mean of a cycle. */
 static double remove_start(recorded_run *r)
@@ -216,7 +215,6 @@ static bool convert_midpoints_to_ends(recorded_run *r, double lost, bool from_st
         r->begin = 0.5 * first;
     }
     const double last = t[r->n - 1] - t[r->n - 2];
-    r->unsure = 0.5 * first / fmax(r->samples, 1);
     for (size_t i = 0; i + 1 < r->n; i++) {
         if (!(t[i + 1] > t[i]))
             return false;
@@ -259,7 +257,7 @@ static void read_cycles(const table_view *cycles, recorded_run *r)
         r->samples <= 1 && (laps[0] == 0 || slid[0] == 0 || (r->n > 0 && r->end[0] == 0));
     if (r->at.note[0] != '\0')
         r->note = r->at.note;
-    else if (r->n < RUNNING_IN_CURVE_MIN_MEANS + (size_t)from_start)
+    else if (r->n < MIN_CYCLES + (size_t)from_start)
         r->note = "too few cycles to follow friction in time";
     else if (!timed)
         r->note = "neither time nor distance of its cycles is known";
@@ -293,7 +291,6 @@ recorded_run *recorded_read(const table_view *record, const table_view *cycles,
                             .end = wt_alloc(cycles->n_rows, sizeof *r->end),
                             .friction = wt_alloc(cycles->n_rows, sizeof *r->friction),
                             .samples = record_get(record, row, RECORD_SAMPLES),
-                            .running_in = record_get(record, row, RECORD_RUNNING_IN),
                             .note = ""};
         read_cycles(cycles, r);
     }
@@ -307,43 +304,4 @@ void recorded_free(recorded_run *runs, size_t n)
         free(runs[i].friction);
     }
     free(runs);
-}
-
-static size_t count_cycles_until(const recorded_run *r, double until)
-{
-    size_t n = 0;
-    while (n < r->n && r->end[n] <= until)
-        n++;
-    return n;
-}
-
-static size_t mean_length(size_t n)
-{
-    return (n + MOST_MEANS - 1) / MOST_MEANS;
-}
-
-bool recorded_is_averaged(const recorded_run *r, double until)
-{
-    return mean_length(count_cycles_until(r, until)) > 1;
-}
-
-size_t recorded_mean_count(const recorded_run *r, double until)
-{
-    const size_t n = count_cycles_until(r, until);
-    return n > 0 ? n / mean_length(n) : 0;
-}
-
-running_in_series recorded_read_series(const recorded_run *r, double until)
-{
-    const size_t cycles = count_cycles_until(r, until),
-                 length = cycles > 0 ? mean_length(cycles) : 1;
-    running_in_series s = running_in_series_alloc(recorded_mean_count(r, until));
-    s.begin = r->begin;
-    s.unsure = r->unsure;
-    for (size_t i = 0; i < s.n; i++) {
-        s.end[i] = r->end[(i + 1) * length - 1];
-        for (size_t k = 0; k < length; k++)
-            s.friction[i] += r->friction[i * length + k] / (double)length;
-    }
-    return s;
 }

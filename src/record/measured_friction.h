@@ -4,7 +4,6 @@
 #define WT_RECORD_MEASURED_FRICTION_H
 
 #include "core/table/registry.h"
-#include "record/numerics/running_in_curve.h"
 #include "weartrack/friction.h"
 
 /* The conditions are those of the record. The case replaces conditions that the record does not
@@ -43,26 +42,17 @@ size_t measured_group_length(const measured *m, size_t first);
 /* First sliding step of a record, on a surface without a layer. Later steps begin with one. */
 typedef struct recorded_run {
     measured_step at;
-    size_t n, step;    /* cycles; number of the step in its file, from 1 on */
-    double begin;      /* start of the first cycle with a friction, from the start of sliding on
-                          [s] */
-    double samples;    /* samples in a cycle */
-    double unsure;     /* largest error of the start [s]: half a sample */
-    double *end;       /* [n] ends of the cycles, from the start of the step on [s] */
-    double *friction;  /* [n] */
-    double running_in; /* cycles of running-in, by the scatter alone; NaN if unknown */
-    const char *note;  /* reason of exclusion, or "" */
+    size_t n, step;   /* cycles; number of the step in its file, from 1 on */
+    double begin;     /* start of the first cycle with a friction, from the start of sliding on
+                         [s] */
+    double samples;   /* samples in a cycle */
+    double *end;      /* [n] ends of the cycles, from the start of the step on [s] */
+    double *friction; /* [n] */
+    const char *note; /* reason of exclusion, or "" */
 } recorded_run;
 
 /* Returns [*n] runs, freed by recorded_free. */
 recorded_run *recorded_read(const table_view *record, const table_view *cycles,
                             const wt_sliding *sliding, size_t *n);
 void recorded_free(recorded_run *runs, size_t n);
-/* Returns the cycles up to a time, as means over equal numbers of cycles. */
-running_in_series recorded_read_series(const recorded_run *r, double until);
-/* Returns the number of these means. */
-size_t recorded_mean_count(const recorded_run *r, double until);
-/* True if each mean holds more than one cycle. */
-bool recorded_is_averaged(const recorded_run *r, double until);
-
 #endif

@@ -54,7 +54,7 @@ static const double same_friction = 0.01;
 static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
 TABLE_ROW(record, RECORD, record_conditions at; wt_steady steady;
-          wt_interval drift, end, end_time, end_distance; const char *end_note; wt_stick_slip slips;
+          wt_interval drift, end, end_time, end_distance; const char *end_note;
           double zero, difference, samples, pauses, paused; size_t cycles, step;
           const char *averaged_over, *note, *file; steady_decay_kind decay; double left;)
 
@@ -202,15 +202,15 @@ static double mean_zero_offset(const wt_cycle *cycles, size_t n)
     return count > 0 ? sum / count : (double)NAN;
 }
 
-static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, const wt_cycle *cycle,
-                              size_t n, record_row *r, size_t *steady_start, wt_error *err)
+static wt_status measure_step(const wt_record_job *job, const wt_cycle *cycle, size_t n,
+                              record_row *r, size_t *steady_start, wt_error *err)
 {
     double *const y = wt_alloc(n, sizeof *y);
     for (size_t i = 0; i < n; i++)
         y[i] = cycle[i].coefficient;
     running_in_end end = find_running_in_end(job, y, n);
     const size_t from = end.steady_start < n ? end.steady_start : 0;
-    const wt_cycle *const steady = cycle + from, *const last = cycle + n - 1;
+    const wt_cycle *const steady = cycle + from;
     const wt_status status = wt_steady_mean(y + from, n - from, &r->steady, err);
     if (status == WT_OK && job->running_in == WT_RUNNING_IN_LIKELIHOOD &&
         (r->steady.drift.low * r->steady.drift.high > 0 || from > 0))
@@ -219,10 +219,6 @@ static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, co
         end.cycles = not_known;
         end.why_not = "it continues to the end of the record";
     }
-    r->slips = all->kind == WT_CYCLE_STROKE
-                   ? (wt_stick_slip){0, (double)NAN, (double)NAN}
-                   : wt_stick_slip_find(all->friction + steady->first,
-                                        last->first + last->n - steady->first);
     free(y);
     r->at = conditions_mean(steady, n - from);
     const double cycles = (double)(n - from) - 1; /* the drift is that of a cycle */
@@ -287,7 +283,7 @@ static wt_status add_steps(const wt_record_job *job, const wt_job *work, const w
                         .file = file};
         const wt_cycle *const cycle = cycles->cycle + first;
         n = conditions_step_length(cycle, cycles->n - first);
-        status = measure_step(job, cycles, cycle, n, &r, &from, err);
+        status = measure_step(job, cycle, n, &r, &from, err);
         if (status != WT_OK)
             return status;
         count_pauses(pauses, cycle, cycle + n - 1, &r, note, sizeof note);

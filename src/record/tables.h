@@ -40,12 +40,6 @@
                         SHOWS(end_distance))                                                       \
     X(RECORD_RUNNING_IN_NOTE, "running_in_note", "why there is no end of it", TEXT,                \
       SHOWS(end_note), LABEL("Note"))                                                              \
-    X(RECORD_STICK_SLIP, "stick_slip",                                                             \
-      "mean height of the falls of friction that exceed its scatter", NUMBER,                      \
-      SHOWS(slips.amplitude), LABEL("Stick-slip"), STANDARD_ERROR(RECORD_STICK_SLIP), SPARSE)      \
-    X(RECORD_STICK_SLIP_STANDARD_ERROR, "stick_slip_standard_error", "its standard error", NUMBER, \
-      SHOWS(slips.standard_error), LABEL("± stat."), SPARSE)                                       \
-    X(RECORD_SLIPS, "slips", "such falls", NUMBER, SHOWS(slips.n), LABEL("Slips"))                 \
     X(RECORD_ZERO, AS(zero),                                                                       \
       "zero of a reciprocating record: half of there and back with their signs, as a coefficient", \
       NUMBER, LABEL("Zero"), SPARSE)                                                               \

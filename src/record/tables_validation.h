@@ -75,11 +75,6 @@
       LABEL("Is that shear stress plausible"), OPTIONAL)                                           \
     X(VALIDATION_KEY_SHAPE, "verdict_with_needed", TEXT,                                           \
       LABEL("With the shear stress that it asks for"), OPTIONAL)                                   \
-    X(VALIDATION_KEY_CUTOFF, "largest_wavenumber_needed", SI(WAVENUMBER),                          \
-      LABEL("Largest wavenumber q1 that the record asks for, all else as used"), OPTIONAL)         \
-    KEY_BOUNDS(X, VALIDATION_KEY_CUTOFF, "largest_wavenumber_needed", SI(WAVENUMBER), "q1 needed") \
-    X(VALIDATION_KEY_CUTOFF_NOTE, "largest_wavenumber_note", TEXT,                                 \
-      LABEL("Largest wavenumber q1 needed"), OPTIONAL)                                             \
     X(VALIDATION_KEY_WEAR_RATIO, "wear_ratio", UNIT("1"),                                          \
       LABEL("Specific wear rate, measured over used"), OPTIONAL)                                   \
     KEY_BOUNDS(X, VALIDATION_KEY_WEAR_RATIO, "wear_ratio", NUMBER, "Wear rate ratio")              \
@@ -125,10 +120,6 @@
     X(VALIDATION_SOURCES_NEEDED_SHARE, AS(needed_share),                                           \
       "of the variance of the shear stress that is asked for", NUMBER,                             \
       LABEL("Share of the shear stress needed"), SPARSE)                                           \
-    X(VALIDATION_SOURCES_PULL, AS(pull), "how far the record moves it, in its standard errors",    \
-      NUMBER, LABEL("Moved by the record"), SPARSE)                                                \
-    X(VALIDATION_SOURCES_PULL_ERROR, AS(pull_error), "what is left of its standard error then",    \
-      NUMBER, LABEL("Left of its error"), SPARSE)                                                  \
     X(VALIDATION_SOURCES_REMEDY, AS(remedy), "what reduces it", TEXT, LABEL("What reduces it"))
 #define VALIDATION_SOURCES_KEYS(X)                                                                 \
     X(VALIDATION_SOURCES_KEY_ADVICE, "advice", TEXT, LABEL("What would narrow it most"))
@@ -142,11 +133,13 @@
     X(VALIDATION_RUNNING_IN_PRESSURE, IN(at, pressure),                                            \
       "nominal pressure that it is predicted at", SI(PRESSURE), LABEL("Pressure"))                 \
     NUMBER_AND_INTERVAL(X, VALIDATION_RUNNING_IN_SETTLED, "settled_measured",                      \
-                        "time until 5 % of the change of friction are left, as measured",          \
+                        "time until 5 % of the change of friction are left, by the predicted "     \
+                        "course that lies nearest to the record",                                  \
                         SI(TIME), "Steady after, measured", SHOWS(settled))                        \
     X(VALIDATION_RUNNING_IN_PREDICTED, "settled_predicted",                                        \
-      "the same as predicted with the layer", SI(TIME), SHOWS(predicted), LABEL("predicted"),      \
-      STANDARD_ERROR(VALIDATION_RUNNING_IN_PREDICTED), SPARSE)                                     \
+      "time until 5 % of the change of friction are left, as predicted with the layer", SI(TIME),  \
+      SHOWS(predicted), LABEL("predicted"), STANDARD_ERROR(VALIDATION_RUNNING_IN_PREDICTED),       \
+      SPARSE)                                                                                      \
     X(VALIDATION_RUNNING_IN_PREDICTED_STANDARD_ERROR, "settled_predicted_standard_error",          \
       "its standard error", SI(TIME), LABEL("± stat."), SPARSE)                                    \
     NUMBER_AND_INTERVAL(X, VALIDATION_RUNNING_IN_TIME_RATIO, "time_ratio",                         \
@@ -158,53 +151,28 @@
       SPARSE)                                                                                      \
     X(VALIDATION_RUNNING_IN_CHANGE_STANDARD_ERROR, "change_predicted_standard_error",              \
       "its standard error", NUMBER, LABEL("± stat."), SPARSE)                                      \
-    NUMBER_AND_INTERVAL(X, VALIDATION_RUNNING_IN_CHANGE_RATIO, "change_ratio",                     \
-                        "change of friction measured over predicted", NUMBER,                      \
-                        "Change, measured over predicted", SHOWS(change_ratio))                    \
     X(VALIDATION_RUNNING_IN_NOTE, AS(note), "what is lacking", TEXT, LABEL("Note"))                \
     X(VALIDATION_RUNNING_IN_FILE, AS(file), "file of the record", TEXT, LABEL("File"))
 #define VALIDATION_RUNNING_IN_KEYS(X)                                                              \
-    X(VALIDATION_RUNNING_IN_KEY_VERDICT, "verdict", ENUM(stated_verdict),                          \
-      HEADLINE("Running-in with the layer against the record"))                                    \
-    X(VALIDATION_RUNNING_IN_KEY_TEST, "test", TEXT, LABEL("Test"))                                 \
-    X(VALIDATION_RUNNING_IN_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("How to decide it"),         \
-      OPTIONAL)                                                                                    \
     X(VALIDATION_RUNNING_IN_KEY_TIME_RATIO, "time_ratio", UNIT("1"),                               \
       HEADLINE("Running-in time, measured over predicted"), OPTIONAL)                              \
     KEY_BOUNDS(X, VALIDATION_RUNNING_IN_KEY_TIME_RATIO, "time_ratio", NUMBER, "Time ratio")        \
-    X(VALIDATION_RUNNING_IN_KEY_CHANGE_RATIO, "change_ratio", UNIT("1"),                           \
-      LABEL("Change of friction in it, measured over predicted"), OPTIONAL)                        \
-    KEY_BOUNDS(X, VALIDATION_RUNNING_IN_KEY_CHANGE_RATIO, "change_ratio", NUMBER, "Change ratio")  \
-    X(VALIDATION_RUNNING_IN_KEY_WEAR, "specific_wear_rate_needed", SI(WEAR_RATE),                  \
-      LABEL("Specific wear rate that the running-in time asks for, thickness as predicted"),       \
-      OPTIONAL)                                                                                    \
-    KEY_BOUNDS(X, VALIDATION_RUNNING_IN_KEY_WEAR, "specific_wear_rate_needed", SI(WEAR_RATE),      \
-               "Wear rate needed")                                                                 \
-    X(VALIDATION_RUNNING_IN_KEY_ENERGY, "critical_energy_needed", SI(ENERGY_DENSITY),              \
-      LABEL("Critical energy that it asks for with that"), OPTIONAL)                               \
-    KEY_BOUNDS(X, VALIDATION_RUNNING_IN_KEY_ENERGY, "critical_energy_needed", SI(ENERGY_DENSITY),  \
-               "Critical energy needed")                                                           \
-    X(VALIDATION_RUNNING_IN_KEY_AGREES, "wear_agrees", TEXT,                                       \
-      LABEL("That wear rate against the one that was measured"), OPTIONAL)                         \
-    X(VALIDATION_RUNNING_IN_KEY_RUNS, "n_runs", PLAIN, LABEL("Running-ins compared"))              \
+    X(VALIDATION_RUNNING_IN_KEY_RUNS, "n_runs", PLAIN, LABEL("Running-ins predicted"))             \
     X(VALIDATION_RUNNING_IN_KEY_INCLUDES, "includes", TEXT, LABEL("Errors in the prediction"))     \
     X(VALIDATION_RUNNING_IN_KEY_REMARKS, "remarks", TEXT, LABEL("Assumed"), OPTIONAL)
 
 /* Friction during the running-in: each row is a time, each block is a record. */
 #define VALIDATION_COURSE_COLUMNS(X)                                                               \
     X(VALIDATION_COURSE_TIME, AS(time), "time from the start of the record on", SI(TIME))          \
-    NUMBER_AND_INTERVAL(X, VALIDATION_COURSE_MEASURED, "friction_measured",                        \
-                        "mean friction coefficient of the cycles about it", NUMBER, "Measured",    \
-                        SHOWS(measured))                                                           \
+    X(VALIDATION_COURSE_MEASURED, "friction_measured",                                             \
+      "mean friction coefficient of the cycles about it", NUMBER, SHOWS(measured),                 \
+      LABEL("Measured"))                                                                           \
     STEP_NUMBER(X, VALIDATION_COURSE_LAYER, "friction_with_layer",                                 \
                 "friction coefficient as predicted while the layer grows", "With layer",           \
                 SHOWS(layered))                                                                    \
     STEP_NUMBER(X, VALIDATION_COURSE_BARE, "friction_without_layer",                               \
                 "friction coefficient as predicted without a layer", "Without", SHOWS(bare))       \
-    X(VALIDATION_COURSE_FITTED, AS(fitted),                                                        \
-      "the predicted course in the time and with the change that the record asks for", NUMBER,     \
-      SPARSE)                                                                                      \
     X(VALIDATION_COURSE_FILE, AS(file), "file of the record", TEXT)
-#define VALIDATION_COURSE_KEYS(X) X(VALIDATION_COURSE_KEY_VERDICT, "verdict", TEXT)
+#define VALIDATION_COURSE_KEYS(X)
 
 #endif

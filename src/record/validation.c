@@ -156,24 +156,16 @@ static void required_shear_set_keys(const validation *v, table_writer *t)
 /* Friction of one pair of materials on a pin-on-disc tribometer differs by about 20 % between
  * laboratories (ASTM G99, interlaboratory test). A theory within this margin explains it. */
 static const double reproducibility = 0.2;
-/* Running-in times are inverse to the wear rate, which is hardly known to better than a factor of
- * two. */
-static const double time_reproducibility = 1;
 
 wt_validation_job wt_validation_job_defaults(void)
 {
-    return (wt_validation_job){
-        .margin = reproducibility, .running_in_margin = time_reproducibility, .wanted = true};
+    return (wt_validation_job){.margin = reproducibility, .wanted = true};
 }
 
 static const wt_param rows[] = {
     {PARAM("margin", wt_validation_job, margin, WT_Q_NONE, FROM_TO(0.01, 1)), .value = "X",
      .help = "measured over predicted friction that is treated as agreement: 0.2 is from 1/1.2 to "
              "1.2, about what laboratories differ by (ASTM G99)"},
-    {PARAM("running-in-margin", wt_validation_job, running_in_margin, WT_Q_NONE, FROM_TO(0.05, 20)),
-     .value = "X",
-     .help = "time and change of a running-in over those predicted with the layer that are treated "
-             "as agreement: 1 is from 1/2 to 2, as a wear rate is hardly known better"},
     {PARAM_FLAG_OF("validate", wt_validation_job, wanted), .flags = PARAM_NO_OPTION,
      .help = "whether a run compares the records with the prediction of the case, also where "
              "figures or results are listed"},
@@ -366,9 +358,7 @@ static wt_status set_validation_keys(const validation *v, const source_advice *a
     if (v->has_shear)
         validation_set(t, VALIDATION_KEY_SHEAR, flow_stated_estimate(v->used.sliding.shear_stress));
     required_shear_set_keys(v, t);
-    wt_status status = v->has_shear ? required_cutoff_set_keys(v, t, err) : WT_OK;
-    if (status == WT_OK)
-        status = set_wear(v, t, err);
+    const wt_status status = set_wear(v, t, err);
     validation_set_print(t, VALIDATION_KEY_STEPS, "%zu", v->steps.n);
     validation_set_print(t, VALIDATION_KEY_LEFT_OUT, "%zu", v->steps.n_all - v->steps.n);
     if (v->steps.remarks[0] != '\0')

@@ -70,8 +70,6 @@ wt_status model_variant_fit(const prediction *p, const measured *steps, model_va
                             const void *user, const double *measurement_variance, uint64_t seed,
                             size_t most_terms, model_variant *t, wt_error *err) WT_NODISCARD;
 void model_variant_clear(model_variant *t);
-/* Returns the input of the fit; its arrays are borrowed from `t`. */
-agreement_data model_variant_agreement_data(const model_variant *t);
 
 /* ln(measured/predicted) friction. shear: [1 + n_draws] shear stress of the nominal values and of
  * the draws [Pa]. */
@@ -123,8 +121,6 @@ typedef struct validation {
 
 /* Returns ln of the factor within which measured and predicted friction agree. */
 double validation_margin(const validation *v);
-/* Returns the variance of ln of the model discrepancy: 95 % of it are within the margin. */
-double validation_discrepancy_variance(const validation *v);
 /* Text such as "yes: ..." for a model variant of the ratio. */
 typedef struct verdict_text {
     char text[256];
@@ -138,17 +134,11 @@ mean_ratio mean_ratio_compute(const model_variant *t); /* row: freed by the call
 /* Returns the 95 % interval of exp(value). */
 wt_interval validation_factor(double value, double error, double df);
 
-/* Sets the keys of the required largest wavenumber, all else as used. */
-wt_status required_cutoff_set_keys(const validation *v, table_writer *t,
-                                   wt_error *err) WT_NODISCARD;
-
 /* Advice of the table "validation_sources": what narrows the interval most, and how to decide an
  * inconclusive verdict. */
 typedef struct source_advice {
     char narrows[320], settles[320];
 } source_advice;
-/* Returns the name of a draw and the remedy that reduces its error. */
-const char *draw_source_name(flow_draw draw, const char **remedy);
 wt_status error_sources_tabulate(const validation *v, source_advice *advice, wt_table **table,
                                  wt_error *err) WT_NODISCARD;
 

@@ -132,7 +132,6 @@ static const struct result_part {
     KEYS(transverse_isotropy, "What the directions of the material do"),
     KEYS(softening, "What softening with strain does"),
     KEYS(flash, "What the flash temperature does"),
-    KEYS(anisotropy, "What the direction of sliding does"),
     KEYS(friction_decades, "Which length scales make the friction"),
     KEYS(layer, "Balance of the modified layer"),
     KEYS(identification, "Critical energy and wear rate of the layer that is seen"),

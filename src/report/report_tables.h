@@ -13,7 +13,7 @@
     X(modulus_groups) X(modulus_budget) X(modulus_depth) X(modulus_rate) X(comparison) X(track_layer) X(dma_comparison) X(shift_factors)             \
     X(ramp) X(glass_transition) X(moduli_at) X(payne) X(payne_sweep) X(master_curve) X(prony) X(prony_reduced) X(influences) X(relaxation_spectrum) X(material_draws) X(series_draws) X(roughness) X(friction)            \
     X(contact_area) X(layer) X(energy_density) X(identification) X(what_if) X(error_budget)      \
-    X(work_precision) X(transverse_isotropy) X(softening) X(flash) X(anisotropy) X(friction_decades) X(spot) X(collection) X(collected_modulus) X(collected_friction) X(collected_ramp) X(collected_force) X(ratio_pairs) X(power_spectrum) X(angular_spectrum) X(surfaces) X(height_map) X(height_profile) X(record) X(record_cycles) X(wear) X(validation) X(validation_running_in) X(validation_course) X(validation_sources)
+    X(work_precision) X(transverse_isotropy) X(softening) X(flash) X(friction_decades) X(spot) X(collection) X(collected_modulus) X(collected_friction) X(collected_ramp) X(collected_force) X(ratio_pairs) X(power_spectrum) X(angular_spectrum) X(surfaces) X(height_map) X(height_profile) X(record) X(record_cycles) X(wear) X(validation) X(validation_running_in) X(validation_course) X(validation_sources)
 /* clang-format on */
 
 typedef struct figure_tables {

@@ -239,9 +239,8 @@ static wt_status sweep_tolerance(precision_problem *o, wt_error *err)
             reference[k].numerical_error / fabs(reference[k].value);
     if (status == WT_OK)
         status = sweep_values(o, BY_TOLERANCE, solve_tolerance, reference, err);
-    /* the textbook method has no softening, anisotropy, gamma or layer */
-    if (status != WT_OK || o->first > 0 || o->current.has_softness ||
-        o->current.sliding.gamma < 1 || anisotropy_is_present(&o->current.sliding.anisotropy))
+    /* the textbook method has no softening, gamma or layer */
+    if (status != WT_OK || o->first > 0 || o->current.has_softness || o->current.sliding.gamma < 1)
         return status;
     const wt_layer_state none = {.thickness = 0, .modulus_ratio = 1};
     status = sliding_contact_create(&o->current.sliding, &o->work, WT_NO_REPLICATE, NULL, none,

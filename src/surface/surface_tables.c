@@ -121,8 +121,7 @@ TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hu
            wt_estimate steep; const char *steep_by;
            wt_estimate extrapolated_share, place_scatter, place_error, anisotropy,
            anisotropy_direction, anisotropy_fourth, anisotropy_fourth_direction;
-           const char *directions, *profiles, *includes, *lacks, *option, *anisotropy_option,
-           *convention;
+           const char *directions, *profiles, *includes, *lacks, *option, *convention;
            size_t n_scans;)
 TABLE_ROW(angular_spectrum, ANGULAR_SPECTRUM, double direction; wt_interval ratio;
           double terms, modes;)
@@ -217,35 +216,6 @@ static void print_roughness_option(const surface_result *w, char *to, size_t siz
                       w->law.hurst.value, w->law.c0.value);
 }
 
-/* Returns the significant orders for friction. The angles of the texture refer to the velocity,
- * here along x, from 0 to a turn divided by the order. */
-static wt_anisotropy significant_anisotropy(const surface_result *w)
-{
-    const wt_surface_anisotropy *const found[] = {&w->directions, &w->fourth};
-    wt_anisotropy a = {{0}, {0}};
-    for (size_t k = 0; k < sizeof found / sizeof *found; k++) {
-        if (!surface_is_anisotropic(found[k]))
-            continue;
-        a.amplitude[k] = found[k]->amplitude;
-        a.angle[k] = found[k]->direction < 0 ? found[k]->direction + M_PI / (double)(k + 1)
-                                             : found[k]->direction;
-    }
-    return a;
-}
-
-/* Formats the options of friction for sliding along x, which has the second order only. The result
- * is "none" if that order is not significant, or if it makes the spectrum negative. */
-static void print_anisotropy(const surface_result *w, char *to, size_t size)
-{
-    wt_anisotropy a = significant_anisotropy(w);
-    a.amplitude[1] = 0;
-    if (a.amplitude[0] > 0 && wt_anisotropy_check(&a, NULL) == WT_OK)
-        clocale_print(to, size, "--anisotropy %.4g --texture-angle %.4gdeg", a.amplitude[0],
-                      a.angle[0] * 180 / M_PI);
-    else
-        clocale_print(to, size, "none");
-}
-
 static wt_status build_angular_table(const surface_result *w, wt_table **table, wt_error *err)
 {
     const wt_surface_anisotropy *two = &w->directions, *four = &w->fourth;
@@ -279,7 +249,7 @@ static const char *density_error_sources(const surface_result *w, bool places)
 static wt_status build_spectrum_table(const surface_result *w, size_t n_scans, wt_table **table,
                                       wt_error *err)
 {
-    char law[256], directions[256], profiles[400], option[256], anisotropy[256];
+    char law[256], directions[256], profiles[400], option[256];
     const wt_surface_spectrum *s = &w->spectrum;
     const bool places = !isnan(s->place_scatter), rolls_off = w->law.rolls_off && w->law.found;
     const double nan = (double)NAN;
@@ -289,7 +259,6 @@ static wt_status build_spectrum_table(const surface_result *w, size_t n_scans, w
     print_directions(w, directions, sizeof directions);
     surface_describe_profiles(w, profiles, sizeof profiles);
     print_roughness_option(w, option, sizeof option);
-    print_anisotropy(w, anisotropy, sizeof anisotropy);
     TABLE_SET(power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
               .hurst = interval_estimate(w->law.hurst, w->law.found),
               .hurst_low = plain_estimate(w->law.found ? w->law.hurst.low : nan, 0),
@@ -319,7 +288,7 @@ static wt_status build_spectrum_table(const surface_result *w, size_t n_scans, w
               .lacks = places ? "calibration of the scanner, noise of the instrument"
                               : "places of the surface, calibration of the scanner, noise of the "
                                 "instrument",
-              .option = option, .anisotropy_option = anisotropy,
+              .option = option,
               .convention = "h_rms^2 = 2 pi int q C dq; of contact.engineering: (2 pi)^2 C",
               .n_scans = n_scans);
     return table_end(&t, table);

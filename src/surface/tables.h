@@ -76,8 +76,6 @@
     X(POWER_SPECTRUM_KEY_LACKS, "standard_error_excludes", TEXT, SHOWS(lacks),                     \
       LABEL("No error known of"), OPTIONAL)                                                        \
     X(POWER_SPECTRUM_KEY_OPTION, "roughness_option", TEXT, SHOWS(option), OPTIONAL)                \
-    X(POWER_SPECTRUM_KEY_ANISOTROPY_OPTION, AS(anisotropy_option), TEXT,                           \
-      LABEL("Options of friction for sliding along x"), OPTIONAL)                                  \
     X(POWER_SPECTRUM_KEY_CONVENTION, "convention", TEXT, SHOWS(convention), OPTIONAL)              \
     X(POWER_SPECTRUM_KEY_N_SCANS, "n_scans", PLAIN, SHOWS(n_scans))
 

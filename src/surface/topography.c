@@ -183,8 +183,7 @@ static void warn_surface(const surface_result *w, size_t n, const wt_job *work)
     if (w->directions.amplitude > least_anisotropy && surface_is_anisotropic(&w->directions))
         wt_log_add(work->log, WT_WARNING, NULL, NULL,
                    "the surface is not the same in all directions: the density varies by %.0f "
-                   "%% about its mean, which is reported; friction depends on the direction of "
-                   "sliding",
+                   "%% about its mean, which is reported; friction is computed with the mean",
                    100 * w->directions.amplitude);
     /* a self-affine surface has exponents of 0 to 1 (Mandelbrot, Phys. Scr. 32 (1985) 257) */
     if (w->law.found && (w->law.hurst.low > 1 || w->law.hurst.high < 0))

@@ -26,7 +26,7 @@ sed -e '/spot="[bt][234]"/d' -e 's/radius=20nm/radius=2um/' -e 's/<temperature>3
 "$weartrack" report -q dma.h5 -o dma.html
 "$weartrack" record -q "$fixtures/record/steps.csv" -o record.h5 >/dev/null 2>&1 || [ $? -eq 3 ]
 "$weartrack" report -q record.h5 -o record.html
-"$weartrack" run -q "$fixtures/texture/case.xml" -o texture.h5 --report texture.html >/dev/null
+"$weartrack" run -q "$fixtures/decades/case.xml" -o decades.h5 --report decades.html >/dev/null
 
 # A script writes its results into the document, which the browser prints. A page is in a frame of each
 # width, because no window is as narrow as a telephone. The paper width of 180 mm (between the margins of
@@ -129,7 +129,7 @@ async function all(text) {
 }
 JUDGE
 
-for name in case warned dma texture record; do
+for name in case warned dma decades record; do
   { echo '<!DOCTYPE html><meta charset="utf-8"><body><script>'; cat judge.js
     printf 'all(new TextDecoder().decode(Uint8Array.from(atob("'; base64 -w0 "$name.html"; echo '"), c => c.charCodeAt(0))));</script>'
   } > judge.html

@@ -7,7 +7,7 @@ weartrack=$1 page=$2 fixtures=$3 work=$4
 rm -rf "$work"; mkdir -p "$work/bin"; cd "$work"
 ln -s "$weartrack" bin/weartrack
 PATH=$work/bin:$PATH
-cp -R "$fixtures/case" "$fixtures/compounds" "$fixtures/dma" "$fixtures/severity" "$fixtures/surface" "$fixtures/texture" "$fixtures/transverse" .
+cp -R "$fixtures/case" "$fixtures/compounds" "$fixtures/dma" "$fixtures/severity" "$fixtures/surface" "$fixtures/decades" "$fixtures/transverse" .
 chmod -R u+w case
 sed -n '/^\.RS$/,/^\.RE$/{/^\.R[SE]$/d;s/\\-/-/g;p;}' "$page" >session
 cd case

@@ -205,32 +205,15 @@ static bool read_validation(const study_truth *truth, const char *result, const 
 }
 
 /* Without a layer (`soft` is not set) there is no change and no time. */
-static bool read_running_in(const study_truth *truth, bool soft, int c, int k, const char *result,
+static bool read_running_in(const study_truth *truth, int c, int k, const char *result,
                             const char *path, trial *t)
 {
     stream *found = read_result_table(result, PLACE_VALIDATION_RUNNING_IN, path, t);
-    const verdict said =
-        found != NULL ? place_friction_verdict(found, PLACE_VALIDATION_RUNNING_IN) : NO_VERDICT;
-    const char *wear =
-        found != NULL ? stream_key(found, PLACE_VALIDATION_RUNNING_IN, PLACE_WEAR_AGREES) : NULL;
-    if (said != NO_VERDICT)
-        read_certain(t, Q_SAID_RUNNING_IN, said == NO, said != INCONCLUSIVE);
-    if (said != NO_VERDICT && wear != NULL && soft) {
-        const bool wrong = strncmp(wear, PLACE_CONTRADICTS, strlen(PLACE_CONTRADICTS)) == 0;
-        read_certain(t, Q_SAID_WEAR, wrong,
-                     strncmp(wear, PLACE_INCONCLUSIVE, strlen(PLACE_INCONCLUSIVE)) != 0);
-    }
-    if (said != NO_VERDICT && soft) {
-        trial_add(t, Q_CHANGE_RATIO, 1, place_key(found, &place_change_ratio));
-        trial_add(t, Q_TIME_RATIO, 1, place_key(found, &place_time_ratio));
-        trial_add(t, Q_NEEDED_WEAR, truth->wear_rate[k], place_key(found, &place_needed_wear));
-        trial_add(t, Q_NEEDED_ENERGY, truth->critical_energy[c],
-                  place_key(found, &place_needed_energy));
+    if (found != NULL)
         trial_add(t, Q_SETTLED, truth->growth[c][k].settled,
-                  place_row(found, &place_settled_measured, 0));
-    }
+                  place_row(found, &place_settled_predicted, 0));
     stream_free(found);
-    return said != NO_VERDICT;
+    return found != NULL;
 }
 
 static bool read_record(const collection_scene *s, const study_truth *truth, int c, int k,
@@ -274,9 +257,9 @@ static bool read_case(const collection_scene *s, const study_truth *truth, int c
         trial_broke(t, "another number of steps, or no wear");
     else if (!read_validation(truth, result, path, t))
         trial_broke(t, "no verdict on the record");
-    else if (s->running_in &&
-             !read_running_in(truth, s->cases[c][k].ratio < 1, c, k, result, path, t))
-        trial_broke(t, "no verdict on the running-in");
+    else if (s->running_in && s->cases[c][k].ratio < 1 &&
+             !read_running_in(truth, c, k, result, path, t))
+        trial_broke(t, "no running-in");
     return t->draw->outcome == OUTCOME_GOOD;
 }
 

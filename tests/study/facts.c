@@ -45,13 +45,7 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_SAID_DIFFERS] = {"said_differs", false},
     [Q_SAID_PAIR] = {"said_pair", false},
     [Q_SAID_RECORD] = {"said_record", false},
-    [Q_SAID_RUNNING_IN] = {"said_running_in", false},
-    [Q_SAID_WEAR] = {"said_wear", false},
     [Q_SETTLED] = {"settled", true},
-    [Q_TIME_RATIO] = {"time_ratio", true},
-    [Q_CHANGE_RATIO] = {"change_ratio", true},
-    [Q_NEEDED_WEAR] = {"needed_wear", true},
-    [Q_NEEDED_ENERGY] = {"needed_energy", true},
     [Q_ALLOWED] = {"allowed_thickness", false},
     [Q_BOTH] = {"thickness_of_both", false},
 };

@@ -54,13 +54,7 @@ typedef enum quantity {
     Q_SAID_DIFFERS,
     Q_SAID_PAIR,
     Q_SAID_RECORD,
-    Q_SAID_RUNNING_IN,
-    Q_SAID_WEAR,    /* The time of a running-in agrees with the wear, or contradicts it. */
-    Q_SETTLED,      /* time after which friction is steady */
-    Q_TIME_RATIO,   /* measured over predicted */
-    Q_CHANGE_RATIO, /* the same for the change of friction in the running-in */
-    Q_NEEDED_WEAR,  /* wear rate that a running-in requires */
-    Q_NEEDED_ENERGY,
+    Q_SETTLED, /* time after which friction is steady */
     Q_ALLOWED, /* ln of the layer thickness [nm] that the curves allow */
     Q_BOTH,    /* the same for the curves and another source together */
     Q_COUNT

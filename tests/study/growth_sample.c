@@ -24,11 +24,6 @@ static const contact stated = {.q0 = 2e3,
                                .wear_rate = 1e-12,
                                .critical_energy = 2e10};
 
-double growth_or_one(double x)
-{
-    return x > 0 || x < 0 ? x : 1;
-}
-
 bool growth_make(const growth_scene *s, random_source *random, growth_made *m)
 {
     const rubber lines = rubber_make(RUBBER_LINES);
@@ -44,7 +39,7 @@ bool growth_make(const growth_scene *s, random_source *random, growth_made *m)
     if (!growth_solve(&stated, &state, is_stated_ratio, s->transport, &expected) ||
         !growth_solve(&m->truth, &state, ratio, s->transport, &m->growth))
         return false;
-    m->length = (s->lengths > 0 ? s->lengths : 4) * expected.settled;
+    m->length = 4 * expected.settled;
     return true;
 }
 
@@ -66,9 +61,8 @@ bool growth_write_case(const growth_scene *s, const growth_made *m, const char *
         return false;
     fprintf(out, "<sliding><pressure>%gPa +- %g%%</pressure><velocity>%gm/s</velocity>",
             stated.pressure, 100 * s->of_inputs, velocity);
-    if (!s->unsaid)
-        fprintf(out, "<shear-stress>%gPa +- %g%%</shear-stress>", stated.shear_stress,
-                100 * s->of_inputs);
+    fprintf(out, "<shear-stress>%gPa +- %g%%</shear-stress>", stated.shear_stress,
+            100 * s->of_inputs);
     fprintf(out,
             "</sliding><layer><specific-wear-rate>%gm^2/N +- %g%%</specific-wear-rate>"
             "<critical-energy>%gJ/m^3 +- %g%%</critical-energy><incubation>%s</incubation>"
@@ -81,57 +75,32 @@ bool growth_write_case(const growth_scene *s, const growth_made *m, const char *
     return ferror(out) == 0 && fclose(out) == 0;
 }
 
-/* Friction of the scene at a time. */
-static double friction_at(const growth_scene *s, const growth_made *m, double time)
-{
-    const double off =
-        growth_friction(&m->growth, time / growth_or_one(s->off_time)) - m->growth.end;
-    return m->growth.end + (s->flat ? 0 : growth_or_one(s->off_change)) * off;
-}
-
-static double mean_friction(const growth_scene *s, const growth_made *m, double from, double length)
+static double mean_friction(const growth_made *m, double from, double length)
 {
     double sum = 0;
     for (int i = 0; i < WITHIN; i++)
-        sum += friction_at(s, m, from + length * (i + 0.5) / WITHIN);
+        sum += growth_friction(&m->growth, from + length * (i + 0.5) / WITHIN);
     return sum / WITHIN;
-}
-
-/* Writes one row of a lap. */
-static void write_row(const growth_scene *s, const growth_made *m, int i, double lap, double off,
-                      FILE *out)
-{
-    const double label = i + (s->rows == ROWS_ABOUT   ? 0.5
-                              : s->rows == ROWS_UNTIL ? 1
-                                                      : 0),
-                 friction = s->rows == ROWS_AT ? friction_at(s, m, lap * i)
-                                               : mean_friction(s, m, lap * i, lap);
-    fprintf(out, "%.9g,%.9g,%.9g,%.9g\n", lap * label, label, 1e3 * velocity, friction + off);
 }
 
 bool growth_write_record(const growth_scene *s, const growth_made *m, const char *path,
                          random_source *random)
 {
-    enum { FOR_SLOW = 20 };
     const int laps = s->laps > 0 ? s->laps : LAPS, samples = s->samples > 0 ? s->samples : SAMPLES;
-    const double noise = s->noise > 0 ? s->noise : 0.002, lap = m->length / laps,
-                 memory = exp(-1.0 / FOR_SLOW), share = s->slow;
-    double slow = random_normal(random);
+    const double noise = 0.002, lap = m->length / laps;
     FILE *out = fopen(path, "w");
     if (out == NULL)
         return false;
+    /* fixtures/growth was drawn with a slow scatter of size 0 */
+    (void)random_normal(random);
     fprintf(out, "time (s),laps,velocity (mm/s),mu\n");
     for (int i = 0; i < laps; i++) {
-        slow = memory * slow + sqrt(1 - memory * memory) * random_normal(random);
-        const double off = noise * (sqrt(share) * slow + sqrt(1 - share) * random_normal(random));
-        if (s->rows != ROWS_IN_LAP) {
-            write_row(s, m, i, lap, off, out);
-            continue;
-        }
+        (void)random_normal(random);
+        const double off = noise * random_normal(random);
         for (int k = 0; k < samples; k++)
             fprintf(out, "%.9g,%.9g,%.9g,%.9g\n", lap * (i + k / (double)samples),
                     i + k / (double)samples, 1e3 * velocity,
-                    mean_friction(s, m, lap * (i + k / (double)samples), lap / samples) + off);
+                    mean_friction(m, lap * (i + k / (double)samples), lap / samples) + off);
     }
     return ferror(out) == 0 && fclose(out) == 0;
 }

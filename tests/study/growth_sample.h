@@ -13,8 +13,6 @@ typedef struct growth_made {
     double length; /* time of the record [s] */
 } growth_made;
 
-/* Member of a scene, or 1 for 0. */
-double growth_or_one(double x);
 /* Returns false without a layer. */
 bool growth_make(const growth_scene *s, random_source *random, growth_made *m);
 bool growth_write_case(const growth_scene *s, const growth_made *m, const char *path);

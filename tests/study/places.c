@@ -72,17 +72,8 @@ const place place_collected_modulus = {"collected_modulus", "modulus", NULL, "mo
 const place place_collected_friction = {"collected_friction", "friction", "friction_standard_error",
                                         NULL, NULL};
 const place place_pair = {"ratio_pairs", "ratio", NULL, "ratio_low", "ratio_high"};
-static const char running_in[] = PLACE_VALIDATION_RUNNING_IN;
-const place place_settled_measured = {running_in, "settled_measured", NULL, "settled_measured_low",
-                                      "settled_measured_high"};
-const place place_time_ratio = {running_in, "time_ratio", NULL, "time_ratio_low",
-                                "time_ratio_high"};
-const place place_change_ratio = {running_in, "change_ratio", NULL, "change_ratio_low",
-                                  "change_ratio_high"};
-const place place_needed_wear = {running_in, "specific_wear_rate_needed", NULL,
-                                 "specific_wear_rate_needed_low", "specific_wear_rate_needed_high"};
-const place place_needed_energy = {running_in, "critical_energy_needed", NULL,
-                                   "critical_energy_needed_low", "critical_energy_needed_high"};
+const place place_settled_predicted = {PLACE_VALIDATION_RUNNING_IN, "settled_predicted",
+                                       "settled_predicted_standard_error", NULL, NULL};
 
 static const double normal95 = 1.959963984540054;
 

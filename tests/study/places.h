@@ -48,9 +48,7 @@ extern const place place_collected_modulus, place_collected_friction, place_pair
 #define PLACE_PAUSED "paused_time"
 #define PLACE_ROUGHNESS "roughness" /* quantity of a surface that friction uses */
 
-extern const place place_settled_measured, place_time_ratio,
-    place_change_ratio; /* of a running-in */
-extern const place place_needed_wear, place_needed_energy;
+extern const place place_settled_predicted; /* of a running-in */
 #define PLACE_LAYER "track_layer"
 #define PLACE_LAYER_LOW "thickness_low" /* [m]; absent without a lower limit */
 #define PLACE_LAYER_HIGH "thickness_high"
@@ -61,8 +59,6 @@ extern const place place_needed_wear, place_needed_energy;
 #define PLACE_NONE "none"
 #define PLACE_VALIDATION "validation"
 #define PLACE_VALIDATION_RUNNING_IN "validation_running_in"
-#define PLACE_WEAR_AGREES "wear_agrees" /* begins with agrees, contradicts or inconclusive */
-#define PLACE_CONTRADICTS "contradicts"
 #define PLACE_VALIDATION_VERDICT "verdict"  /* begins with yes, no or inconclusive */
 #define PLACE_STEADY_CYCLES "steady_cycles" /* in `place_steady.table` */
 #define PLACE_WAVENUMBER "wavenumber"       /* [rad/m], with the density */

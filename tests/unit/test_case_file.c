@@ -133,9 +133,9 @@ static void test_wrong(void **state)
          "line 3, <pressure>", "above 0"},
         {SLIDING("<pressure>1MPa</pressure><velocity>1m/s +- 1%</velocity>"), WT_E_UNIT, "line 3",
          ""},
-        {SLIDING("<pressure>1MPa</pressure><velocity>1m/s</velocity><anisotropy>0.5 +- "
-                 "0.1</anisotropy>"),
-         WT_E_ARG, "line 3, <anisotropy>", "would not be used"},
+        {SLIDING("<pressure>1MPa</pressure><velocity>1m/s</velocity><contact-size>1mm +- "
+                 "0.1mm</contact-size>"),
+         WT_E_ARG, "line 3, <contact-size>", "would not be used"},
         {LAYER("<specific-wear-rate>1e-3mm^3/(N m)</specific-wear-rate>"), WT_E_MISSING,
          "line 3, <layer>", "neither"},
         {LAYER("<specific-wear-rate>1e-3</specific-wear-rate>"

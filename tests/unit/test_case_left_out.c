@@ -233,7 +233,7 @@ COUNTED(wt_status, wt_peak_find, PEAKS,
 COUNTED(wt_status, wt_smooth_interpolate, BETWEEN,
         (const double *x, const double *y, size_t n, double at, wt_interval *value, wt_error *err),
         (x, y, n, at, value, err))
-COUNTED(wt_status, wt_payne_fit, SOFTENED,
+COUNTED(wt_status, wt_payne_measure, SOFTENED,
         (const double *strain, const double *storage, const double *loss, size_t n, wt_payne *payne,
          wt_error *err),
         (strain, storage, loss, n, payne, err))

@@ -18,13 +18,13 @@
     X(power_spectrum) X(place_errors) X(angular_spectrum) X(surfaces) X(height_map) X(height_profile) X(prony) X(series_draws) X(prony_reduced) X(roughness) X(energy_density) \
     X(failures) X(methods) X(record) X(record_cycles) X(wear) \
     X(identification) X(validation) X(validation_running_in) X(validation_course) X(validation_sources) \
-    X(anisotropy) X(friction_decades) X(flash) X(collection) X(collected_modulus) \
+    X(friction_decades) X(flash) X(collection) X(collected_modulus) \
     X(collected_friction) X(collected_ramp) X(collected_force) X(ratio_pairs) \
    
 #define KEYS(X) \
     X(modulus_depth) X(modulus_budget) X(glass_transition) X(spot) X(dma_comparison) \
     X(comparison) X(track_layer) X(friction) X(softening) X(layer) X(master_curve) X(prony) \
-    X(cost) X(power_spectrum) X(angular_spectrum) X(surfaces) X(anisotropy) X(friction_decades) X(flash) \
+    X(cost) X(power_spectrum) X(angular_spectrum) X(surfaces) X(friction_decades) X(flash) \
     X(collection) X(collected_friction) X(collected_ramp) X(ratio_pairs)
 /* clang-format on */
 

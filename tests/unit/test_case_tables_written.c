@@ -208,8 +208,7 @@ static void test_cases(void **state)
     run_case("<temperature>30degC</temperature>",
              "<strain-softening><file>softening.txt</file></strain-softening>"
              "<temperature>30degC</temperature>"
-             "<anisotropy>0.6</anisotropy><decades>yes</decades>"
-             "<texture-angle>30deg</texture-angle>");
+             "<decades>yes</decades>");
     run_case("<temperature>30degC", "<flash-temperature>yes</flash-temperature>"
                                     "<temperature>30degC");
     run_case("</dma>", "<transverse><axial-storage>1.2</axial-storage></transverse></dma>");
@@ -721,7 +720,6 @@ static void test_flash(void **state)
     sliding.reference_velocity = 1e-3;
     if (wt_flash_temperature_compute(&sliding, &work, &table, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
-    assert_non_null(strstr(wt_table_key(table, "branches"), "stays hot at "));
     assert_non_null(strstr(wt_table_key(table, "law_range"), "above the isotherms"));
     see(table);
     wt_table_free(table);
@@ -811,7 +809,7 @@ static void test_calibration(void **state)
     (void)remove(path);
 }
 
-/* A reciprocating record with all channels, then a disc with stick-slip, once with all data of its
+/* A reciprocating record with all channels, then a disc, once with all data of its
  * wear and once without. */
 static void test_record(void **state)
 {

@@ -260,18 +260,9 @@ static void test_strain(void **state)
         assert_near(cell(p, i, "strain_half"), strain_lost(start / scale, 0.5), 0.08);
         assert_near(cell(p, i, "loss_max"), scale * most, 0.01);
         assert_near(cell(p, i, "strain_loss_max"), half / 100, 0.05);
-        check_interval(p, i, "storage_0", scale * (soft + fall), 0.03 * scale);
-        check_interval(p, i, "storage_inf", scale * soft, 0.05 * scale);
-        check_interval(p, i, "strain_c", half / 100, 2e-4);
-        check_interval(p, i, "exponent", exponent, 0.02);
-        check_interval(p, i, "loss_m", scale * most, 5e-3 * scale);
-        check_interval(p, i, "loss_inf", scale * rest, 0.02 * scale);
-        assert_near(cell(p, i, "storage_misfit"), 2e-3, 0.4);
-        assert_near(cell(p, i, "loss_misfit"), 2e-3, 0.4);
         assert_near(cell(p, i, "points"), STRAINS, 0);
         assert_near(cell(p, i, "strain_min"), percent[0] / 100, 1e-9);
         assert_near(cell(p, i, "strain_max"), percent[STRAINS - 1] / 100, 1e-9);
-        assert_string_equal(cell_text(p, i, "note"), "");
         assert_non_null(strstr(cell_text(p, i, "source"), paths[FILES - 1 - i] + 5));
         double loss_start = 0;
         for (size_t k = 0; k < STRAINS; k++) {
@@ -289,8 +280,6 @@ static void test_strain(void **state)
             if (k == 0)
                 loss_start = loss / cell(s, row, "loss_ratio");
             assert_near(cell(s, row, "loss_ratio"), loss / loss_start, 1e-6);
-            assert_near(cell(s, row, "storage_kraus"), scale * kraus_storage(percent[k]), 5e-3);
-            assert_near(cell(s, row, "loss_kraus"), scale * kraus_loss(percent[k]), 0.02);
         }
         assert_near(loss_start, scale * kraus_loss(percent[0]), 0.2);
     }

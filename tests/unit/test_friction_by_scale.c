@@ -1,4 +1,4 @@
-/* Contributions to friction by scale, and lateral friction: against the friction job, and sums.
+/* Contributions to friction by scale: against the friction job, and sums.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sliding_fixture.h"
 #include "table_cells.h"
@@ -111,51 +111,12 @@ static void decades_end_at_decades(void **state)
     wt_table_free(table);
 }
 
-/* ---- direction of sliding -------------------------------------------------------------------- */
-
-static void lateral_force(void **state)
-{
-    (void)state;
-    wt_table *table = NULL, *plain;
-    set_up();
-    assert_int_equal(wt_anisotropic_friction_compute(&sliding, &work, &table, NULL), WT_E_ARG);
-    plain = make_friction((double)NAN, 0.4e6);
-    assert_null(wt_table_key(plain, "anisotropy"));
-    sliding.anisotropy.amplitude[0] = 0.6;
-    sliding.anisotropy.angle[0] = M_PI / 6;
-    wt_table *friction = make_friction((double)NAN, 0.4e6);
-    assert_string_equal(wt_table_key(friction, "anisotropy"), "0.6 cos 2(phi - 30 deg)");
-    assert_non_null(strstr(wt_table_key(friction, "standard_error_excludes"), "anisotropy"));
-    assert_int_equal(wt_anisotropic_friction_compute(&sliding, &work, &table, NULL), WT_OK);
-    assert_int_equal(wt_table_n_rows(table), VELOCITIES);
-    for (size_t i = 0; i < VELOCITIES; i++) {
-        assert_near(number_cell(table, i, "hysteresis"), number_cell(friction, i, "hysteresis"), 0);
-        assert_near(number_cell(table, i, "hysteresis_without"),
-                    number_cell(plain, i, "hysteresis"), 0);
-        assert_near(number_cell(table, i, "area_ratio_without"),
-                    number_cell(plain, i, "area_ratio"), 0);
-        assert_true(number_cell(table, i, "hysteresis") > number_cell(plain, i, "hysteresis"));
-        assert_true(number_cell(table, i, "side") > 0.1 * number_cell(table, i, "hysteresis"));
-        assert_true(number_cell(table, i, "side_numerical_error") <
-                    1e-9 * number_cell(table, i, "side"));
-    }
-    const double side = strtod(wt_table_key(table, "side"), NULL);
-    assert_near(side, number_cell(table, VELOCITIES / 2, "side"), 1e-10);
-    const char *effect = wt_table_key(table, "effect");
-    assert_non_null(strstr(effect, "at 100 mm/s hysteresis friction +"));
-    assert_non_null(strstr(effect, "deg to the side"));
-    wt_table_free(table);
-    wt_table_free(friction);
-    wt_table_free(plain);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(decades_add_up),
         cmocka_unit_test(decades_have_the_shearing),
         cmocka_unit_test(decades_end_at_decades),
-        cmocka_unit_test(lateral_force),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

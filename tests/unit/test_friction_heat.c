@@ -175,19 +175,13 @@ static void check_temperatures(const rig *r, double within)
 static void check_flash(rig *r)
 {
     rig_set(r);
-    const bool hot = given(r, "rise_from", 0) > 0;
     const double tolerance = 1e-12, within = fmax(r->within, 4e-12);
     const wt_friction_point p = solve(r, tolerance);
     assert_false(p.has_no_solution);
-    if (hot && !isnan(p.hot_branch.hysteresis)) {
-        check_near(r, "hot mu", p.hot_branch.hysteresis, expected(r, "hysteresis"), within);
-        check_near(r, "hot P", p.hot_branch.area_ratio, expected(r, "area_ratio"), within);
-    } else {
-        check_near(r, "mu", p.hysteresis.value, expected(r, "hysteresis"), within);
-        check_near(r, "G", p.stress_variance.value, expected(r, "stress_variance"), within);
-        check_near(r, "P", p.area_ratio.value, expected(r, "area_ratio"), within);
-        check_temperatures(r, within);
-    }
+    check_near(r, "mu", p.hysteresis.value, expected(r, "hysteresis"), within);
+    check_near(r, "G", p.stress_variance.value, expected(r, "stress_variance"), within);
+    check_near(r, "P", p.area_ratio.value, expected(r, "area_ratio"), within);
+    check_temperatures(r, within);
     r->options.flash.on = false;
     check_near(r, "isothermal mu", solve(r, tolerance).hysteresis.value, expected(r, "isothermal"),
                fmax(r->within, 1e-12));
@@ -196,7 +190,7 @@ static void check_flash(rig *r)
 static void test_flash_cases(void **state)
 {
     (void)state;
-    assert_int_equal(for_cases("flash_", check_flash), 14);
+    assert_int_equal(for_cases("flash_", check_flash), 13);
 }
 
 /* Returns the parameters of a case by its full name. */
@@ -228,7 +222,7 @@ static void test_flash_off(void **state)
     assert_true(off.hysteresis.numerical_error == none.hysteresis.numerical_error);
     assert_true(off.stress_variance.value == none.stress_variance.value);
     assert_true(off.nodes == none.nodes);
-    assert_true(isnan(off.temperature.value) && isnan(off.hot_branch.hysteresis));
+    assert_true(isnan(off.temperature.value));
     rig_free(r);
 }
 
@@ -304,24 +298,6 @@ static void test_flash_limits(void **state)
     const double little = solve(r, 1e-9).temperature.value - 293.15;
     r->options.flash.diffusivity = 0.01;
     assert_near((solve(r, 1e-9).temperature.value - 293.15) / little, 10, 0.05);
-    rig_free(r);
-}
-
-/* Two solutions over a range of velocities; the cold one has no jump. */
-static void test_flash_branches(void **state)
-{
-    (void)state;
-    rig *r = rig_named("flash_D213K_cold_v0.0001");
-    r->velocity = 1e-4;
-    const wt_friction_point p = solve(r, 1e-9);
-    assert_near_abs(p.hot_branch.hysteresis, 0.338, 5e-4);
-    assert_near_abs(p.hot_branch.temperature, 252, 2);
-    r->velocity = 1e-8;
-    assert_true(isnan(solve(r, 1e-9).hot_branch.hysteresis));
-    for (r->velocity = 1e-5; r->velocity < 1e-2; r->velocity *= 10) {
-        const wt_friction_point here = solve(r, 1e-9);
-        assert_true(here.hot_branch.temperature > here.temperature.value + 15);
-    }
     rig_free(r);
 }
 
@@ -408,7 +384,6 @@ int main(void)
         cmocka_unit_test(test_flash_is_independent_of_other_velocities),
         cmocka_unit_test(test_flash_error),
         cmocka_unit_test(test_flash_limits),
-        cmocka_unit_test(test_flash_branches),
         cmocka_unit_test(test_flash_without_convergence),
         cmocka_unit_test(test_flash_energy),
         cmocka_unit_test(test_flash_table),

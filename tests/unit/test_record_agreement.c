@@ -14,7 +14,7 @@ static double log_velocity[N], value[N], measurement_variance[N], prediction_cov
 
 static agreement_data data_of(size_t n)
 {
-    return (agreement_data){n, log_velocity, value, measurement_variance, prediction_covariance, 0};
+    return (agreement_data){n, log_velocity, value, measurement_variance, prediction_covariance};
 }
 
 static void set_up(double level, double slope, double error, double shared)
@@ -125,30 +125,6 @@ static void test_one_velocity(void **state)
     agreement_clear(&a);
 }
 
-/* The normal likelihood of two steps, written out. */
-static void test_likelihood(void **state)
-{
-    (void)state;
-    double found = 0, x[2];
-    set_up(0.1, 0.2, 0.03, 0.04);
-    agreement_data data = data_of(2);
-    static double two[4];
-    data.prediction_covariance = two;
-    two[0] = two[3] = 0.04 * 0.04;
-    two[1] = two[2] = 0.5 * 0.04 * 0.04;
-    data.allowed = 0.01;
-    const double apart = 0.6 / AGREEMENT_LENGTH, a = 0.03 * 0.03 + two[0] + 0.01 + 0.002,
-                 b = two[1] + 0.01 * exp(-apart * apart / 2), det = a * a - b * b;
-    const double squares =
-        (a * (value[0] * value[0] + value[1] * value[1]) - 2 * b * value[0] * value[1]) / det;
-    found = agreement_likelihood(&data, 0.002);
-    assert_true(fabs(found + 0.5 * (squares + log(det) + 2 * log(2 * M_PI))) < 1e-12);
-    agreement_solve(&data, 0.002, value, x);
-    assert_true(fabs(x[0] - (a * value[0] - b * value[1]) / det) < 1e-9);
-    two[1] = two[2] = 1; /* no covariance */
-    assert_true(isnan(agreement_likelihood(&data, 0)));
-}
-
 static void test_nothing(void **state)
 {
     (void)state;
@@ -161,9 +137,9 @@ static void test_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_line),       cmocka_unit_test(test_scatter),
-        cmocka_unit_test(test_verdicts),   cmocka_unit_test(test_one_velocity),
-        cmocka_unit_test(test_likelihood), cmocka_unit_test(test_nothing),
+        cmocka_unit_test(test_line),     cmocka_unit_test(test_scatter),
+        cmocka_unit_test(test_verdicts), cmocka_unit_test(test_one_velocity),
+        cmocka_unit_test(test_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

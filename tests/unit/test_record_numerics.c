@@ -1,4 +1,4 @@
-/* Friction records: cycles, running-in, steady-state mean, stick-slip, wear track, ball.
+/* Friction records: cycles, running-in, steady-state mean, wear track, ball.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 #include "draw_count.h"
@@ -311,33 +311,6 @@ static void test_end_of_a_running_in(void **state)
     assert_near(r.end.value, 100, 1e-12);
     assert_near(r.end.low, 100, 1e-12);
     assert_near(r.end.high, 100, 1e-12);
-}
-
-/* ---- stick-slip ------------------------------------------------------------------------------ */
-
-static void test_stick_slip(void **state)
-{
-    (void)state;
-    enum { N = 2000, PERIOD = 20 };
-    static double y[N];
-    uint64_t seed = 3;
-    wt_stick_slip s;
-    for (int i = 0; i < N; i++)
-        y[i] = 0.5 + 0.1 * (i % PERIOD) / (PERIOD - 1) + 0.001 * normal(&seed);
-    s = wt_stick_slip_find(y, N);
-    assert_true(s.n >= N / PERIOD - 2 && s.n <= N / PERIOD);
-    assert_near(s.amplitude, 0.1, 0.02);
-    assert_true(s.standard_error > 0 && s.standard_error < 1e-3);
-    for (int i = 0; i < N; i++) /* up and down equally: a wave */
-        y[i] = 0.5 + 0.1 * sin(2 * M_PI * i / PERIOD) + 0.001 * normal(&seed);
-    s = wt_stick_slip_find(y, N);
-    assert_true(s.n == 0 && isnan(s.amplitude));
-    for (int i = 0; i < N; i++)
-        y[i] = 0.5 + 0.001 * normal(&seed);
-    s = wt_stick_slip_find(y, N);
-    assert_int_equal(s.n, 0);
-    s = wt_stick_slip_find(y, 3);
-    assert_int_equal(s.n, 0);
 }
 
 /* ---- decay at the end ------------------------------------------------------------------------ */
@@ -829,7 +802,6 @@ int main(void)
         cmocka_unit_test(test_error_with_a_drift),
         cmocka_unit_test(test_few_points),
         cmocka_unit_test(test_end_of_a_running_in),
-        cmocka_unit_test(test_stick_slip),
         cmocka_unit_test(test_decay),
         cmocka_unit_test(test_strokes),
         cmocka_unit_test(test_strokes_with_one_sign),

@@ -191,10 +191,6 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"relaxation_spectrum", "lines ls 11", "relaxation_time density"},
         {"van_gurp_palmen", "points ls 51", "storage_modulus loss_modulus temperature"},
         {"van_gurp_palmen", "title 'one spectrum'", "fitted_storage fitted_loss"},
-        {"wicket", "points ls 51", "storage_modulus loss_modulus temperature"},
-        {"wicket", "title 'one spectrum'", "fitted_storage fitted_loss"},
-        {"cole_cole", "points ls 51", "storage_modulus loss_modulus temperature"},
-        {"cole_cole", "title 'one spectrum'", "fitted_storage fitted_loss"},
         {"ramp", "points ls 51 lc rgb 'black'", "temperature storage_modulus"},
         {"ramp", "points ls 52 lc rgb 'black'", "temperature loss_modulus"},
         {"ramp", "title 'peak of the loss modulus'",
@@ -209,7 +205,6 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"angular_spectrum", "title 'two terms'", "direction terms"},
         {"payne", "points ls 51", "strain storage_modulus angular_frequency"},
         {"payne", "points ls 52", "strain loss_modulus angular_frequency"},
-        {"payne", "lines ls 11 title 'law of Kraus'", "strain storage_kraus"},
         {"payne", "title 'a tenth lost'", "strain_tenth storage_start"},
         {"payne", "title 'half lost'", "strain_half storage_start"},
         {"power_spectrum", "lines ls 21", "wavenumber density"},
@@ -226,17 +221,11 @@ static void test_curves_are_drawn_from_their_columns(void **state)
         {"transverse_isotropy", "title 'isotropic'", "velocity hysteresis"},
         {"friction_decades", "boxxyerror ls 21", "from to hysteresis"},
         {"friction_decades", "boxxyerror ls 23", "to from hysteresis"},
-        {"anisotropy", "title 'against the velocity'", "velocity hysteresis"},
-        {"anisotropy", "title 'to the side'", "velocity side"},
-        {"anisotropy", "title 'the same roughness in all directions'",
-         "velocity hysteresis_without"},
         {"softening", "title 'moduli soften with strain'", "velocity hysteresis"},
         {"softening", "title 'moduli at small strain'", "velocity hysteresis_without"},
-        {"flash_temperature", "title 'from cold'", "velocity temperature"},
-        {"flash_temperature", "title 'of a contact that stays hot'", "velocity hot_temperature"},
+        {"flash_temperature", "lines ls 21", "velocity temperature"},
         {"flash_friction", "title 'with flash temperature'", "velocity hysteresis"},
         {"flash_friction", "title 'as warm as the surroundings'", "velocity hysteresis_without"},
-        {"flash_friction", "title 'of a contact that stays hot'", "velocity hot_hysteresis"},
         {"transverse_isotropy", "title 'both'", "velocity hysteresis"},
         {"energy_density", "lines ls 21", "depth energy_density"},
         {"layer", "ls 71 title", "time thickness thickness_standard_error"},
@@ -260,9 +249,7 @@ static void test_curves_are_drawn_from_their_columns(void **state)
          "velocity friction_with_layer friction_with_layer_standard_error"},
         {"validation_course", "lines ls 21", "time friction_without_layer"},
         {"validation_course", "lines ls 24", "time friction_with_layer"},
-        {"validation_course", "lines ls 22", "time fitted"},
-        {"validation_course", "yerrorbars ls 1",
-         "time friction_measured friction_measured_low friction_measured_high"},
+        {"validation_course", "points ls 1", "time friction_measured"},
         {"validation_ratio", "yerrorbars ls 1", "velocity ratio ratio_low ratio_high"},
         {"validation_ratio", "yerrorbars ls 4",
          "velocity ratio_with_layer ratio_with_layer_low ratio_with_layer_high"},
@@ -426,12 +413,12 @@ static void test_range_of_a_map(void **state)
     free_sections(sections, n);
 }
 
-/* Raw and shifted isotherms share one colour scale, and so do the planes. */
+/* Raw and shifted isotherms share one colour scale, and so does the plane. */
 static void test_one_scale_of_colour(void **state)
 {
     (void)state;
     NEED_REPORT();
-    static const char *const others[] = {"master_curve", "van_gurp_palmen", "wicket", "cole_cole"};
+    static const char *const others[] = {"master_curve", "van_gurp_palmen"};
     char *script = read_plot("out", "isotherms", "gp");
     const double low = number_behind(script, "set cbrange [");
     free(script);
@@ -586,10 +573,7 @@ static void test_numbers_of_captions(void **state)
         {"master_curve", " one relaxation spectrum of "},
         {"softening", " Softening: given table. Largest strain met: 0.40. more friction."},
         {"friction_decades", " The most: 1e+05 to 1e+06 rad/m"},
-        {"anisotropy", " Power spectrum over its mean at an angle phi from the velocity: 1 + 0.6 "
-                       "cos 2(phi - 30 deg). at 300 mm/s"},
-        {"flash_temperature", " Surroundings at 20 °C; 28.9 K warmer. Two solutions: hot at 2 of 3 "
-                              "velocities."},
+        {"flash_temperature", " Surroundings at 20 °C; 28.9 K warmer."},
         {"isotherms", " 12 isotherms. Curves that superposition"},
         {"vertical_shifts", " they deviate from it by up to "},
         {"shift_factors", " C₁ = 6.504 ± 0.011 and C₂ = 110.08 ± 0.11 K, with the offset"},

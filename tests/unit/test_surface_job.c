@@ -248,8 +248,8 @@ static void write_turned(const char *path, const synthetic_surface *made, bool c
     free(z);
 }
 
-/* Texture across y: both orders with errors, and as input of friction; none for isotropic surfaces,
- * and no table for profiles. */
+/* Texture across y: both orders with errors; none for isotropic surfaces, and no table for
+ * profiles. */
 static void test_directions(void **state)
 {
     (void)state;
@@ -265,17 +265,11 @@ static void test_directions(void **state)
     make(&m, file, 1);
     assert_int_equal(m.status, WT_OK);
     const wt_table *t = m.tables.power_spectrum;
-    double amplitude = 0, angle = 0;
     assert_near_abs(key(t, "anisotropy"), 0.6, 3 * error_of(t, "anisotropy"));
     assert_true(error_of(t, "anisotropy") < 0.1);
     assert_near_abs(fabs(key(t, "anisotropy_direction")), M_PI_2,
                     3 * error_of(t, "anisotropy_direction"));
     assert_true(key(t, "anisotropy_fourth") < 4 * error_of(t, "anisotropy_fourth"));
-    assert_int_equal(sscanf(wt_table_key(t, "anisotropy_option"),
-                            "--anisotropy %lf --texture-angle %lfdeg", &amplitude, &angle),
-                     2);
-    assert_near(amplitude, key(t, "anisotropy"), 1e-3);
-    assert_near_abs(angle, 90, 10);
     t = m.tables.angular_spectrum;
     assert_int_equal(wt_table_n_rows(t), WT_SURFACE_SECTORS);
     size_t within = 0;
@@ -300,20 +294,18 @@ static void test_directions(void **state)
     clear(&m);
 
     make(&m, all, COUNT_OF(all));
-    assert_string_equal(wt_table_key(m.tables.power_spectrum, "anisotropy_option"), "none");
     assert_null(wt_table_key(m.tables.power_spectrum, "profiles"));
     assert_true(key(m.tables.angular_spectrum, "p_value") > 0.01);
     clear(&m);
     make(&m, (const char *const[]){SURFACE "profile-*.gsf"}, 1);
     assert_int_equal(m.status, WT_OK);
     assert_null(m.tables.angular_spectrum);
-    assert_string_equal(wt_table_key(m.tables.power_spectrum, "anisotropy_option"), "none");
     clear(&m);
     unlink(path);
 }
 
-/* Crossing grooves only have an anisotropy of order 4. Friction has no option for it. */
-static void test_crossing_grooves_give_no_option(void **state)
+/* Crossing grooves only have an anisotropy of order 4. */
+static void test_crossing_grooves(void **state)
 {
     (void)state;
     static const char path[] = "test_surface_job_crossing.gsf";
@@ -324,7 +316,6 @@ static void test_crossing_grooves_give_no_option(void **state)
     const wt_table *t = m.tables.power_spectrum;
     assert_true(key(t, "anisotropy_fourth") > 4 * error_of(t, "anisotropy_fourth"));
     assert_true(key(t, "anisotropy") < 3 * error_of(t, "anisotropy"));
-    assert_string_equal(wt_table_key(t, "anisotropy_option"), "none");
     clear(&m);
     unlink(path);
 }
@@ -938,7 +929,7 @@ int main(void)
         cmocka_unit_test(test_upper_limit),
         cmocka_unit_test(test_heights),
         cmocka_unit_test(test_directions),
-        cmocka_unit_test(test_crossing_grooves_give_no_option),
+        cmocka_unit_test(test_crossing_grooves),
         cmocka_unit_test(test_single_scan),
         cmocka_unit_test(test_numerical_errors),
         cmocka_unit_test(test_replicates),

@@ -230,8 +230,7 @@ static void add_softening_limits(limit_list *list, const table_view *softening)
 
 static void add_friction_limits(limit_list *list, const answer_context *context)
 {
-    static const flash_key flash_statements[] = {FLASH_KEY_UNSETTLED, FLASH_KEY_BRANCHES,
-                                                 FLASH_KEY_LAW_RANGE};
+    static const flash_key flash_statements[] = {FLASH_KEY_UNSETTLED, FLASH_KEY_LAW_RANGE};
     const table_view *const friction = &context->values.friction, *const what_if =
                                                                       &context->values.what_if;
     const bool known = friction->table != NULL;

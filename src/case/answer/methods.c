@@ -188,13 +188,6 @@ static void describe_arrhenius(text_builder *t, const table_view *table)
                 has_wlf_constants(table) ? " in the cold" : "", format_estimate(energy).text);
 }
 
-static void describe_payne(text_builder *t, const table_view *table)
-{
-    text_append(
-        t, "The softening with strain in %zu strain sweep%s was described by the law of Kraus.",
-        table->n_rows, table->n_rows == 1 ? "" : "s");
-}
-
 /* ---- sliding --------------------------------------------------------------------------------- */
 
 static void describe_power_spectrum(text_builder *t, const table_view *table)
@@ -313,10 +306,6 @@ static const method methods[] = {
      "M. L. Williams, R. F. Landel and J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701",
      "10.1021/ja01619a008"},
     {"Arrhenius' law", &shift_factors_schema, has_activation_energy, describe_arrhenius, "", ""},
-    {"law of Kraus", &payne_schema, NULL, describe_payne,
-     "G. Kraus, J. Appl. Polym. Sci., Appl. Polym. Symp. 39 (1984) 75, as in Rutherford et al., "
-     "Polymers 15 (2023) 1675",
-     "10.3390/polym15071675"},
     {"power spectrum of height maps", &power_spectrum_schema, NULL, describe_power_spectrum,
      "T. D. B. Jacobs, T. Junge and L. Pastewka, Surf. Topogr.: Metrol. Prop. 5 (2017) 013001",
      "10.1088/2051-672X/aa51f8"},

@@ -91,9 +91,6 @@ typedef enum flow_optional_input_id {
     X(SOFTENING_EFFECT, softening_effect, "What softening with strain does",                       \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(SOFTENING), 0, FLOW_OPTIONAL_NONE,                \
       B(SOFTENING_EFFECT), flow_step_softening_effect)                                             \
-    X(ANISOTROPY, anisotropy, "What the direction of sliding does",                                \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(GIVEN_ANISOTROPY), 0, FLOW_OPTIONAL_NONE,         \
-      B(ANISOTROPY), flow_step_anisotropy)                                                         \
     X(FRICTION_DECADES, friction_decades, "Friction by decades of the wavenumber",                 \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(REQUESTED_DECADES), 0, FLOW_OPTIONAL_NONE,        \
       B(FRICTION_DECADES), flow_step_friction_decades)                                             \

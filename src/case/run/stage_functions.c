@@ -406,12 +406,6 @@ wt_status flow_step_softening_effect(flow_run *run, wt_error *err)
                                         err);
 }
 
-wt_status flow_step_anisotropy(flow_run *run, wt_error *err)
-{
-    const wt_sliding sliding = flow_run_sliding(run);
-    return wt_anisotropic_friction_compute(&sliding, &run->job, &run->table[FLOW_ANISOTROPY], err);
-}
-
 wt_status flow_step_friction_decades(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);

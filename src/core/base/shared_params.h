@@ -32,27 +32,6 @@
                     "to there, for the softening"                                                  \
     }
 
-/* The first two orders of the Fourier series of the direction. Opposite directions are
- * equivalent. */
-#define FRICTION_ANISOTROPY(type)                                                                  \
-    {PARAM("anisotropy", type, anisotropy.amplitude[0], WT_Q_NONE, FROM_TO(-1, 1)), .value = "A",  \
-     .help = "of the roughness: the power spectrum at an angle phi to the velocity is 1 + "        \
-             "A cos(2 (phi - T)) times its mean, T the texture angle; 0 is the same in all "       \
-             "directions, 1 all across grooves. Gives the force to the side, too"},                \
-        {PARAM("texture-angle", type, anisotropy.angle[0], WT_Q_ANGLE,                             \
-               FROM_TO(-2 * M_PI, 2 * M_PI)),                                                      \
-         .value = "T",                                                                             \
-         .help = "from the velocity to the direction of the most roughness, such as 30deg: 0 "     \
-                 "is sliding across grooves, 90deg along them"},                                   \
-        {PARAM("anisotropy-fourth", type, anisotropy.amplitude[1], WT_Q_NONE, FROM_TO(-1, 1)),     \
-         .flags = PARAM_ONLY_C,                                                                    \
-         .help = "the same with cos(4 (phi - T)) of a texture angle of its own"},                  \
-    {                                                                                              \
-        PARAM("texture-angle-fourth", type, anisotropy.angle[1], WT_Q_ANGLE,                       \
-              FROM_TO(-2 * M_PI, 2 * M_PI)),                                                       \
-            .flags = PARAM_ONLY_C, .help = "that of anisotropy-fourth"                             \
-    }
-
 /* `in` is a prefix of the member. */
 #define FLASH_ROWS(type, in)                                                                       \
     {PARAM_FLAG_OF("flash-temperature", type, in on),                                              \

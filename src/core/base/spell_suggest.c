@@ -74,7 +74,8 @@ const char *removed_name_advice(const char *name, size_t length)
         const char *name, *instead;
     } removed[] = {
         {"acts-back", "a layer as soft as measured ones has one balance, that of the table layer"},
-        {"anisotropy-fourth", "give anisotropy and texture-angle"},
+        {"anisotropy", "friction is that of the mean over the directions of the roughness"},
+        {"anisotropy-fourth", "friction is that of the mean over the directions of the roughness"},
         {"at-frequency", "materials are not compared; weartrack master has the moduli of each"},
         {"at-temperature", "materials are not compared; weartrack master has the moduli of each"},
         {"bands", "the table layer gives the deepest edge, which is the thickness"},
@@ -117,7 +118,9 @@ const char *removed_name_advice(const char *name, size_t length)
         {"shear-reach", "the table what_if has friction by the shear stress of the bulk"},
         {"sheets", "weartrack view of the result shows all curves"},
         {"start-thickness", "the balance does not depend on it"},
-        {"texture-angle-fourth", "give anisotropy and texture-angle"},
+        {"texture-angle", "friction is that of the mean over the directions of the roughness"},
+        {"texture-angle-fourth",
+         "friction is that of the mean over the directions of the roughness"},
         {"tolerance", "friction is computed to 1e-10; a looser tolerance saved no time"},
     };
     for (size_t i = 0; i < COUNT_OF(removed); i++)

@@ -135,7 +135,6 @@
     X(transverse_isotropy, TRANSVERSE_ISOTROPY, "transverse_isotropy",                             \
       "What the directions of the material do", "friction")                                        \
     X(softening, SOFTENING, "softening", "What softening with strain does", "friction")            \
-    X(anisotropy, ANISOTROPY, "anisotropy", "What the direction of sliding does", "friction")      \
     X(friction_decades, FRICTION_DECADES, "friction_decades",                                      \
       "Friction by decades of the wavenumber", "friction")                                         \
     X(flash, FLASH, "flash_temperature", "What the flash temperature does", "friction")            \

@@ -180,11 +180,6 @@ static void add_payne(rows_source *s, const table_view *v)
                         "at %.2g %% strain", 100 * payne_get(v, i, PAYNE_STRAIN_MAX));
         if (!isnan(tenth))
             rows_add_number(s, 1, rows_number(tenth, none, none, "%"), "strain, a tenth lost");
-        rows_add_number(s, 1,
-                        rows_number(payne_get(v, i, PAYNE_STRAIN_C),
-                                    payne_get(v, i, PAYNE_STRAIN_C_LOW),
-                                    payne_get(v, i, PAYNE_STRAIN_C_HIGH), "%"),
-                        "strain at half of the fall (Kraus)");
     }
 }
 

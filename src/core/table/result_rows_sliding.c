@@ -302,32 +302,30 @@ static void add_validation(rows_source *s, const table_view *v)
 
 static void add_validation_running_in(rows_source *s, const table_view *v)
 {
-    const char *verdict = validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_VERDICT);
-    const wt_estimate ratio = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_TIME_RATIO),
-                      wear = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR);
-    result_row *row =
-        rows_add_verdict(s, 0, verdict != NULL ? verdict : "not tested", "explains running-in");
-    rows_reason(row, "how to decide it",
-                validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_SETTLED_BY));
-    if (!isnan(ratio.value))
+    for (size_t i = 0; i < v->n_rows; i++) {
+        result_row *const row = rows_add_number(
+            s, 0,
+            rows_number(validation_running_in_get(v, i, VALIDATION_RUNNING_IN_SETTLED),
+                        validation_running_in_get(v, i, VALIDATION_RUNNING_IN_SETTLED_LOW),
+                        validation_running_in_get(v, i, VALIDATION_RUNNING_IN_SETTLED_HIGH), "s"),
+            "steady friction after, measured");
+        rows_reason(row, "running-in",
+                    validation_running_in_text(v, i, VALIDATION_RUNNING_IN_NOTE));
         rows_add_number(
             s, 1,
-            rows_number(
-                ratio.value,
-                validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_LOW).value,
-                validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_HIGH).value,
-                "1"),
+            rows_estimate((wt_estimate){
+                validation_running_in_get(v, i, VALIDATION_RUNNING_IN_PREDICTED),
+                validation_running_in_get(v, i, VALIDATION_RUNNING_IN_PREDICTED_STANDARD_ERROR),
+                (double)NAN, "s"}),
+            "predicted with the layer");
+        rows_add_number(
+            s, 1,
+            rows_number(validation_running_in_get(v, i, VALIDATION_RUNNING_IN_TIME_RATIO),
+                        validation_running_in_get(v, i, VALIDATION_RUNNING_IN_TIME_RATIO_LOW),
+                        validation_running_in_get(v, i, VALIDATION_RUNNING_IN_TIME_RATIO_HIGH),
+                        "1"),
             "time, measured / predicted");
-    if (isnan(wear.value))
-        return;
-    row = rows_add_number(
-        s, 1,
-        rows_number(
-            wear.value, validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_LOW).value,
-            validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_HIGH).value, "m^2/N"),
-        "wear rate needed");
-    rows_reason(row, "that wear rate against the measured one",
-                validation_running_in_key_text(v, VALIDATION_RUNNING_IN_KEY_AGREES));
+    }
 }
 
 void rows_of_records(rows_source *s)

@@ -57,16 +57,12 @@ typedef struct series_list {
 
 struct angular_law {
     const wt_material *material;
-    const angular_weight *weight; /* NULL if none */
-    bool closed;                  /* the law has a closed form, and no weight is set */
+    bool closed; /* the law has a closed form */
     double tolerance, segment_width;
     const gauss_rule *rule;
     double goal;
     angular_subintervals subintervals;
-    angular_subintervals below[2]; /* subintervals up to each limit */
     double subintervals_low, subintervals_high;
-    double limit[2];                       /* range of the measured data; NaN if
-                                              unknown */
     series_list segments;                  /* rising, without gaps */
     double node[CHEBYSHEV_DEGREE_MAX + 1]; /* cos(pi k / CHEBYSHEV_DEGREE_MAX) */
     double fit[DEGREES][(CHEBYSHEV_DEGREE_MAX + 1) * CHEBYSHEV_FIT_STRIDE]; /* matrix of each
@@ -273,7 +269,6 @@ static void extend_subintervals(angular_law *a, double low, double high)
     /* Beyond the end, because rounding may place a frequency there, where the integrand has a pole.
      */
     angular_subintervals_new(a->material, a->rule, low, 1.01 * high, a->goal, &a->subintervals);
-    a->subintervals.weight = a->weight;
 }
 
 /* Range in integer multiples of the segment width: the union of the present and the requested
@@ -462,82 +457,7 @@ double angular_error(const angular_law *angular, double x_min, double x_max, siz
     return error;
 }
 
-/* ---- the share of extrapolated frequencies --------------------------------------------------- */
-
-bool angular_has_limits(const angular_law *angular)
-{
-    return !isnan(angular->limit[0]) || !isnan(angular->limit[1]);
-}
-
-void angular_prepare_outside(angular_law *angular)
-{
-    const double *limit = angular->limit;
-    const double low = fmin(limit[0], limit[1]);
-    for (size_t k = 0; k < 2; k++)
-        if (!isnan(limit[k]) && angular->below[k].n == 0) {
-            angular_subintervals_new(angular->material, angular->rule, low, limit[k], max_goal,
-                                     &angular->below[k]);
-            angular->below[k].weight = angular->weight;
-        }
-}
-
-/* Parts of J1 from frequencies below a limit. */
-static void parts_below_limit(const angular_law *a, size_t limit, const double *w, const double *j1,
-                              size_t n, double *part)
-{
-    const double end = a->limit[limit];
-    double lowest = w[0], j2;
-    for (size_t i = 1; i < n; i++)
-        lowest = w[i] < lowest ? w[i] : lowest;
-    if (lowest >= 2 * end) {
-        angular_subintervals_far(&a->below[limit], w, n, part);
-        return;
-    }
-    for (size_t i = 0; i < n; i++)
-        if (w[i] > end)
-            angular_subintervals_integrate(&a->below[limit], w[i], &part[i], &j2);
-        else
-            part[i] = j1[i];
-}
-
-void angular_extrapolated_part(const angular_law *angular, const double *w, const double *j1,
-                               size_t n, double *outside)
-{
-    double part[GAUSS_NODES_MAX];
-    for (size_t i = 0; i < n; i++)
-        outside[i] = 0;
-    for (size_t limit = 0; limit < 2; limit++) {
-        if (isnan(angular->limit[limit]))
-            continue;
-        parts_below_limit(angular, limit, w, j1, n, part);
-        for (size_t i = 0; i < n; i++)
-            outside[i] += limit == 0 ? part[i] : j1[i] - part[i];
-    }
-    for (size_t i = 0; i < n; i++) {
-        const double extrapolated = outside[i] > 0 ? outside[i] : 0;
-        outside[i] = extrapolated < j1[i] ? extrapolated : j1[i];
-    }
-}
-
 /* ---- construction ---------------------------------------------------------------------------- */
-
-static double frequency_limit(double frequency)
-{
-    return frequency > 0 && isfinite(frequency) ? frequency : (double)NAN;
-}
-
-static void choose_segments(angular_law *a, bool closed)
-{
-    a->closed = closed;
-    a->goal = fmin(fmax(goal_share * a->tolerance, min_goal), max_goal);
-    a->segment_width = closed ? closed_width : law_width;
-}
-
-void angular_set_weight(angular_law *angular, const angular_weight *weight)
-{
-    angular->weight = weight;
-    choose_segments(angular, false);
-}
 
 angular_law *angular_new(const wt_material *material, double tolerance, arena *memory)
 {
@@ -545,9 +465,9 @@ angular_law *angular_new(const wt_material *material, double tolerance, arena *m
     made->material = material;
     compute_fit_matrices(made);
     made->tolerance = tolerance;
-    choose_segments(made, material->law->angular != NULL);
-    made->limit[0] = frequency_limit(material->frequency_min);
-    made->limit[1] = frequency_limit(material->frequency_max);
+    made->goal = fmin(fmax(goal_share * tolerance, min_goal), max_goal);
+    made->closed = material->law->angular != NULL;
+    made->segment_width = made->closed ? closed_width : law_width;
     made->rule = gauss_rule_get(SUBINTERVAL_NODES);
     return made;
 }
@@ -558,6 +478,4 @@ void angular_clear(angular_law *angular)
         return;
     free(angular->segments.items);
     angular_subintervals_clear(&angular->subintervals);
-    angular_subintervals_clear(&angular->below[0]);
-    angular_subintervals_clear(&angular->below[1]);
 }

@@ -2,9 +2,9 @@
  *
  *   J1(w) = int_0^2pi cos(phi) E''(w cos phi) dphi,   J2(w) = int_0^2pi |E(w cos phi)|^2 dphi
  *
- * Both have the weight of anisotropic roughness in the integrand, if one is set. A law with a short
- * closed form is evaluated directly. Any other law is integrated once and then read from Chebyshev
- * series in ln w, so that the cost of a velocity does not depend on the material.
+ * A law with a short closed form is evaluated directly. Any other law is integrated once and then
+ * read from Chebyshev series in ln w, so that the cost of a velocity does not depend on the
+ * material.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -15,35 +15,6 @@
 #include "core/math/gauss_legendre.h"
 #include "weartrack/dma.h"
 #include "weartrack/surface.h"
-
-/* ---- weight of anisotropic roughness -----------------------------------------------------------
- */
-
-/* Number of powers of cos^2 phi, and of terms of the series far below w: 4^-m falls to 1e-16 within
- * it. */
-enum { WEIGHT_POWERS = WT_ANISOTROPY_ORDERS + 1, WEIGHT_SERIES_TERMS = 32 };
-
-/* Weights of J1 and of J2. */
-typedef struct angular_weight {
-    double power[2][WEIGHT_POWERS];     /* coefficients of cos^2k phi */
-    double far[2][WEIGHT_SERIES_TERMS]; /* coefficients of c^2m in the weight over sqrt(1 - c^2) */
-    double cancellation; /* factor by which relative errors can exceed those without a weight */
-} angular_weight;
-
-/* True if there is a preferred direction, and true if there is a lateral force. */
-bool anisotropy_is_present(const wt_anisotropy *a);
-bool anisotropy_has_lateral_force(const wt_anisotropy *a);
-/* Weight of J1 and J2. */
-angular_weight weight_longitudinal(const wt_anisotropy *a);
-/* Weight that changes J1 to `shift` J1 + K, which has no zero, unlike K. */
-angular_weight weight_lateral(const wt_anisotropy *a, double *shift);
-
-double weight_evaluate(const double power[WEIGHT_POWERS], double square);
-/* Weighted variants of the sums in angular_panels.c. */
-void weight_series_sum(const angular_weight *w, const double *s1, const double *s2, size_t terms,
-                       double square, double *sum1, double *sum2);
-void weight_node_sum(const angular_weight *w, size_t n, const double *omega, const double *f1,
-                     const double *f2, double at, double *j1, double *j2);
 
 /* ---- integrals of a material --------------------------------------------------------------------
  */
@@ -58,9 +29,6 @@ typedef struct angular_law angular_law;
  * the arena, its series are not: call angular_clear before the arena is freed. */
 angular_law *angular_new(const wt_material *material, double tolerance, arena *memory);
 void angular_clear(angular_law *angular); /* no effect on NULL */
-/* Sets the weight of both integrals; call it before the first angular_extend. The weight is
- * borrowed. */
-void angular_set_weight(angular_law *angular, const angular_weight *weight);
 
 /* Prepares the series for w from w_min to w_max > 0; a short closed form needs none. Existing
  * series do not change. A closed form with a series is read from the series from then on, which
@@ -68,8 +36,6 @@ void angular_set_weight(angular_law *angular, const angular_weight *weight);
 void angular_extend(angular_law *angular, double w_min, double w_max);
 /* True if angular_extend has nothing to do for this range. */
 bool angular_covers_range(const angular_law *angular, double w_min, double w_max);
-/* Prepares angular_extrapolated_part. */
-void angular_prepare_outside(angular_law *angular);
 /* Evaluates J1 and J2 at n values of w in the covered range; x = ln w. The first and the last value
  * must both be inside or both outside the range of the series. Rising values are fastest. */
 void angular_eval(const angular_law *angular, const double *w, const double *x, size_t n,
@@ -79,23 +45,10 @@ bool angular_uses_closed_form(const angular_law *angular, double x_min, double x
 /* Largest relative error of J1 and J2 in a range of ln w, from series and subintervals. *piece is
  * the start of the search: 0, or the value from a lower range. */
 double angular_error(const angular_law *angular, double x_min, double x_max, size_t *segment);
-/* Parts of J1(w) from frequencies outside the measured range, at n <= GAUSS_NODES_MAX values of w;
- * j1 = J1(w). */
-void angular_extrapolated_part(const angular_law *angular, const double *w, const double *j1,
-                               size_t n, double *outside);
-/* True if the material has at least one limit of its measured range. */
-bool angular_has_limits(const angular_law *angular);
 
 /* ---- subintervals of the frequency ----------------------------------------------------------- */
 
 enum { SUBINTERVAL_NODES = 10 }; /* see `max_width` in angular_panels.c */
-
-/* Group of many narrow subintervals. The values at its own nodes integrate any kernel that is a
- * polynomial over the group exactly as all subintervals do. */
-enum { GROUP_NODES = 16, GROUP_LEAST = 8, GROUP_LEVELS = 20 };
-typedef struct subinterval_group {
-    double omega[GROUP_NODES], value[2][GROUP_NODES];
-} subinterval_group;
 
 /* With y = ln(omega / w) the integrals are 4 int K F dy of F1 = E'', F2 = |E|^2 with
  *   K = c^s / sqrt(1 - c^2) = sum_m b_m c^(2m + s),   c = e^y,   s = 2 and 1. */
@@ -113,9 +66,6 @@ typedef struct angular_subintervals {
     double start_error[2]; /* error of `below` at the first edge for m = 0 */
     double *rounding[2];   /* [n + 1] error of `below` for m = 0 from the rounding of ln omega */
     double *numbers;       /* memory of these arrays */
-    subinterval_group *group[GROUP_LEVELS]; /* groups of dense subintervals; level k has GROUP_LEAST
-                                         2^k of them in each group */
-    const angular_weight *weight; /* borrowed, set after creation; NULL for the weight 1 */
 } angular_subintervals;
 
 /* Creates subintervals for w from `low` to `high` > 0 with relative errors of about `goal`. The
@@ -124,9 +74,6 @@ void angular_subintervals_new(const wt_material *material, const gauss_rule *rul
                               double high, double goal, angular_subintervals *subintervals);
 void angular_subintervals_clear(angular_subintervals *subintervals);
 
-/* J1 at n frequencies >= 2 `high`. */
-void angular_subintervals_far(const angular_subintervals *subintervals, const double *w, size_t n,
-                              double *j1);
 /* J1 and J2 at w from frequencies up to `high` only. */
 void angular_subintervals_integrate(const angular_subintervals *subintervals, double w, double *j1,
                                     double *j2);

@@ -232,95 +232,6 @@ static void sum_subintervals(angular_subintervals *a)
     }
 }
 
-/* ---- groups ---------------------------------------------------------------------------------- */
-
-/* A group is used if w is at least twice its width above it. The ellipse through w then has half
- * axes with the sum 9.9 times the half width, and 9.9^-16 is 1e-16. A wider group never lies that
- * close below w and above w / 2. */
-static const double group_distance = 2, group_max_width = 0.25;
-
-/* Distributes n values at given frequencies over the nodes of a group between two edges, by
- * barycentric interpolation. */
-static void distribute_nodes(const gauss_rule *rule, double from, double to, size_t n,
-                             const double *omega, const double *value1, const double *value2,
-                             subinterval_group *group)
-{
-    double weight[GROUP_NODES];
-    for (size_t j = 0; j < GROUP_NODES; j++)
-        weight[j] =
-            (j % 2 ? -1 : 1) * sqrt((1 - rule->node[j]) * (1 + rule->node[j]) * rule->weight[j]);
-    for (size_t i = 0; i < n; i++) {
-        double part[GROUP_NODES], sum = 0;
-        const double z = (2 * log(omega[i]) - from - to) / (to - from);
-        for (size_t j = 0; j < GROUP_NODES; j++) {
-            const double off = z - rule->node[j];
-            part[j] = weight[j] / (off != 0 ? off : DBL_MIN);
-            sum += part[j];
-        }
-        for (size_t j = 0; j < GROUP_NODES; j++) {
-            group->value[0][j] += value1[i] * (part[j] / sum);
-            group->value[1][j] += value2[i] * (part[j] / sum);
-        }
-    }
-}
-
-/* Fills a group of level k from its subintervals or from the two groups of the level below. */
-static void fill_group(const angular_subintervals *a, const gauss_rule *rule, size_t k, size_t i)
-{
-    subinterval_group *group = &a->group[k][i];
-    const size_t size = (size_t)GROUP_LEAST << k, nodes = i * size * SUBINTERVAL_NODES;
-    const double from = a->edge[i * size], to = a->edge[(i + 1) * size];
-    if (!(to - from <= group_max_width))
-        return;
-    for (size_t j = 0; j < GROUP_NODES; j++)
-        group->omega[j] = exp(from + 0.5 * (to - from) * (1 + rule->node[j]));
-    if (k == 0)
-        distribute_nodes(rule, from, to, size * SUBINTERVAL_NODES, a->omega + nodes,
-                         a->value[0] + nodes, a->value[1] + nodes, group);
-    for (size_t half = 0; k > 0 && half < 2; half++) {
-        const subinterval_group *part = &a->group[k - 1][2 * i + half];
-        distribute_nodes(rule, from, to, GROUP_NODES, part->omega, part->value[0], part->value[1],
-                         group);
-    }
-}
-
-/* Groups make the cost of one frequency logarithmic in the number of narrow subintervals near it.
- */
-static void group_subintervals(angular_subintervals *a)
-{
-    const gauss_rule *const rule = gauss_rule_get(GROUP_NODES);
-    bool dense = false;
-    for (size_t p = 0; !dense && p + 4 * GROUP_LEAST <= a->n; p += GROUP_LEAST)
-        dense = a->edge[p + 4 * GROUP_LEAST] - a->edge[p] <= group_max_width;
-    for (size_t k = 0; dense && k < GROUP_LEVELS; k++) {
-        const size_t n = a->n / ((size_t)GROUP_LEAST << k);
-        if (n == 0)
-            break;
-        a->group[k] = wt_alloc(n, sizeof *a->group[k]);
-        for (size_t i = 0; i < n; i++)
-            fill_group(a, rule, k, i);
-    }
-}
-
-/* Returns the number of subintervals from p on in a group far enough below x; 0 if there is none.
- */
-static size_t find_group(const angular_subintervals *a, size_t p, double x,
-                         const subinterval_group **group)
-{
-    size_t size = 0;
-    for (size_t k = 0; k < GROUP_LEVELS && a->group[k] != NULL; k++) {
-        const size_t next = (size_t)GROUP_LEAST << k;
-        if (p % next != 0 || p + next > a->n)
-            break;
-        const double from = a->edge[p], to = a->edge[p + next];
-        if (!(to - from <= group_max_width && to + group_distance * (to - from) <= x))
-            break;
-        size = next;
-        *group = &a->group[k][p / next];
-    }
-    return size;
-}
-
 void angular_subintervals_new(const wt_material *material, const gauss_rule *rule, double low,
                               double high, double goal, angular_subintervals *subintervals)
 {
@@ -358,14 +269,11 @@ void angular_subintervals_new(const wt_material *material, const gauss_rule *rul
         evaluate_subinterval(&a, p);
     sum_subintervals(&a);
     *subintervals = a;
-    group_subintervals(subintervals);
 }
 
 void angular_subintervals_clear(angular_subintervals *subintervals)
 {
     free(subintervals->numbers);
-    for (size_t k = 0; k < GROUP_LEVELS; k++)
-        free(subintervals->group[k]);
     *subintervals = (angular_subintervals){0};
 }
 
@@ -392,9 +300,7 @@ static void add_far_series(const angular_subintervals *a, size_t edge, double w,
     const double c = a->edge_omega[edge] / w, square = c * c;
     const double *s1 = a->below[0] + edge * a->terms, *s2 = a->below[1] + edge * a->terms;
     double sum1 = 0, sum2 = 0, b = 1, power = 1;
-    if (a->weight != NULL)
-        weight_series_sum(a->weight, s1, s2, a->terms, square, &sum1, &sum2);
-    for (size_t m = 0; a->weight == NULL && m < a->terms && power > DBL_EPSILON / 64; m++) {
+    for (size_t m = 0; m < a->terms && power > DBL_EPSILON / 64; m++) {
         sum1 += b * power * s1[m];
         sum2 += b * power * s2[m];
         b *= (double)(2 * m + 1) / (double)(2 * m + 2);
@@ -402,37 +308,6 @@ static void add_far_series(const angular_subintervals *a, size_t edge, double w,
     }
     *j1 += sum1 * square;
     *j2 += sum2 * c;
-}
-
-/* Evaluates sum_m of[m] c^(2m), c = edge / w, times 4 c^2. */
-WIDE_REGISTERS
-static void evaluate_far_series(const double *restrict of, size_t terms, double edge,
-                                const double *restrict w, size_t n, double *restrict j1)
-{
-    for (size_t i = 0; i < n; i++) {
-        const double c = edge / w[i], square = c * c;
-        double sum = 0;
-        for (size_t m = terms; m-- > 0;)
-            sum = sum * square + of[m];
-        j1[i] = 4 * square * sum;
-    }
-}
-
-void angular_subintervals_far(const angular_subintervals *subintervals, const double *w, size_t n,
-                              double *j1)
-{
-    const angular_subintervals *a = subintervals;
-    const double *sums = a->below[0] + a->n * a->terms, edge = a->edge_omega[a->n];
-    double of[WEIGHT_SERIES_TERMS], b = 1, nearest = 0, power = 1;
-    for (size_t i = 0; i < n; i++)
-        nearest = nearest > edge / w[i] ? nearest : edge / w[i];
-    size_t terms = 0;
-    for (; terms < a->terms && terms < WEIGHT_SERIES_TERMS && power > DBL_EPSILON / 64; terms++) {
-        of[terms] = sums[terms] * (a->weight != NULL ? a->weight->far[0][terms] : b);
-        b *= (double)(2 * terms + 1) / (double)(2 * terms + 2);
-        power *= nearest * nearest;
-    }
-    evaluate_far_series(of, terms, edge, w, n, j1);
 }
 
 enum { NODE_BATCH = 8 * SUBINTERVAL_NODES }; /* nodes of one batch, which fits on the stack */
@@ -469,15 +344,6 @@ static void add_node_sum(size_t n, const double *restrict omega, const double *r
     }
 }
 
-static void add_nodes(const angular_subintervals *a, size_t n, const double *omega,
-                      const double *f1, const double *f2, double w, double *j1, double *j2)
-{
-    if (a->weight != NULL)
-        weight_node_sum(a->weight, n, omega, f1, f2, w, j1, j2);
-    else
-        add_node_sum(n, omega, f1, f2, w, j1, j2);
-}
-
 /* Integrates from ln omega = `from` to `to` close below x = ln w, with ln omega = x - t^2. */
 static void add_near_integral(const angular_subintervals *a, double x, double from, double to,
                               double w, double *j1, double *j2)
@@ -498,16 +364,9 @@ static void add_near_integral(const angular_subintervals *a, double x, double fr
         weight[i] = half * a->rule->weight[i] * 2 * t[i] * cosine[i] / sqrt(-gap[i]);
     }
     a->material->law->modulus(a->material, omega, SUBINTERVAL_NODES, storage, loss);
-    const angular_weight *direction_weight = a->weight;
     for (size_t i = 0; i < SUBINTERVAL_NODES; i++) {
-        double part1 = weight[i] * cosine[i] * loss[i];
-        double part2 = weight[i] * (storage[i] * storage[i] + loss[i] * loss[i]);
-        if (direction_weight != NULL) {
-            part1 *= weight_evaluate(direction_weight->power[0], 1 + gap[i]);
-            part2 *= weight_evaluate(direction_weight->power[1], 1 + gap[i]);
-        }
-        *j1 += part1;
-        *j2 += part2;
+        *j1 += weight[i] * cosine[i] * loss[i];
+        *j2 += weight[i] * (storage[i] * storage[i] + loss[i] * loss[i]);
     }
 }
 
@@ -523,21 +382,12 @@ void angular_subintervals_integrate(const angular_subintervals *subintervals, do
         size_t p = preceding_edge(a, x - M_LN2);
         add_far_series(a, p, w, j1, j2);
         while (p < a->n && a->edge[p] < x) {
-            const subinterval_group *group;
-            const size_t grouped = find_group(a, p, x, &group);
-            if (grouped > 0) {
-                add_nodes(a, GROUP_NODES, group->omega, group->value[0], group->value[1], w, j1,
-                          j2);
-                p += grouped;
-                continue;
-            }
             size_t from = p * SUBINTERVAL_NODES;
-            while (p < a->n && 2 * a->edge[p + 1] <= x + a->edge[p] &&
-                   (p * SUBINTERVAL_NODES == from || find_group(a, p, x, &group) == 0))
+            while (p < a->n && 2 * a->edge[p + 1] <= x + a->edge[p])
                 p++;
             for (const size_t end = p * SUBINTERVAL_NODES; from < end; from += NODE_BATCH)
-                add_nodes(a, end - from < NODE_BATCH ? end - from : NODE_BATCH, a->omega + from,
-                          a->value[0] + from, a->value[1] + from, w, j1, j2);
+                add_node_sum(end - from < NODE_BATCH ? end - from : NODE_BATCH, a->omega + from,
+                             a->value[0] + from, a->value[1] + from, w, j1, j2);
             /* narrow subintervals may follow */
             for (; p < a->n && a->edge[p] < x && 2 * a->edge[p + 1] > x + a->edge[p]; p++)
                 add_near_integral(a, x, a->edge[p], fmin(a->edge[p + 1], x), w, j1, j2);
@@ -560,8 +410,6 @@ double angular_subintervals_error(const angular_subintervals *subintervals, doub
     const double kernel = 4 * c / sqrt((1 - c) * (1 + c)); /* value at the edge; smaller below it */
     const double error1 = 4 * a->start_error[0] * start * start + kernel * c * a->rounding[0][edge];
     const double error2 = 4 * a->start_error[1] * start + kernel * a->rounding[1][edge];
-    const double error = fmax(j1 > 0 ? error1 / j1 : 0, j2 > 0 ? error2 / j2 : 0) +
-                         pow(4, -(double)a->terms) + 8 * DBL_EPSILON +
-                         2 * DBL_EPSILON * (4 + largest);
-    return a->weight != NULL ? error * a->weight->cancellation : error;
+    return fmax(j1 > 0 ? error1 / j1 : 0, j2 > 0 ? error2 / j2 : 0) + pow(4, -(double)a->terms) +
+           8 * DBL_EPSILON + 2 * DBL_EPSILON * (4 + largest);
 }

@@ -1,4 +1,4 @@
-/* Self-consistent temperatures: Anderson mixing on a coarse grid, then on a fine one.
+/* Self-consistent temperatures by Anderson mixing.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -24,8 +24,8 @@ static const double strong_damping = 0.25;
 /* A smooth solution needs at most the first number of maps; an existing one is found within the
  * second. */
 enum { FREE_MAPS = 15, MAX_MAPS = 60 };
-/* Error of a coarse solution relative to the largest rise. */
-static const double coarse_tolerance = 1e-5;
+/* Error of a first solution relative to the largest rise. */
+static const double first_tolerance = 1e-5;
 /* Share of the tolerance that a residual may have in ln a_T. */
 static const double goal_share = 0.05;
 /* Number of waves in a batch, for whole registers. */
@@ -42,37 +42,25 @@ struct flash_scratch {
     double *loss_j1, *loss_j2;              /* [nodes] with softening */
     double *g, *running, *area, *mu, *heat; /* [nodes] */
     double *wave, *square, *sum;            /* [waves] */
-    double *amount[2];                      /* [waves] of each of two solutions */
-    double *coarse;                         /* [nodes] solution on the coarse grid */
+    double *amount;                         /* [waves] */
     size_t nodes;
 };
-
-static size_t max_nodes(const flash_law *law)
-{
-    size_t most = 0;
-    for (size_t k = 0; k < FLASH_GRIDS; k++)
-        most = law->grid[k].n > most ? law->grid[k].n : most;
-    return flash_padded_rows(most) + GAUSS_NODES_MAX;
-}
 
 flash_scratch *flash_scratch_new(const wt_friction_workspace *ws, arena *memory)
 {
     flash_scratch *s = arena_alloc(memory, 1, sizeof *s);
-    const size_t n = max_nodes(ws->flash);
+    const size_t n = flash_padded_rows(ws->flash->grid.n) + GAUSS_NODES_MAX;
     double **const by_node[] = {
         &s->rise,  &s->next,    &s->residual, &s->last_rise, &s->last_residual, &s->shift,
         &s->omega, &s->x,       &s->j1,       &s->j2,        &s->loss_j1,       &s->loss_j2,
-        &s->g,     &s->running, &s->area,     &s->mu,        &s->heat,          &s->coarse};
+        &s->g,     &s->running, &s->area,     &s->mu,        &s->heat};
     for (size_t i = 0; i < COUNT_OF(by_node); i++)
         *by_node[i] = arena_numbers(memory, n);
     s->steps = arena_numbers(memory, DEPTH * n);
     s->changes = arena_numbers(memory, DEPTH * n);
-    double **const by_wave[] = {&s->wave, &s->square, &s->sum, &s->amount[0], &s->amount[1]};
-    size_t waves = 0;
-    for (size_t k = 0; k < FLASH_GRIDS; k++)
-        waves = ws->flash->grid[k].n_k > waves ? ws->flash->grid[k].n_k : waves;
+    double **const by_wave[] = {&s->wave, &s->square, &s->sum, &s->amount};
     for (size_t i = 0; i < COUNT_OF(by_wave); i++)
-        *by_wave[i] = arena_numbers(memory, waves);
+        *by_wave[i] = arena_numbers(memory, ws->flash->grid.n_k);
     return s;
 }
 
@@ -94,7 +82,6 @@ typedef struct flash_map {
     double part;     /* share of the heat */
     double longest;  /* sum of the waves beyond the lattice */
     double constant; /* rise due to these waves */
-    double *amount;
 } flash_map;
 
 /* sum[i] += factor[r] rows[r][i]; the number of rows is a multiple of FLASH_ROWS. */
@@ -148,17 +135,11 @@ static double sum_long_waves(const flash_map *map, double tau)
     return sum;
 }
 
-static flash_map create_map(const wt_friction_workspace *ws, flash_scratch *s, size_t grid,
-                            const friction_load *at, double *amount)
+static flash_map create_map(const wt_friction_workspace *ws, flash_scratch *s,
+                            const friction_load *at)
 {
     const flash_law *law = ws->flash;
-    flash_map map = {.ws = ws,
-                     .law = law,
-                     .s = s,
-                     .grid = &law->grid[grid],
-                     .at = *at,
-                     .part = 1,
-                     .amount = amount};
+    flash_map map = {.ws = ws, .law = law, .s = s, .grid = &law->grid, .at = *at, .part = 1};
     const double tau = law->options.diffusivity * law->options.contact_size / at->speed;
     fill_wave_weights(&map, tau, 0, map.grid->n_k, s->wave);
     map.longest = sum_long_waves(&map, tau);
@@ -238,10 +219,10 @@ static void apply_map(flash_map *map)
     memset(s->sum, 0, n_k * sizeof *s->sum);
     add_matrix_rows(grid->in, n_k, rows, n_k, s->heat, s->sum);
     for (size_t j = 0; j < n_k; j++)
-        map->amount[j] = s->wave[j] * s->sum[j];
+        s->amount[j] = s->wave[j] * s->sum[j];
     for (size_t i = 0; i < grid->n; i++)
         s->next[i] = map->constant;
-    add_matrix_rows(grid->out, grid->n, n_k, grid->n, map->amount, s->next);
+    add_matrix_rows(grid->out, grid->n, n_k, grid->n, s->amount, s->next);
     for (size_t i = 0; i < grid->n; i++)
         s->next[i] = fmin(s->next[i], map->law->hottest);
 }
@@ -377,40 +358,6 @@ static double residual_goal(const flash_law *law)
     return goal_share * fmax(law->tolerance, 1e-13) / steepest_shift(law, 0);
 }
 
-/* Solves on the fine grid, starting from a solution on the coarse grid. */
-static flash_solution refine(const wt_friction_workspace *ws, flash_scratch *s,
-                             const friction_load *at, double *amount)
-{
-    const flash_law *law = ws->flash;
-    const flash_grid *coarse = &law->grid[FLASH_COARSE], *fine = &law->grid[FLASH_FINE];
-    const size_t n_coarse = coarse->rule->n, n_fine = fine->rule->n;
-    memcpy(s->coarse, s->next, coarse->n * sizeof *s->coarse);
-    for (size_t p = 0; p < fine->n_subintervals; p++)
-        for (size_t i = 0; i < n_fine; i++) {
-            const double rise =
-                dot_product(law->refine + i * n_coarse, s->coarse + p * n_coarse, n_coarse);
-            s->rise[p * n_fine + i] = fmin(fmax(rise, 0), law->hottest);
-        }
-    flash_map map = create_map(ws, s, FLASH_FINE, at, amount);
-    const search_result found = iterate_to_fixed_point(&map, residual_goal(law), 0, 0);
-    const heat_profile heat = {.law = law,
-                               .square = fine->square,
-                               .amount = amount,
-                               .n = fine->n_k,
-                               .constant = map.constant};
-    double rise;
-    heat_rise(&heat, &ws->roughness->q1, 1, &rise);
-    return (flash_solution){.found = found.found,
-                            .rise = rise,
-                            .gain = found.gain,
-                            .rise_error = found.gain * (found.residual + lattice_error(fine, rise)),
-                            .hysteresis = sum_weighted(fine, s->mu),
-                            .variance = sum_weighted(fine, s->g),
-                            .steepest = steepest_shift(law, rise),
-                            .maps = found.maps,
-                            .heat = heat};
-}
-
 static void set_uniform_rise(flash_scratch *s, const flash_grid *grid, double rise)
 {
     for (size_t i = 0; i < grid->n; i++)
@@ -423,12 +370,12 @@ static const double first_part = 1.0 / 64, part_ratio = 2;
 static search_result search_cold(flash_map *map)
 {
     set_uniform_rise(map->s, map->grid, 0);
-    search_result found = iterate_to_fixed_point(map, 0, coarse_tolerance, 0);
+    search_result found = iterate_to_fixed_point(map, 0, first_tolerance, 0);
     if (found.found)
         return found;
     set_uniform_rise(map->s, map->grid, 0);
     for (map->part = first_part; map->part <= 1; map->part *= part_ratio) {
-        found = iterate_to_fixed_point(map, 0, coarse_tolerance, 0);
+        found = iterate_to_fixed_point(map, 0, first_tolerance, 0);
         if (!found.found)
             break;
     }
@@ -436,94 +383,48 @@ static search_result search_cold(flash_map *map)
     return found;
 }
 
-/* Uniform rises [K] at which the search for a hot contact begins. A hot solution exists if warm
- * rubber produces more heat than cold rubber, and enough to stay hot. The heat falls monotonically
- * above the glass transition. */
-static const double probes[] = {20, 60, 160};
-/* Halvings of the logarithmic bracket between two of these rises; the start value then has 10 %
- * error. */
-enum { HALVINGS = 3 };
+/* Uniform rises [K] from which a contact is searched that has no cold solution. */
+static const double probes[] = {160, 60, 20};
 
-/* Rise due to the heat at a uniform rise, averaged over the heat. */
-static double compute_mean_rise(flash_map *map, double rise)
-{
-    flash_scratch *s = map->s;
-    double sum = 0, weight = 0;
-    set_uniform_rise(s, map->grid, rise);
-    apply_map(map);
-    for (size_t i = 0; i < map->grid->n; i++) {
-        const double part = map->grid->weight[i] * s->mu[i];
-        weight += part;
-        sum += part * s->next[i];
-    }
-    return weight > 0 ? sum / weight : 0;
-}
-
-/* Searches from a uniform rise between `low`, which heats itself further, and `high`, which does
- * not. */
-static search_result search_bracket(flash_map *map, double low, double high)
+static search_result search_from_above(flash_map *map)
 {
     search_result found = {0};
-    double from = low, to = high;
-    for (size_t k = 0; k < HALVINGS; k++) {
-        const double middle = sqrt(from * to);
-        *(compute_mean_rise(map, middle) >= middle ? &from : &to) = middle;
-    }
-    const double starts[] = {to, high};
-    for (size_t k = 0; !found.found && k < COUNT_OF(starts); k++) {
-        set_uniform_rise(map->s, map->grid, starts[k]);
-        found = iterate_to_fixed_point(map, 0, coarse_tolerance, DAMPED_MAPS);
+    for (size_t k = 0; !found.found && k < COUNT_OF(probes); k++) {
+        set_uniform_rise(map->s, map->grid, fmin(probes[k], map->law->hottest));
+        found = iterate_to_fixed_point(map, 0, first_tolerance, DAMPED_MAPS);
     }
     return found;
 }
 
-/* Finds the hottest solution from above; `next` is undefined if there is none. */
-static search_result search_hot(flash_map *map)
-{
-    const double cold = compute_mean_rise(map, 0);
-    double low = 0, high = map->law->hottest;
-    /* a contact that cools at 20 K and at 60 K does not heat up at 160 K */
-    for (size_t k = 0; k < COUNT_OF(probes) && probes[k] < map->law->hottest; k++) {
-        const double made = compute_mean_rise(map, probes[k]);
-        if (made > cold && made >= probes[k]) {
-            low = probes[k];
-            high = map->law->hottest;
-        } else if (high > probes[k]) {
-            high = fmin(high, probes[k]);
-        }
-        if (k > 0 && !(low > 0 && low == probes[k]))
-            break;
-    }
-    return low > 0 ? search_bracket(map, low, high) : (search_result){0};
-}
-
+/* Finds a solution, then improves it with a fresh history of steps. */
 flash_solution flash_solve(const wt_friction_workspace *ws, flash_scratch *s,
                            const friction_load *at)
 {
-    flash_map map = create_map(ws, s, FLASH_COARSE, at, s->amount[0]);
+    const flash_law *law = ws->flash;
+    const flash_grid *grid = &law->grid;
+    flash_map map = create_map(ws, s, at);
     search_result found = search_cold(&map);
-    size_t maps = found.maps;
+    const size_t maps = found.maps;
     if (!found.found)
-        found = search_hot(&map);
+        found = search_from_above(&map);
     if (!found.found)
         return (flash_solution){.maps = maps};
-    flash_solution solution = refine(ws, s, at, s->amount[0]);
-    solution.maps += maps;
-    return solution;
-}
-
-/* Two solutions that differ by less are equal [K]: ten times the error of a coarse solution at 40
- * K. */
-static const double same_rise = 0.01;
-
-flash_solution flash_solve_hot(const wt_friction_workspace *ws, flash_scratch *s,
-                               const friction_load *at, const flash_solution *cold)
-{
-    flash_map map = create_map(ws, s, FLASH_COARSE, at, s->amount[1]);
-    const search_result found = search_hot(&map);
-    if (!found.found || s->next[map.grid->n - 1] < cold->rise + same_rise)
-        return (flash_solution){.maps = found.maps};
-    flash_solution hot = refine(ws, s, at, s->amount[1]);
-    hot.found = hot.found && hot.rise > cold->rise + same_rise;
-    return hot;
+    memcpy(s->rise, s->next, grid->n * sizeof *s->rise);
+    found = iterate_to_fixed_point(&map, residual_goal(law), 0, 0);
+    const heat_profile heat = {.law = law,
+                               .square = grid->square,
+                               .amount = s->amount,
+                               .n = grid->n_k,
+                               .constant = map.constant};
+    double rise;
+    heat_rise(&heat, &ws->roughness->q1, 1, &rise);
+    return (flash_solution){.found = found.found,
+                            .rise = rise,
+                            .gain = found.gain,
+                            .rise_error = found.gain * (found.residual + lattice_error(grid, rise)),
+                            .hysteresis = sum_weighted(grid, s->mu),
+                            .variance = sum_weighted(grid, s->g),
+                            .steepest = steepest_shift(law, rise),
+                            .maps = maps + found.maps,
+                            .heat = heat};
 }

@@ -14,13 +14,9 @@
 /* Nodes of a subinterval and steps of the lattice, for tolerances down to the one in the row. */
 static const struct {
     double tolerance;
-    size_t nodes[FLASH_GRIDS];
-    double step[FLASH_GRIDS];
-} ladders[] = {{1e-4, {4, 5}, {0.5, 0.4}},
-               {1e-6, {4, 6}, {0.5, 0.32}},
-               {1e-8, {4, 7}, {0.5, 0.27}},
-               {1e-11, {6, 12}, {0.4, 0.18}},
-               {0, {8, 18}, {0.3, 0.14}}};
+    size_t nodes;
+    double step;
+} ladders[] = {{1e-4, 5, 0.4}, {1e-6, 6, 0.32}, {1e-8, 7, 0.27}, {1e-11, 12, 0.18}, {0, 18, 0.14}};
 
 /* Below this tolerance, rounding dominates. */
 static const double min_tolerance = 1e-13;
@@ -155,20 +151,7 @@ static void create_lattice(const flash_law *law, flash_grid *grid, double digits
     }
 }
 
-/* ---- both grids ------------------------------------------------------------------------------ */
-
-/* Matrix of the polynomial interpolation from the nodes of one rule to those of another. */
-static void fill_interpolation_matrix(const gauss_rule *from, const gauss_rule *to, double *matrix)
-{
-    for (size_t i = 0; i < to->n; i++)
-        for (size_t j = 0; j < from->n; j++) {
-            double value = 1;
-            for (size_t m = 0; m < from->n; m++)
-                if (m != j)
-                    value *= (to->node[i] - from->node[m]) / (from->node[j] - from->node[m]);
-            matrix[i * from->n + j] = value;
-        }
-}
+/* ---- the grid -------------------------------------------------------------------------------- */
 
 static size_t flash_core_levels(double tolerance)
 {
@@ -176,7 +159,7 @@ static size_t flash_core_levels(double tolerance)
     return (size_t)fmin(fmax(levels, MIN_LEVELS), MAX_LEVELS);
 }
 
-static void create_grids(wt_friction_workspace *ws, flash_law *law)
+static void create_grid(wt_friction_workspace *ws, flash_law *law)
 {
     arena local_memory = {0};
     subinterval_plan plan;
@@ -188,17 +171,15 @@ static void create_grids(wt_friction_workspace *ws, flash_law *law)
                           &local_memory);
     double *bounds = arena_numbers(&local_memory, plan.capacity + 1);
     subinterval_plan_fill(&plan, ws->roughness, NULL, 0, NULL, 0, bounds);
-    for (size_t k = 0; k < FLASH_GRIDS; k++) {
-        flash_grid *grid = &law->grid[k];
-        const double digits = -log(fmax(law->tolerance, min_tolerance));
-        grid->step = ladders[ladder].step[k];
-        grid->below = digits + 3; /* the neglected part falls as k below the lattice; above it as
-                                     k^-5, or k^-3 where the heat stays where it is made */
-        grid->first = log(ws->roughness->q1) + grid->below / 3;
-        grid->rule = gauss_rule_get(ladders[ladder].nodes[k]);
-        fill_grid(ws, grid, &plan, &ws->memory);
-        create_lattice(law, grid, digits, &ws->memory);
-    }
+    flash_grid *grid = &law->grid;
+    const double digits = -log(fmax(law->tolerance, min_tolerance));
+    grid->step = ladders[ladder].step;
+    grid->below = digits + 3; /* the neglected part falls as k below the lattice; above it as
+                                 k^-5, or k^-3 where the heat stays where it is made */
+    grid->first = log(ws->roughness->q1) + grid->below / 3;
+    grid->rule = gauss_rule_get(ladders[ladder].nodes);
+    fill_grid(ws, grid, &plan, &ws->memory);
+    create_lattice(law, grid, digits, &ws->memory);
     arena_free(&local_memory);
 }
 
@@ -235,9 +216,6 @@ wt_status flash_new(wt_friction_workspace *ws, wt_error *err)
     law->tolerance = o->tolerance;
     law->q0 = ws->roughness->q0;
     ws->flash = law;
-    create_grids(ws, law);
-    const gauss_rule *coarse = law->grid[FLASH_COARSE].rule, *fine = law->grid[FLASH_FINE].rule;
-    law->refine = arena_numbers(&ws->memory, coarse->n * fine->n);
-    fill_interpolation_matrix(coarse, fine, law->refine);
+    create_grid(ws, law);
     return WT_OK;
 }

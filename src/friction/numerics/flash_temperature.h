@@ -31,8 +31,6 @@ typedef struct heat_profile {
 void heat_rise(const heat_profile *heat, const double *q, size_t n, double *rise);
 void heat_log_shift(const heat_profile *heat, const double *q, size_t n, double *log_shift);
 
-/* Two grids: a solution is searched for on the coarse one and refined on the fine one. */
-enum { FLASH_COARSE, FLASH_FINE, FLASH_GRIDS };
 /* Number of matrix rows that are summed at a time. */
 enum { FLASH_ROWS = 4 };
 static inline size_t flash_padded_rows(size_t n)
@@ -64,8 +62,7 @@ typedef struct flash_law {
     double hottest;            /* largest rise above T0 [K] */
     double tolerance;
     double q0;
-    flash_grid grid[FLASH_GRIDS];
-    double *refine; /* [nodes of a fine subinterval * of a coarse one] interpolation matrix */
+    flash_grid grid;
 } flash_law;
 
 typedef struct flash_scratch flash_scratch;
@@ -93,12 +90,9 @@ typedef struct flash_solution {
     heat_profile heat;
 } flash_solution;
 
-/* Solutions from the temperature of the surroundings and from far above it. A hot solution that
- * equals the cold one counts as not found. */
+/* Solution from the temperature of the surroundings on; if there is none, from far above it. */
 flash_solution flash_solve(const struct wt_friction_workspace *ws, flash_scratch *scratch,
                            const struct friction_load *at);
-flash_solution flash_solve_hot(const struct wt_friction_workspace *ws, flash_scratch *scratch,
-                               const struct friction_load *at, const flash_solution *cold);
 /* Returns the number of nodes at which J1 and J2 were evaluated, and resets the count. */
 size_t flash_reset_node_count(flash_scratch *scratch);
 

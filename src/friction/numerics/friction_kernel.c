@@ -41,8 +41,7 @@ wt_friction_options wt_friction_defaults(void)
 static const wt_param rows[] = {
     FRICTION_TOLERANCE(wt_friction_options),     FRICTION_GAMMA(wt_friction_options),
     FRICTION_STRAIN_FACTOR(wt_friction_options), LAYER_STATE_ROWS(wt_friction_options, layer.),
-    PARAM_THREADS(wt_friction_options),          FRICTION_ANISOTROPY(wt_friction_options),
-    FLASH_ROWS(wt_friction_options, flash.),
+    PARAM_THREADS(wt_friction_options),          FLASH_ROWS(wt_friction_options, flash.),
 };
 PARAM_TABLE(wt_friction_params, wt_friction_options, rows, wt_friction_defaults, NO_PARTS)
 
@@ -96,8 +95,7 @@ static double relative_rounding(const wt_friction_workspace *ws)
 static void choose_subinterval_width(wt_friction_workspace *ws)
 {
     const wt_layer_state *layer = &ws->options.layer;
-    const bool smooth =
-        ws->material->law->angular != NULL && ws->softening == NULL && !ws->anisotropic;
+    const bool smooth = ws->material->law->angular != NULL && ws->softening == NULL;
     const bool bulk = !(layer->thickness > 0) || (layer->modulus_ratio == 1 && ws->layer == NULL);
     subinterval_plan_init(
         &ws->plan, ws->roughness, smooth && bulk ? smooth_width : SUBINTERVAL_WIDTH,
@@ -122,26 +120,6 @@ static void prepare_plan(wt_friction_workspace *ws)
     subinterval_plan_fill(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
 }
 
-static angular_law *create_angular_law(wt_friction_workspace *ws, const wt_material *material)
-{
-    angular_law *const made = angular_new(material, ws->options.tolerance, &ws->memory);
-    if (ws->anisotropic)
-        angular_set_weight(made, &ws->weight);
-    return made;
-}
-
-/* Sets the weight of the roughness. Shared series do not include it and are discarded. */
-static wt_status init_anisotropy(wt_friction_workspace *ws, wt_error *err)
-{
-    const wt_anisotropy *anisotropy = &ws->options.anisotropy;
-    ws->anisotropic = anisotropy_is_present(anisotropy);
-    if (!ws->anisotropic)
-        return WT_OK;
-    ws->weight = weight_longitudinal(anisotropy);
-    ws->options.series = NULL;
-    return wt_anisotropy_check(anisotropy, err);
-}
-
 static wt_status init_softening(wt_friction_workspace *ws, wt_error *err)
 {
     const wt_friction_options *o = &ws->options;
@@ -149,7 +127,7 @@ static wt_status init_softening(wt_friction_workspace *ws, wt_error *err)
                                            ws->roughness, &ws->memory, &ws->softening, err);
     ws->options.softening = NULL; /* the table was borrowed for this call only */
     if (status == WT_OK)
-        ws->loss = create_angular_law(ws, &ws->softening->loss);
+        ws->loss = angular_new(&ws->softening->loss, ws->options.tolerance, &ws->memory);
     return status;
 }
 
@@ -166,7 +144,6 @@ static wt_status init_layer_moduli(wt_friction_workspace *ws, wt_error *err)
     if (status != WT_OK)
         return status;
     *ws->layer = layer_moduli_create(ws->material, *layer, ws->options.tolerance);
-    ws->layer->weight = ws->anisotropic ? &ws->weight : NULL;
     const size_t more = ws->layer->n_edges;
     *layer = (wt_layer_state){.thickness = layer->thickness, .modulus_ratio = 1};
     double *all = arena_numbers(&ws->memory, ws->n_knots + more);
@@ -190,16 +167,6 @@ static void prepare_knots(wt_friction_workspace *ws)
         ws->log_knots[k] = log(ws->knots[k]);
 }
 
-/* Creates the angular integrals of the material, unless they are shared, and those of the lateral
- * force. */
-static void init_angular(wt_friction_workspace *ws)
-{
-    const wt_friction_options *o = &ws->options;
-    ws->angular = o->series != NULL ? o->series : create_angular_law(ws, ws->material);
-    if (anisotropy_has_lateral_force(&o->anisotropy))
-        ws->lateral = lateral_force_new(ws->material, o, ws->layer, &ws->memory);
-}
-
 wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughness *roughness,
                                     const wt_friction_options *options,
                                     wt_friction_workspace **workspace, wt_error *err)
@@ -219,15 +186,13 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
         ws->knots = material->law->breaks(material, &ws->n_knots);
     ws->threads = wt_thread_count(o.threads);
     ws->scratch = arena_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
-    status = init_anisotropy(ws, err);
-    if (status == WT_OK)
-        status = init_layer_moduli(ws, err);
+    status = init_layer_moduli(ws, err);
     prepare_knots(ws);
     if (status == WT_OK && o.softening != NULL)
         status = init_softening(ws, err);
     choose_subinterval_width(ws);
     if (status == WT_OK) {
-        init_angular(ws);
+        ws->angular = o.series != NULL ? o.series : angular_new(material, o.tolerance, &ws->memory);
         choose_rules(ws);
         ws->rounding = relative_rounding(ws);
     }
@@ -252,7 +217,6 @@ void wt_friction_workspace_free(wt_friction_workspace *ws)
     if (ws->options.series == NULL)
         angular_clear(ws->angular);
     angular_clear(ws->loss);
-    lateral_force_clear(ws->lateral);
     arena_free(&ws->memory);
     free(ws);
 }
@@ -306,14 +270,12 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
     if (n == 0)
         return WT_OK;
     wt_status status = WT_OK;
-    if ((!material->law->angular || ws->anisotropic) &&
+    if (!material->law->angular &&
         !(least * ws->roughness->q0 * shift >= ANGULAR_MIN_FREQUENCY && highest <= DBL_MAX)) {
         (void)range_error("velocity", highest <= DBL_MAX ? least : fastest,
                           "not 0, and so that q v is a frequency in range", err);
-        wt_error_advice(err,
-                        "a material of kind %s has no static limit%s; a Prony series has where the "
-                        "roughness is the same in all directions",
-                        material->law->name, ws->anisotropic ? " on anisotropic roughness" : "");
+        wt_error_advice(err, "a material of kind %s has no static limit; a Prony series has one",
+                        material->law->name);
         return WT_E_RANGE;
     }
     if (!material->law->angular && material->law->check != NULL)
@@ -324,8 +286,6 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
     angular_extend(ws->angular, lowest, highest);
     if (ws->softening != NULL)
         angular_extend(ws->loss, lowest, highest);
-    if (ws->lateral != NULL)
-        lateral_force_extend(ws->lateral, lowest, highest);
     return WT_OK;
 }
 
@@ -387,7 +347,8 @@ typedef struct compute_job {
 static bool needs_extrapolated_share(const wt_friction_workspace *ws)
 {
     return !ws->options.skip_extrapolated_share &&
-           (ws->layer != NULL || angular_has_limits(ws->angular));
+           (ws->layer != NULL || ws->material->frequency_min > 0 ||
+            ws->material->frequency_max > 0);
 }
 
 /* Computes a load with known temperatures, for a positive velocity. */
@@ -397,9 +358,8 @@ static void compute_load(const wt_friction_workspace *ws, friction_scratch *scra
     const double tolerance = ws->options.tolerance;
     const subinterval_plan *plan = friction_plan(ws, scratch, at, NULL, 0);
     friction_pass pass;
-    node_contributions record = {0};
     friction_evaluate(ws, scratch, plan, (friction_effort){0}, *at, needs_extrapolated_share(ws),
-                      ws->lateral != NULL ? &record : NULL, &pass);
+                      NULL, &pass);
     const friction_relative relative = friction_relative_error(ws, &pass, *at);
     const double error_g = relative.variance * pass.variance + pass.variance_error;
     const double error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
@@ -421,10 +381,6 @@ static void compute_load(const wt_friction_workspace *ws, friction_scratch *scra
     point->extrapolated_share = ws->options.skip_extrapolated_share ? (double)NAN
                                 : pass.hysteresis > 0 ? fmin(pass.outside / pass.hysteresis, 1)
                                                       : 0;
-    point->lateral = ws->lateral != NULL ? lateral_force_compute(ws, *at, &record, error_mu)
-                                         : dimensionless_estimate(0, 0);
-    free(record.q);
-    free(record.mu);
 }
 
 static void compute_point(const compute_job *job, friction_scratch *scratch, double velocity,
@@ -436,15 +392,12 @@ static void compute_point(const compute_job *job, friction_scratch *scratch, dou
     if (ws->flash == NULL || sign == 0) {
         compute_load(ws, scratch, &at, point);
         point->temperature = dimensionless_estimate((double)NAN, (double)NAN);
-        point->hot_branch = (wt_friction_branch){(double)NAN, (double)NAN, (double)NAN};
         point->has_no_solution = false;
     } else {
         friction_heated_point(ws, scratch, at, compute_load, point);
     }
     point->velocity = velocity;
     point->hysteresis.value *= sign;
-    point->lateral.value *= sign;
-    point->hot_branch.hysteresis *= sign;
 }
 
 static wt_status compute_velocity(void *user, size_t i, unsigned worker)
@@ -465,8 +418,6 @@ wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
     wt_status status = friction_prepare(workspace, pressure, velocity, n, err);
     if (status != WT_OK)
         return status;
-    if (n > 0 && workspace->layer == NULL && needs_extrapolated_share(workspace))
-        angular_prepare_outside(workspace->angular);
     compute_job job = {
         .ws = workspace, .pressure = pressure, .velocity = velocity, .n = n, .points = points};
     status = wt_parallel_for(n, workspace->threads, compute_velocity, &job, NULL, "friction");

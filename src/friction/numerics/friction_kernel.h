@@ -44,13 +44,10 @@ struct wt_friction_workspace {
     angular_law *angular;
     strain_law *softening; /* NULL if none */
     angular_law *loss;     /* law of the loss modulus, with softening */
-    angular_weight weight; /* weight of anisotropic roughness */
-    bool anisotropic;
-    struct lateral_force *lateral; /* integrals of its lateral force; NULL if none */
-    layer_moduli *layer;           /* layer's own moduli; NULL if none */
-    flash_law *flash;              /* NULL if the rubber has the temperature of its surroundings */
-    double stiffness;              /* 1 / (1 - nu^2) */
-    double rounding; /* relative rounding error of the integrals, without that of J1 and J2 */
+    layer_moduli *layer;   /* layer's own moduli; NULL if none */
+    flash_law *flash;      /* NULL if the rubber has the temperature of its surroundings */
+    double stiffness;      /* 1 / (1 - nu^2) */
+    double rounding;       /* relative rounding error of the integrals, without that of J1 and J2 */
     const double *knots;
     size_t n_knots;    /* knots of the materials [rad/s] */
     double *log_knots; /* [n_knots] */
@@ -174,18 +171,5 @@ friction_relative friction_relative_error(const wt_friction_workspace *ws,
 /* Relative rounding error of a sum of positive terms with some ulps each; the workspace holds the
  * additional error of steep integrands. */
 #define FRICTION_ROUNDING (32 * DBL_EPSILON)
-
-typedef struct lateral_force lateral_force;
-
-/* The object is allocated in the arena; clear it before the arena is freed. */
-lateral_force *lateral_force_new(const wt_material *material, const wt_friction_options *options,
-                                 const layer_moduli *own, arena *memory);
-void lateral_force_clear(lateral_force *side); /* no effect on NULL */
-/* Extends both integrals as angular_extend does. */
-void lateral_force_extend(lateral_force *side, double lowest, double highest);
-/* Computes the lateral friction of a pass with recorded nodes and this error of the hysteresis, for
- * a positive velocity. */
-wt_estimate lateral_force_compute(const wt_friction_workspace *ws, friction_load at,
-                                  const node_contributions *record, double hysteresis_error);
 
 #endif

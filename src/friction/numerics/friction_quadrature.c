@@ -339,24 +339,30 @@ static void integrate_subinterval(const wt_friction_workspace *ws, const node_vi
 
 /* ---- one pass -------------------------------------------------------------------------------- */
 
+/* Share of J1(w) from frequencies w cos(phi) outside of the measured range, of a loss modulus that
+ * is constant over a turn. */
+static double outside_share(const wt_material *material, double w)
+{
+    const double c_low = material->frequency_min / w, c_high = material->frequency_max / w;
+    double share = 0;
+    if (c_low > 0 && isfinite(c_low))
+        share = c_low < 1 ? c_low * c_low / (1 + sqrt((1 - c_low) * (1 + c_low))) : 1;
+    if (c_high > 0 && c_high < 1)
+        share += sqrt((1 - c_high) * (1 + c_high));
+    return fmin(share, 1);
+}
+
 /* Part of the hysteresis from extrapolated frequencies. */
 static double extrapolated_part(const wt_friction_workspace *ws, const node_view *view,
                                 const pass_part *part)
 {
-    const size_t n = view->rule->n;
-    double j1[GAUSS_NODES_MAX] = {0}, outside[GAUSS_NODES_MAX], sum = 0;
-    for (size_t j = 0; ws->layer != NULL && j < n; j++)
-        if (view->omega[j] < ws->layer->layer.slope.low ||
-            view->omega[j] > ws->layer->layer.slope.high)
-            sum += part->share[j];
-    if (ws->layer != NULL)
-        return sum;
-    for (size_t j = 0; j < n; j++)
-        j1[j] = view->g != NULL ? view->j1[j] / view->g[j] : view->j1[j];
-    angular_extrapolated_part(ws->angular, view->omega, j1, n, outside);
-    for (size_t j = 0; j < n; j++)
-        if (part->share[j] > 0)
-            sum += part->share[j] * (outside[j] / j1[j]);
+    double sum = 0;
+    for (size_t j = 0; j < view->rule->n; j++)
+        sum += part->share[j] * (ws->layer == NULL ? outside_share(ws->material, view->omega[j])
+                                 : view->omega[j] < ws->layer->layer.slope.low ||
+                                         view->omega[j] > ws->layer->layer.slope.high
+                                     ? 1
+                                     : 0);
     return sum;
 }
 

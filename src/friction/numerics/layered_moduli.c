@@ -285,15 +285,13 @@ static void add_angle_part(const layer_moduli *m, const layered_wave *wave, doub
     evaluate_moduli(m, at, m->n, bulk, layer);
     for (size_t i = 0; i < m->n; i++) {
         const double complex e = layer[i] * layered_stiffness(wave, layer[i] / bulk[i]);
-        const double square = sine[i] * sine[i], width = 4 * (to - from);
-        const double of1 = m->weight != NULL ? weight_evaluate(m->weight->power[0], square) : 1;
-        const double of2 = m->weight != NULL ? weight_evaluate(m->weight->power[1], square) : 1;
+        const double width = 4 * (to - from);
         const double loss = cimag(e), storage = creal(e);
         for (size_t k = 0, every = 1; k < ANGLE_LEVELS && i % every == 0; k++, every *= 2) {
             const double by = width * (m->share[i] * (double)every + (i == 0 ? m->below[k] : 0));
-            sums->j1[k] += by * of1 * sine[i] * loss;
-            sums->j2[k] += by * of2 * (storage * storage + loss * loss);
-            sums->loss[k] += by * of2 * loss * loss;
+            sums->j1[k] += by * sine[i] * loss;
+            sums->j2[k] += by * (storage * storage + loss * loss);
+            sums->loss[k] += by * loss * loss;
         }
     }
 }

@@ -20,7 +20,6 @@ enum { LAYER_MAX_EDGES = 16 };
 typedef struct layer_moduli {
     const wt_material *bulk; /* borrowed */
     wt_layer_state layer;
-    const angular_weight *weight;  /* weight of anisotropic roughness, borrowed; NULL if none */
     double edges[LAYER_MAX_EDGES]; /* frequencies at which the layer's moduli are not smooth,
                                        rising [rad/s] */
     size_t n_edges;

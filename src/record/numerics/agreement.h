@@ -18,8 +18,6 @@ typedef struct agreement_data {
     const double *value;                 /* [n] ln(measured/predicted), or another difference */
     const double *measurement_variance;  /* [n] variance due to the measurement alone */
     const double *prediction_covariance; /* [n * n] covariance due to the prediction */
-    double allowed; /* variance of the model discrepancy, smooth over the velocity; for the
-                       likelihood alone */
 } agreement_data;
 
 typedef enum agreement_verdict {
@@ -73,17 +71,5 @@ double agreement_quantile(double df);
 /* Degrees of freedom of a variance whose part `scatter` has df degrees of freedom (Welch and
  * Satterthwaite). */
 double agreement_df(double variance, double scatter, double df);
-
-/* Correlation length of the model discrepancy [decade]. It is similar within one decade and
- * independent over three: relaxation spectra of filled rubber change over decades. */
-#define AGREEMENT_LENGTH 1.0
-/* Returns ln of the normal likelihood of the values about 0 with the total covariance. It includes
- * the allowed model discrepancy (Kennedy and O'Hagan 2001, J. R. Stat. Soc. B 63, 425). Without
- * that term a record with an error of 0.1 % would weigh differences below the accuracy of the
- * theory. NaN if the covariance is not positive definite. */
-double agreement_likelihood(const agreement_data *data, double scatter);
-
-/* Solves V x = b with the total covariance V. NaN if it is not positive definite. x, b: [n]. */
-void agreement_solve(const agreement_data *data, double scatter, const double *b, double *x);
 
 #endif

@@ -1,7 +1,7 @@
 /* End of the running-in of a series of cycles: the change point, averaged over the unknown scatter
  * before and after. Compare Scargle et al., Astrophys. J. 764 (2013) 167; here the scatter is
  * autocorrelated. Published rules for the truncation of the beginning. Mean and drift of the
- * steady state with autocorrelated scatter, and its stick-slip.
+ * steady state with autocorrelated scatter.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/steady_state.h"
@@ -9,78 +9,11 @@
 #include "core/base/array.h"
 #include "core/math/students_t.h"
 #include "record/numerics/autocorrelation.h"
-#include "record/numerics/running_in_curve.h"
+#include "record/numerics/decay_fit.h"
 #include "weartrack/record.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-/* ---- stick-slip ------------------------------------------------------------------------------ */
-
-/* Fall of a slip in standard deviations of the sample-to-sample scatter. White scatter does not
- * reach it in a million samples. */
-static const double outstanding = 6;
-
-/* Ratio of sticking to slipping time. It is 1 for a wave. */
-static const double least_ratio = 2;
-
-enum { FEWEST_SLIPS = 10 }; /* slips that determine a mean and its scatter */
-
-/* Standard deviation of white scatter by the median of second differences, few of which are slips.
- * Their variance is 6 times larger. The median of |x| is 0.6745 standard deviations. */
-static double noise_deviation(const double *y, size_t n, double *scratch)
-{
-    for (size_t i = 0; i + 2 < n; i++)
-        scratch[i] = fabs(y[i] - 2 * y[i + 1] + y[i + 2]);
-    numbers_sort(scratch, n - 2);
-    return scratch[(n - 2) / 2] / (0.6745 * sqrt(6));
-}
-
-typedef struct slip_sums {
-    double n, mean, squares; /* heights of the falls */
-    double rise, fall;       /* number of samples */
-} slip_sums;
-
-/* Finds falls between turning points with hysteresis. */
-static slip_sums find_falls(const double *y, size_t n, double least)
-{
-    slip_sums s = {0};
-    size_t top = 0, bottom = 0;
-    bool falling = false;
-    for (size_t i = 1; i < n; i++) {
-        if (!falling && y[i] >= y[top])
-            top = i;
-        if (falling && y[i] <= y[bottom])
-            bottom = i;
-        if (!falling && y[top] - y[i] > least) {
-            s.rise += (double)(top - bottom);
-            falling = true;
-            bottom = i;
-        } else if (falling && y[i] - y[bottom] > least) {
-            s.fall += (double)(bottom - top);
-            const double off = y[top] - y[bottom] - s.mean;
-            s.mean += off / ++s.n;
-            s.squares += off * (y[top] - y[bottom] - s.mean);
-            falling = false;
-            top = i;
-        }
-    }
-    return s;
-}
-
-wt_stick_slip wt_stick_slip_find(const double *y, size_t n)
-{
-    const wt_stick_slip none = {0, (double)NAN, (double)NAN};
-    if (n < 4 * FEWEST_SLIPS) /* a slip and its rise take at least four samples */
-        return none;
-    double *const scratch = wt_alloc(n, sizeof *scratch);
-    const double scatter = noise_deviation(y, n, scratch);
-    free(scratch);
-    const slip_sums s = find_falls(y, n, outstanding * scatter);
-    return s.n >= FEWEST_SLIPS && s.rise > least_ratio * s.fall
-               ? (wt_stick_slip){(size_t)s.n, s.mean, sqrt(s.squares / (s.n - 1) / s.n)}
-               : none;
-}
 
 /* ---- end of the running-in ------------------------------------------------------------------- */
 
@@ -240,52 +173,34 @@ wt_running_in wt_running_in_find(const double *y, size_t n)
 
 /* ---- decay that goes on ---------------------------------------------------------------------- */
 
-/* Table of exp(-t^power), from a change of 3e-4 on to 7e-8. */
-enum { DECAY_POINTS = 240, DECAY_MAX_BATCHES = 120 };
-static const double decay_first = 1e-10, decay_last = 3000;
+/* More averages of the series do not change the fit. From exponential to nearly logarithmic. */
+enum { DECAY_MAX_BATCHES = 120 };
 static const double decay_power[] = {1, 0.8, 0.65, 0.5, 0.35};
-/* Remaining share that settles the decay: half, so that the times go far beyond the series. Prior
- * error of its time. */
-static const double decay_settled = 0.5, decay_expected = 1;
 /* The law of the decay is not known beyond the end of the series. Standard error for that: a share
  * of what is left, and of the distance from the plateau of an exponential. */
 static const double decay_left_error = 0.25, decay_law_error = 0.5;
 
-/* Fits one power, in units of the length of the series. */
-static bool fit_decay(const running_in_series *s, double power, running_in_curve_fit *fit)
-{
-    double value[DECAY_POINTS];
-    const double step = log(decay_last / decay_first) / (DECAY_POINTS - 1);
-    for (size_t i = 0; i < DECAY_POINTS; i++)
-        value[i] = exp(-pow(decay_first * exp((double)i * step), power));
-    const running_in_curve c = {DECAY_POINTS, log(decay_first), step, value};
-    return running_in_curve_fit_compute(&(running_in_curve_pair){s, &c}, 1, decay_settled,
-                                        decay_expected, fit, NULL) == WT_OK &&
-           fit->seen;
-}
-
 /* Averages the powers. */
-static steady_decay assess_decay(const running_in_series *s)
+static steady_decay assess_decay(const double *y, size_t n, double variance)
 {
     arena memory = {0};
-    const double variance = scatter_total_variance(s->friction, s->n), end = s->end[s->n - 1];
-    const likelihoods l = change_likelihoods(s->friction, s->n, variance, &memory);
+    const likelihoods l = change_likelihoods(y, n, variance, &memory);
     double odds = -(double)INFINITY, plateau = 0, square = 0, left = 0, exponential = (double)NAN;
     for (size_t i = 0; i < COUNT_OF(decay_power); i++) {
-        running_in_curve_fit f;
-        if (!fit_decay(s, decay_power[i], &f))
+        const decay_fit f = decay_fit_compute(y, n, decay_power[i]);
+        if (!f.seen)
             continue;
         const double all = log_add(odds, f.log_odds), old = exp(odds - all),
                      now = exp(f.log_odds - all);
         plateau = old * plateau + now * f.level;
         square = old * square + now * (f.level * f.level + f.level_error * f.level_error);
-        left = old * left + now * f.ratio * exp(-pow(end * exp(-f.log_factor), decay_power[i]));
+        left = old * left + now * f.ratio * exp(-pow(exp(-f.log_factor), decay_power[i]));
         odds = all;
         exponential = i == 0 ? f.level : exponential;
     }
-    for (size_t k = FEWEST_BEFORE; k < last_change(s->n); k++)
+    for (size_t k = FEWEST_BEFORE; k < last_change(n); k++)
         l.before[k] += l.behind[k];
-    const double change = change_log_odds(&l, l.before, FEWEST_BEFORE, last_change(s->n), variance);
+    const double change = change_log_odds(&l, l.before, FEWEST_BEFORE, last_change(n), variance);
     const double law = isnan(exponential) ? 0 : decay_law_error * (plateau - exponential),
                  error = hypot(sqrt(fmax(square - plateau * plateau, 0)),
                                hypot(decay_left_error * left, law));
@@ -299,18 +214,16 @@ static steady_decay assess_decay(const running_in_series *s)
 steady_decay steady_decay_find(const double *y, size_t n)
 {
     const size_t length = (n + DECAY_MAX_BATCHES - 1) / DECAY_MAX_BATCHES;
-    if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND || n / length < RUNNING_IN_CURVE_MIN_MEANS)
+    const size_t means = n / length, rest = n % length;
+    if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND || means < DECAY_MIN_MEANS)
         return (steady_decay){.is_detected = false};
-    running_in_series s = running_in_series_alloc(n / length);
-    const size_t rest = n % length;
-    for (size_t i = 0; i < s.n * length; i++)
-        s.friction[i / length] += y[rest + i] / (double)length;
-    for (size_t i = 0; i < s.n; i++)
-        s.end[i] = (double)(i + 1) / (double)s.n;
-    const steady_decay found = scatter_total_variance(s.friction, s.n) > 0
-                                   ? assess_decay(&s)
-                                   : (steady_decay){.is_detected = false};
-    running_in_series_clear(&s);
+    double *const mean = wt_alloc(means, sizeof *mean);
+    for (size_t i = 0; i < means * length; i++)
+        mean[i / length] += y[rest + i] / (double)length;
+    const double variance = scatter_total_variance(mean, means);
+    const steady_decay found =
+        variance > 0 ? assess_decay(mean, means, variance) : (steady_decay){.is_detected = false};
+    free(mean);
     return found;
 }
 

@@ -68,7 +68,7 @@ piece 'no bulk curves (<bulk> in <indentation>)' 'no wear-track curves (<track> 
   'no layer parameters (<layer>)' 'no modulus ratio (<modulus-ratio> in <layer>)' \
   'no directions of the material (<transverse> in <dma>)' 'no table of softening (<file> in <strain-softening>)' \
   'no softening by strain sweeps (<sweeps> in <strain-softening>)' 'no records of friction (<files> in <record>)' \
-  'nothing that was worn (<track-area>, <profile>' 'a specific wear rate in <layer>' 'no anisotropy (<anisotropy> in <sliding>)' \
+  'nothing that was worn (<track-area>, <profile>' 'a specific wear rate in <layer>' \
   'no decades asked for (<decades> in <sliding>)' \
   'nothing that is seen of a layer (<identify>)' 'no flash temperature (<flash-temperature> in <sliding>)' \
   'the case switches it off (<validate> in <record>)'
@@ -87,7 +87,6 @@ lacks '(<sliding>)' "$rubber$rough" "$rubber$rough$slides"
 ratio='<modulus-ratio>0.5</modulus-ratio>'
 lacks '(<layer>)' "$rubber$rough$slides" "$rubber$rough$slides<layer>$balance$ratio</layer>"
 lacks '(<modulus-ratio> in <layer>)' "$rubber$rough$slides<layer>$balance</layer>" "$rubber$rough$slides<layer>$balance$ratio</layer>"
-lacks '(<anisotropy> in <sliding>)' "$rubber$rough$slides" "$rubber$rough<sliding>$conditions<anisotropy>0.3</anisotropy></sliding>"
 lacks '(<decades> in <sliding>)' "$rubber$rough$slides" "$rubber$rough<sliding>$conditions<decades>yes</decades></sliding>"
 lacks '(<flash-temperature> in <sliding>)' "$rubber$rough$slides" "$rubber$rough<sliding>$conditions<flash-temperature>yes</flash-temperature></sliding>"
 measured="<record><files>$fixtures/record/disc.csv</files><load>5N</load><track-radius>12mm</track-radius></record>"

@@ -15,5 +15,4 @@ no_input 'the same curves once more through this version of weartrack indent' 'a
 no_input 'a sample on something hard (thinner than' 'a list of possible causes in a warning'
 no_input 'that of --pixel-size is taken' 'says what was done'
 not_advice 'a result of weartrack run, beside which those of curves stand' 'what is expected: taken with collect'
-no_input '--anisotropy %.4g --texture-angle' 'key of psd, taken by tests/unit/test_surface_job.c'
 no_input '--conditioning mend' 'the option of an action in the table data_quality: cli_conditioning'

@@ -1,0 +1,95 @@
+/* Time of a measured course against a predicted one, by least squares.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/numerics/course_fit.h"
+
+#include "core/base/memory.h"
+#include "core/math/students_t.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Factors that are tried: e^-4 to e^4 in steps of 2 %. */
+enum { STEPS = 400, FACTORS = 2 * STEPS + 1 };
+static const double last_log = 4;
+/* Largest correlation of successive residuals: with more, the course itself is in the residuals. */
+static const double most_correlation = 0.95;
+
+static double log_factor_at(size_t k)
+{
+    return last_log * ((double)k - STEPS) / STEPS;
+}
+
+/* Fits level and ratio at a factor and returns the sum of squares. residual: [n], or NULL. */
+static double sum_of_squares(const double *time, const double *y, size_t n, course_function *course,
+                             const void *user, double factor, double *residual)
+{
+    double mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
+    double *const x = wt_alloc(n, sizeof *x);
+    for (size_t i = 0; i < n; i++) {
+        x[i] = course(user, time[i] / factor);
+        mean_x += x[i] / (double)n;
+        mean_y += y[i] / (double)n;
+    }
+    for (size_t i = 0; i < n; i++) {
+        xx += (x[i] - mean_x) * (x[i] - mean_x);
+        xy += (x[i] - mean_x) * (y[i] - mean_y);
+        yy += (y[i] - mean_y) * (y[i] - mean_y);
+    }
+    const double ratio = xx > 0 ? xy / xx : 0;
+    for (size_t i = 0; residual != NULL && i < n; i++)
+        residual[i] = y[i] - mean_y - ratio * (x[i] - mean_x);
+    free(x);
+    return fmax(yy - ratio * xy, 0);
+}
+
+/* Variance of the mean of correlated residuals over that of independent ones. */
+static double correlation_factor(const double *residual, size_t n)
+{
+    double product = 0, square = 0;
+    for (size_t i = 0; i < n; i++) {
+        square += residual[i] * residual[i];
+        product += i > 0 ? residual[i] * residual[i - 1] : 0;
+    }
+    const double r = square > 0 ? fmin(fmax(product / square, 0), most_correlation) : 0;
+    return (1 + r) / (1 - r);
+}
+
+wt_interval course_fit_factor(const double *time, const double *y, size_t n,
+                              course_function *course, const void *user)
+{
+    wt_interval found = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    if (n < 4) /* one more than the constants */
+        return found;
+    double *const residual = wt_alloc(n, sizeof *residual);
+    double squares[FACTORS];
+    size_t best = 0;
+    for (size_t k = 0; k < FACTORS; k++) {
+        squares[k] = sum_of_squares(time, y, n, course, user, exp(log_factor_at(k)), NULL);
+        if (squares[k] < squares[best])
+            best = k;
+    }
+    const double least =
+        sum_of_squares(time, y, n, course, user, exp(log_factor_at(best)), residual);
+    const double allowed =
+        least * (1 + NORMAL_95 * NORMAL_95 * correlation_factor(residual, n) / ((double)n - 3));
+    double mean = 0, constant = 0;
+    for (size_t i = 0; i < n; i++)
+        mean += y[i] / (double)n;
+    for (size_t i = 0; i < n; i++)
+        constant += (y[i] - mean) * (y[i] - mean);
+    free(residual);
+    if (!(constant > allowed)) /* a constant is as good */
+        return found;
+    size_t low = best, high = best;
+    while (low > 0 && squares[low - 1] <= allowed)
+        low--;
+    while (high + 1 < FACTORS && squares[high + 1] <= allowed)
+        high++;
+    const double half_step = 0.5 * last_log / STEPS;
+    found.value = exp(log_factor_at(best));
+    found.low = low > 0 ? exp(log_factor_at(low) - half_step) : (double)NAN;
+    found.high = high + 1 < FACTORS ? exp(log_factor_at(high) + half_step) : (double)NAN;
+    found.standard_error = (found.high - found.low) / (2 * NORMAL_95);
+    return found;
+}
