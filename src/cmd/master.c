@@ -4,17 +4,25 @@
 
 #include <string.h>
 
-typedef struct refit_choice {
+typedef struct saved_shifts {
+    const char *read, *written;
     bool influence;
-} refit_choice;
+} saved_shifts;
 
-static const wt_param refit_rows[] = {
-    {PARAM_FLAG_OF("influence", refit_choice, influence),
+static const wt_param saved_rows[] = {
+    {PARAM_TEXT_OF("shifts", saved_shifts, read), .value = "FILE", .unset = "fitted",
+     .help =
+         "table with columns temperature and log_a, as --save-shifts writes it: these shifts are "
+         "not fitted, those of other isotherms are, and with a column log_b so are the vertical "
+         "ones; - is standard input"},
+    {PARAM_TEXT_OF("save-shifts", saved_shifts, written), .value = "FILE", .unset = "",
+     .flags = PARAM_WRITTEN, .help = "write the table shift_factors there too, as a text stream"},
+    {PARAM_FLAG_OF("influence", saved_shifts, influence),
      .help =
          "fit again without each of the isotherms: the table influences says how far that moves "
          "the others, law and moduli"},
 };
-CMD_OPTIONS(refit_params, refit_choice, refit_rows)
+CMD_OPTIONS(saved_params, saved_shifts, saved_rows)
 
 /* Options of the export to finite-element programs. */
 typedef struct fem_exports {
@@ -41,6 +49,15 @@ PARAM_LOCAL_TABLE(exported_params, fem_exports, export_rows, export_defaults,
                   PARAM_PART(wt_reduction_params, fem_exports, reduction),
                   PARAM_PART(wt_fem_export_options_params, fem_exports, solid))
 
+static wt_status save_shifts(const char *path, const wt_table *shifts, wt_error *err)
+{
+    cmd_sink sink;
+    wt_status status = cmd_sink_open(path, &sink, err);
+    if (status == WT_OK)
+        status = wt_stream_write(sink.stream, shifts, NULL, err);
+    return cmd_sink_close(&sink, status, err);
+}
+
 /* Splits PROGRAM:FILE at the colon. */
 static bool split_export(const char *text, wt_fem_program *program, const char **file)
 {
@@ -50,16 +67,18 @@ static bool split_export(const char *text, wt_fem_program *program, const char *
 }
 
 /* Rejects two outputs to the same file or to standard output. */
-static bool check_outputs(cmd_session *s, const fem_exports *exports_given)
+static bool check_outputs(cmd_session *s, const saved_shifts *saved,
+                          const fem_exports *exports_given)
 {
     const char *result = s->common.output != NULL ? s->common.output : "-";
-    for (size_t i = 0; i < exports_given->n_exports; i++) {
+    for (size_t i = 0; i <= exports_given->n_exports; i++) {
         wt_fem_program program;
-        const char *one, *other;
-        if (!split_export(exports_given->exports[i], &program, &one))
+        const char *one = saved->written, *other;
+        if (i < exports_given->n_exports &&
+            !split_export(exports_given->exports[i], &program, &one))
             return false;
-        bool twice = strcmp(one, result) == 0;
-        for (size_t k = 0; k < i; k++)
+        bool twice = one != NULL && strcmp(one, result) == 0;
+        for (size_t k = 0; k < i && one != NULL; k++)
             twice = twice || (split_export(exports_given->exports[k], &program, &other) &&
                               strcmp(one, other) == 0);
         if (twice && strcmp(one, "-") == 0)
@@ -115,6 +134,26 @@ static bool requests_reduced_series(const cmd_option_group *part, const fem_expo
     for (size_t i = 0; i < COUNT_OF(options); i++)
         asked = asked || cmd_option_is_set(part, options[i]);
     return asked;
+}
+
+/* Reads the shifts from an output of master, for the sample if it has several, or from any other
+ * table. `shifts` is a table of `given`. */
+static wt_status read_saved_shifts(cmd_session *s, const char *path, const char *sample,
+                                   wt_result **given, const wt_table **shifts)
+{
+    static const wt_tables_role role = {
+        "shifts", "shifts",
+        "what weartrack master wrote, or a text table that begins with a line such as "
+        "\"# temperature[degC]<TAB>log_a[1]\""};
+    const wt_status status = wt_tables_read(path, path, &s->work, role, given, &s->err);
+    if (*given == NULL)
+        return status;
+    const bool of_samples = cmd_tables_contain(*given, "shift_factors/");
+    *shifts = of_samples ? cmd_sample_table(*given, "shift_factors", sample)
+                         : wt_result_find(*given, "shift_factors");
+    if (*shifts == NULL)
+        *shifts = wt_result_table(*given, 0);
+    return of_samples ? cmd_check_sample(*given, path, "shift_factors", sample, &s->err) : status;
 }
 
 /* Fits one sample, writes its separate files and finishes the call. `status` is the status of
@@ -245,11 +284,15 @@ static void fit_sample_masters(cmd_session *s, wt_master_job *job, wt_file_set *
 /* ---- one sample ------------------------------------------------------------------------------ */
 
 static void fit_single_master(cmd_session *s, wt_status status, const wt_master_job *job,
-                              const fem_exports *exports_given)
+                              const saved_shifts *saved, const fem_exports *exports_given)
 {
     wt_master_tables tables = {0};
     if (status == WT_OK)
         status = wt_master_compute(job, &s->work, &tables, NULL, &s->err);
+    if (status != WT_OK && job->shifts != NULL && strcmp(s->err.place, "shifts") == 0)
+        wt_error_file(&s->err, saved->read);
+    if (status == WT_OK && saved->written != NULL)
+        status = save_shifts(saved->written, tables.shift_factors, &s->err);
     if (status == WT_OK)
         status = write_exports(s, exports_given, &tables);
     wt_table **const made_tables[] = {
@@ -284,7 +327,7 @@ int cmd_master(int argc, char **argv)
         .n_files = CMD_ONE_OR_MORE};
     wt_master_job job = wt_master_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
-    refit_choice refit = {false};
+    saved_shifts saved = {NULL, NULL, false};
     fem_exports exports_given = export_defaults();
     enum { EXPORTED = 2 };
     cmd_option_group parts[] = {
@@ -292,37 +335,42 @@ int cmd_master(int argc, char **argv)
          "reference-temperature reference-at vertical-shift expansion terms-per-decade liquid "
          "shift-by exclude shift-law shift",
          0},
-        {refit_params(), &refit, NULL, 0},
+        {saved_params(), &saved, NULL, 0},
         [EXPORTED] = {exported_params(), &exports_given, NULL, 0},
         {wt_read_params(), &set.read,
          "temperature temperature-in-name frequency units format sheet deformation strain sample "
          "sample-by conditioning",
          0}};
     cmd_session s = cmd_session_defaults();
+    wt_result *given = NULL;
     wt_sample_names samples = {0, NULL};
     wt_sweep sweep = {0};
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) ||
-        !check_exports(&s, &exports_given) || !check_outputs(&s, &exports_given) ||
+        !check_exports(&s, &exports_given) || !check_outputs(&s, &saved, &exports_given) ||
         !cmd_begin_files(&s, &set))
         return cmd_session_free(&s);
     job.reduction = exports_given.reduction;
     if (!requests_reduced_series(&parts[EXPORTED], &exports_given))
         s.work.left_out |= WT_EXTRA_REDUCED_SERIES;
-    if (!refit.influence)
+    if (!saved.influence)
         s.work.left_out |= WT_EXTRA_INFLUENCES;
     job.sets = &set;
     job.n_sets = 1;
     wt_cost_begin_stage(s.cost, "master_curve");
     s.work.dma = &sweep; /* read once for all samples */
     wt_status status = WT_OK;
+    if (saved.read != NULL)
+        status = read_saved_shifts(&s, saved.read, set.read.sample, &given, &job.shifts);
     /* separate files are for one sample only */
-    if (status == WT_OK && set.read.sample == NULL && exports_given.n_exports == 0)
+    if (status == WT_OK && set.read.sample == NULL && saved.written == NULL &&
+        exports_given.n_exports == 0)
         status = wt_sample_names_read(&set, 1, &s.work, &samples, &s.err);
     if (status == WT_OK && samples.n > 1)
         fit_sample_masters(&s, &job, &set, &samples);
     else
-        fit_single_master(&s, status, &job, &exports_given);
+        fit_single_master(&s, status, &job, &saved, &exports_given);
     wt_sample_names_clear(&samples);
     wt_sweep_clear(&sweep);
+    wt_result_free(given);
     return cmd_session_free(&s);
 }

@@ -194,7 +194,7 @@ static wt_status set_stated_shifts(const windows *w, const wt_shift_law *law, wt
             w->window_point[k].off =
                 wt_shift_law_log_a(law, w->window_point[k].temperature) - window_shift;
     }
-    return flow_set_stated_shifts(law, sweep, err);
+    return flow_set_stated_shifts(law, NULL, WT_VERTICAL_NONE, sweep, NULL, err);
 }
 
 /* Writes the points to the isotherms, moved to the temperature of their window. */

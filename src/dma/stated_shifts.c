@@ -1,5 +1,6 @@
-/* Laws as option values, such as "wlf:c1=8.86,...", and the shifts that the user states: by a law
- * or by hand. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Laws as option values, such as "wlf:c1=8.86,...", and the shifts that the user states: by a law,
+ * or by a table of an earlier fit or another program.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/law_parse.h"
 
 #include "core/base/param.h"
@@ -161,11 +162,14 @@ wt_status flow_parse_shift_law(const char *text, wt_shift_law *law, wt_error *er
     return status;
 }
 
-/* ---- shifts by a law ----------------------------------------------------------------- */
+/* ---- shifts of the isotherms ----------------------------------------------------------------- */
 
-wt_status flow_set_stated_shifts(const wt_shift_law *law, wt_sweep *sweep, wt_error *err)
+/* A table row belongs to an isotherm within 0.5 K, the stability of a chamber. */
+static const double same_temperature = 0.5;
+
+static wt_status set_law_shifts(const wt_shift_law *law, wt_sweep *sweep, wt_error *err)
 {
-    for (size_t i = 0; law->kind != WT_LAW_NONE && i < sweep->n_isotherms; i++) {
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
         wt_isotherm *t = &sweep->isotherms[i];
         t->stated_log_a = wt_shift_law_log_a(law, t->temperature);
         t->shift_is_stated = isfinite(t->stated_log_a);
@@ -180,10 +184,176 @@ wt_status flow_set_stated_shifts(const wt_shift_law *law, wt_sweep *sweep, wt_er
     return WT_OK;
 }
 
-/* ---- shifts by hand -------------------------------------------------------------------------- */
+/* Table of stated shifts with its conversion to kelvin. */
+typedef struct shift_rows {
+    const wt_table *table;
+    size_t temperature, log_a; /* columns */
+    double to_kelvin, zero;
+} shift_rows;
 
-/* A shift belongs to an isotherm within 0.5 K, the stability of a chamber. */
-static const double same_temperature = 0.5;
+static double row_temperature(const shift_rows *r, size_t row)
+{
+    return wt_table_number(r->table, row, r->temperature) * r->to_kelvin + r->zero;
+}
+
+static bool has_shift(const shift_rows *r, size_t row)
+{
+    return isfinite(wt_table_number(r->table, row, r->log_a));
+}
+
+/* Returns the first of the rows nearest to a temperature, or the number of rows. *n_alike:
+ * number of such rows. */
+static size_t find_nearest_rows(const shift_rows *r, double t, size_t *n_alike)
+{
+    const size_t n = wt_table_n_rows(r->table);
+    size_t best = n;
+    double away = same_temperature;
+    *n_alike = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double off = fabs(row_temperature(r, i) - t);
+        if (off < away || (best == n && off <= away)) {
+            away = off;
+            best = i;
+            *n_alike = 0;
+        }
+        *n_alike += best < n && row_temperature(r, i) == row_temperature(r, best);
+    }
+    return best;
+}
+
+/* Finds the row of an isotherm. Runs at one temperature use the rows in their order. */
+static wt_status find_isotherm_row(const shift_rows *r, const wt_sweep *sweep, size_t isotherm,
+                                   size_t *row, wt_error *err)
+{
+    const double t = sweep->isotherms[isotherm].temperature;
+    size_t rank = 0, runs = 0, n_alike;
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const bool same = sweep->isotherms[i].temperature == t;
+        runs += same;
+        rank += same && i < isotherm;
+    }
+    *row = find_nearest_rows(r, t, &n_alike);
+    if (n_alike <= 1)
+        return WT_OK;
+    if (n_alike != runs) {
+        wt_fail(err, WT_E_AMBIGUOUS, "the table has %zu shifts for one temperature", n_alike);
+        wt_error_place(err, "shifts");
+        wt_error_expected(err, "one, or one for each of the isotherms there (%zu)", runs);
+        wt_error_found(err, "%.2f degC", row_temperature(r, *row) - WT_ZERO_CELSIUS);
+        return WT_E_AMBIGUOUS;
+    }
+    const double here = row_temperature(r, *row);
+    while (rank > 0 || row_temperature(r, *row) != here)
+        rank -= row_temperature(r, (*row)++) == here;
+    return WT_OK;
+}
+
+/* Counts the rows that belong to no isotherm. They probably come from other files. */
+static size_t count_unused_rows(const shift_rows *r, const wt_sweep *sweep)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < wt_table_n_rows(r->table); i++) {
+        bool used = !has_shift(r, i);
+        for (size_t k = 0; k < sweep->n_isotherms && !used; k++)
+            used =
+                fabs(row_temperature(r, i) - sweep->isotherms[k].temperature) <= same_temperature;
+        n += !used;
+    }
+    return n;
+}
+
+/* Sets the vertical shift of an isotherm if the table has one. */
+static wt_status set_vertical_shift(const wt_table *table, size_t row, wt_vertical_shift vertical,
+                                    wt_isotherm *t, wt_error *err)
+{
+    const long column = wt_table_find(table, "log_b");
+    t->vertical_shift_is_stated = false;
+    t->stated_log_b = 0;
+    if (!t->shift_is_stated || column < 0 ||
+        wt_table_column_kind(table, (size_t)column) == WT_COLUMN_TEXT)
+        return WT_OK;
+    const double b = wt_table_number(table, row, (size_t)column);
+    if (vertical == WT_VERTICAL_NONE && fabs(b) > 0) {
+        wt_fail(err, WT_E_ARG, "the table gives vertical shifts, and vertical-shift is none");
+        wt_error_place(err, "shifts");
+        wt_error_found(err, "log_b = %g at %.2f degC", b, t->temperature - WT_ZERO_CELSIUS);
+        wt_error_advice(err, "leave out its column log_b, or give another --vertical-shift");
+        wt_error_options(err, "vertical-shift");
+        return WT_E_ARG;
+    }
+    t->vertical_shift_is_stated = isfinite(b);
+    t->stated_log_b = t->vertical_shift_is_stated ? b : 0;
+    return WT_OK;
+}
+
+static wt_status set_table_shifts(const wt_table *table, wt_vertical_shift vertical,
+                                  wt_sweep *sweep, wt_log *log, wt_error *err)
+{
+    const long temperature = wt_table_find(table, "temperature"),
+               log_a = wt_table_find(table, "log_a");
+    shift_rows r = {.table = table, .to_kelvin = 1};
+    size_t given = 0, held = 0;
+    if (temperature < 0 || log_a < 0 ||
+        wt_table_column_kind(table, (size_t)temperature) == WT_COLUMN_TEXT ||
+        wt_table_column_kind(table, (size_t)log_a) == WT_COLUMN_TEXT) {
+        wt_fail(err, WT_E_MISSING, "the table of the shifts has not the columns it needs");
+        wt_error_place(err, "shifts");
+        wt_error_expected(err, "temperature[K] and log_a[1], as weartrack master --save-shifts "
+                               "writes them");
+        return WT_E_MISSING;
+    }
+    r.temperature = (size_t)temperature;
+    r.log_a = (size_t)log_a;
+    wt_status status = wt_unit_to_si(wt_table_column_unit(table, r.temperature), WT_Q_TEMPERATURE,
+                                     &r.to_kelvin, &r.zero, err);
+    if (status != WT_OK) {
+        wt_error_place(err, "shifts");
+        return status;
+    }
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        wt_isotherm *t = &sweep->isotherms[i];
+        size_t row;
+        status = find_isotherm_row(&r, sweep, i, &row, err);
+        if (status != WT_OK)
+            return status;
+        t->shift_is_stated = row < wt_table_n_rows(table) && has_shift(&r, row);
+        t->stated_log_a = t->shift_is_stated ? wt_table_number(table, row, r.log_a) : 0;
+        given += t->shift_is_stated;
+        status = set_vertical_shift(table, row, vertical, t, err);
+        if (status != WT_OK)
+            return status;
+        held += t->vertical_shift_is_stated;
+    }
+    if (given == 0) {
+        wt_fail(err, WT_E_MISSING, "the table has a shift of none of the isotherms");
+        wt_error_place(err, "shifts");
+        wt_error_expected(err, "log_a at temperatures within %g K of theirs", same_temperature);
+        return WT_E_MISSING;
+    }
+    wt_log_add(log, WT_NOTE, NULL, NULL,
+               "%zu of %zu shifts are as given, %zu of them with their vertical shift, without "
+               "an error of their own; the others are fitted",
+               given, sweep->n_isotherms, held);
+    const size_t unused = count_unused_rows(&r, sweep);
+    if (unused > 0)
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "%zu of the %zu given shifts are of no isotherm: no temperature within %g "
+                   "K of theirs was measured",
+                   unused, wt_table_n_rows(table), same_temperature);
+    return WT_OK;
+}
+
+wt_status flow_set_stated_shifts(const wt_shift_law *law, const wt_table *table,
+                                 wt_vertical_shift vertical, wt_sweep *sweep, wt_log *log,
+                                 wt_error *err)
+{
+    wt_status status = law->kind != WT_LAW_NONE ? set_law_shifts(law, sweep, err) : WT_OK;
+    if (status == WT_OK && table != NULL)
+        status = set_table_shifts(table, vertical, sweep, log, err);
+    return status;
+}
+
+/* ---- shifts by hand -------------------------------------------------------------------------- */
 
 typedef struct hand_shift {
     double temperature; /* [K] */

@@ -40,11 +40,14 @@ wt_status flow_exclusions_check(const char *const *texts, size_t n, wt_error *er
 
 /* Parses a shift law. NULL gives kind NONE. */
 wt_status flow_parse_shift_law(const char *text, wt_shift_law *law, wt_error *err) WT_NODISCARD;
-/* Sets the shifts of the isotherms from the law, unless its kind is NONE. */
-wt_status flow_set_stated_shifts(const wt_shift_law *law, wt_sweep *sweep,
+/* Sets the shifts of the isotherms from the law (unless its kind is NONE) or from the table
+ * (unless NULL). Vertical shifts of the table are fixed, too. They are an error if `vertical` is
+ * NONE. */
+wt_status flow_set_stated_shifts(const wt_shift_law *law, const wt_table *table,
+                                 wt_vertical_shift vertical, wt_sweep *sweep, wt_log *log,
                                  wt_error *err) WT_NODISCARD;
-/* Sets the shifts of isotherms that texts "T=LOG_AT" state, also in place of those of a law.
- * Returns WT_E_NOT_FOUND for a temperature that was not measured. */
+/* Sets the shifts of isotherms that texts "T=LOG_AT" state, also in place of those of a law or a
+ * table. Returns WT_E_NOT_FOUND for a temperature that was not measured. */
 wt_status flow_set_hand_shifts(const char *const *texts, size_t n, wt_sweep *sweep, wt_log *log,
                                wt_error *err) WT_NODISCARD;
 /* Checks the syntax of the texts. */

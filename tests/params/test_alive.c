@@ -145,6 +145,8 @@ static const struct {
     {NULL, "material", "the base has the same from --dma: tests/cli/round_trip.txt"},
     {NULL, "dma", "the base has it"},
     {NULL, "master", "the base has it"},
+    {"master", "shifts", "a file of shifts: tests/cli/shifts.txt"},
+    {"master", "save-shifts", "where shifts go: tests/cli/shifts.txt"},
     {NULL, "contact", "a result with contact points: tests/cli/choices.txt"},
     {NULL, "overrides", "a file of choices: tests/cli/choices.txt"},
     {"record", "profile", "files of profiles: unit_record_job"},

@@ -1,4 +1,4 @@
-/* Excluded parts of sweeps, shifts from a law or by hand, and results from one modulus alone.
+/* Excluded parts of sweeps, shifts from a law or a table, and results from one modulus alone.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 #include "dma/master.h"
@@ -189,7 +189,8 @@ static void manual_shift_with_a_law(void **unused)
     dma_usual(&sweep, true, noise, 7);
     assert_int_equal(flow_set_hand_shifts(other, 1, &sweep, NULL, &err), WT_E_NOT_FOUND);
     assert_int_equal(flow_hand_shifts_check(none, 1, &err), WT_E_ARG);
-    assert_int_equal(flow_set_stated_shifts(&law, &sweep, &err), WT_OK);
+    assert_int_equal(flow_set_stated_shifts(&law, NULL, WT_VERTICAL_TIED, &sweep, NULL, &err),
+                     WT_OK);
     assert_int_equal(flow_set_hand_shifts(forty, 1, &sweep, NULL, &err), WT_OK);
     assert_int_equal(wt_master_fit(&sweep, &o, NULL, &m, &err), WT_OK);
     for (size_t i = 0; i < m.n_shifts; i++) {
@@ -210,6 +211,47 @@ static void manual_shift_with_a_law(void **unused)
     assert_int_equal(wt_master_fit(&sweep, &o, NULL, &m, &err), WT_E_ARG);
     assert_string_equal(err.place, "shift");
     wt_sweep_clear(&sweep);
+}
+
+/* Two runs at one temperature have separate shifts in the table. Two shifts for one isotherm, or
+ * for temperatures that were not measured, are reported. */
+static void runs_at_one_temperature_keep_their_shifts(void **unused)
+{
+    static const double temperature[] = {293.15, 293.15, 303.15, 393.15},
+                        log_a[] = {0, 0.1, -0.6, -3};
+    const wt_shift_law none = {.kind = WT_LAW_NONE};
+    (void)unused;
+    for (int run = 0; run < 2; run++) {
+        wt_sweep sweep = {0};
+        wt_error err = WT_ERROR_INIT;
+        wt_log *log = wt_log_new();
+        wt_table *table = wt_table_new("shifts", "");
+        uint64_t state = 1;
+        size_t said = 0;
+        assert_int_equal(wt_table_add_column(table, "temperature", "K", "", NULL), WT_OK);
+        assert_int_equal(wt_table_add_column(table, "log_a", "1", "", NULL), WT_OK);
+        for (size_t i = 0; i < 4; i++) {
+            assert_int_equal(wt_table_add_row(table, NULL), WT_OK);
+            wt_table_set_number(table, 0, temperature[i]);
+            wt_table_set_number(table, 1, log_a[i]);
+        }
+        for (size_t i = run == 0 ? 0 : 1; i < 3; i++) /* the second time one run only */
+            assert_non_null(
+                dma_add(&sweep, &dma_rubber, temperature[i], 0.1, 100, 8, true, noise, &state));
+        const wt_status status =
+            flow_set_stated_shifts(&none, table, WT_VERTICAL_TIED, &sweep, log, &err);
+        assert_int_equal(status, run == 0 ? WT_OK : WT_E_AMBIGUOUS);
+        for (size_t i = 0; run == 0 && i < 3; i++) {
+            assert_true(sweep.isotherms[i].shift_is_stated);
+            assert_near_abs(sweep.isotherms[i].stated_log_a, log_a[i], 0);
+        }
+        for (size_t i = 0; i < wt_log_count(log); i++)
+            said += strstr(wt_log_get(log, i).text, "1 of the 4 given shifts are of no") != 0;
+        assert_int_equal(said, run == 0);
+        wt_table_free(table);
+        wt_log_free(log);
+        wt_sweep_clear(&sweep);
+    }
 }
 
 /* Storage moduli without rho T, because the closed form has none. */
@@ -359,6 +401,7 @@ int main(void)
         cmocka_unit_test(invalid_exclusions),
         cmocka_unit_test(one_frequency_by_a_law),
         cmocka_unit_test(stated_shifts_are_fixed),
+        cmocka_unit_test(runs_at_one_temperature_keep_their_shifts),
         cmocka_unit_test(no_glass_transition_far_from_the_isotherms),
         cmocka_unit_test(one_shift_by_hand),
         cmocka_unit_test(manual_shift_with_a_law),

@@ -64,6 +64,21 @@ piece 'give --reference-temperature in place of --reference-at'
 cause 'in place of --reference-at' master --poisson-ratio 0.5 --reference-at tan-delta-peak --shift 30degC=-0.9 three.csv -o a.h5
 helps master --poisson-ratio 0.5 --reference-temperature 20degC --shift 30degC=-0.9 three.csv -o a.h5
 
+piece 'leave out its column log_b, or give another --vertical-shift'
+"$weartrack" master -q --poisson-ratio 0.5 --vertical-shift tied three.csv --save-shifts shifts.tsv -o a.h5 2> err
+cause 'another --vertical-shift' master --poisson-ratio 0.5 --vertical-shift none --shifts shifts.tsv three.csv -o a.h5
+helps master --poisson-ratio 0.5 --vertical-shift tied --shifts shifts.tsv three.csv -o a.h5
+cut -f1,2 shifts.tsv > a-only.tsv
+helps master --poisson-ratio 0.5 --vertical-shift none --shifts a-only.tsv three.csv -o a.h5
+
+piece 'temperature[K] and log_a[1], as weartrack master --save-shifts writes them' 'what weartrack master wrote, or a text table that begins with a line such as'
+printf '# a[1]\tb[1]\n1\t2\n' > wrong.tsv
+cause 'weartrack master --save-shifts writes them' master --poisson-ratio 0.5 --shifts wrong.tsv three.csv -o a.h5
+helps master --poisson-ratio 0.5 --shifts shifts.tsv three.csv -o a.h5
+cause '# temperature[degC]<TAB>log_a[1]' master --poisson-ratio 0.5 --shifts empty.txt three.csv -o a.h5
+printf '# temperature[degC]\tlog_a[1]\n10\t1\n20\t0\n30\t-1\n' > typed.tsv
+helps master --poisson-ratio 0.5 --shifts typed.tsv three.csv -o a.h5
+
 piece 'columns strain, f and g, and f_error and g_error if they are known' 'what weartrack payne wrote, or a text table that begins with a line such as'
 cause 'as weartrack payne writes it' friction $slide --strain-softening wrong.tsv
 cause '# strain[1]<TAB>f[1]<TAB>g[1]' friction $slide --strain-softening empty.txt
