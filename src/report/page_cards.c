@@ -220,86 +220,53 @@ static void write_card(page_writer *page, const finding *f)
     text_add(&page->out, "</section>\n");
 }
 
-/* Verdict of a comparison of measured with predicted friction, and its reason. */
-typedef struct comparison_verdict {
-    const char *question, *word, *reason, *settled, *figure;
-    bool is_open, is_known;
-} comparison_verdict;
-
-/* Writes a card with the ratio of measured over predicted, and with the shear stress that would
- * make it 1 unless that is NaN. */
-static void write_comparison_card(page_writer *page, const comparison_verdict *c,
-                                  const row_number *ratio, const row_number *needed)
+/* Writes the verdict on measured against predicted friction, their ratio, and the shear stress that
+ * would make it 1. */
+static void write_validation_card(page_writer *page)
 {
+    const table_view *const v = &page->tables->validation;
+    if (v->table == NULL)
+        return;
+    const int outcome = validation_key_enum(v, VALIDATION_KEY_OUTCOME);
+    const char *const reason = validation_key_text(v, VALIDATION_KEY_VERDICT),
+                      *const settled = validation_key_text(v, VALIDATION_KEY_SETTLED_BY);
+    const double none = (double)NAN;
+    row_number ratio = {none, none, none, none, none, "1"},
+               needed = {none, none, none, none, none, "Pa"};
+    ratio.value = validation_value(v, VALIDATION_KEY_RATIO).value;
+    ratio.low = validation_value(v, VALIDATION_KEY_RATIO_LOW).value;
+    ratio.high = validation_value(v, VALIDATION_KEY_RATIO_HIGH).value;
+    needed.value = validation_value(v, VALIDATION_KEY_NEEDED).value;
+    needed.low = validation_value(v, VALIDATION_KEY_NEEDED_LOW).value;
+    needed.high = validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value;
+    const bool is_known = outcome < VALIDATION_OUTCOME_UNKNOWN;
     begin_card(page,
-               !c->is_known ? "v-nodata"
-               : c->is_open ? "v-open"
-                            : "v-yes",
-               c->question, c->is_known ? c->word : stated_verdict_text(VERDICT_NOT_TESTED), "",
-               "measured");
-    if (!isnan(ratio->low))
-        page_large_number(page, ratio, "× predicted", 1);
-    if (c->reason != NULL)
-        page_reason(page, c->reason);
-    if (!isnan(needed->low)) {
-        const row_number_text text = row_number_format(needed);
+               !is_known                         ? "v-nodata"
+               : outcome == OUTCOME_INCONCLUSIVE ? "v-open"
+                                                 : "v-yes",
+               "Does theory match measured friction?",
+               is_known ? validation_outcome_text((validation_outcome)outcome)
+                        : stated_verdict_text(VERDICT_NOT_TESTED),
+               "", "measured");
+    if (!isnan(ratio.low))
+        page_large_number(page, &ratio, "× predicted", 1);
+    if (reason != NULL)
+        page_reason(page, reason);
+    if (!isnan(needed.low)) {
+        const row_number_text text = row_number_format(&needed);
         text_add(&page->out, "<p>Shear stress needed: ");
         text_typographic(&page->out, text.value);
         text_add(&page->out, " (");
         text_typographic(&page->out, text.interval);
         text_add(&page->out, ").</p>\n");
     }
-    if (c->settled != NULL) {
+    if (settled != NULL) {
         text_add(&page->out, "<p class=\"widest\">How to decide it: ");
-        text_typographic(&page->out, c->settled);
+        text_typographic(&page->out, settled);
         text_add(&page->out, ".</p>\n");
     }
-    write_key_figure(page, c->figure);
+    write_key_figure(page, "validation");
     text_add(&page->out, "</section>\n");
-}
-
-static void write_validation_cards(page_writer *page)
-{
-    const table_view *const v = &page->tables->validation, *const r =
-                                                               &page->tables->validation_running_in;
-    const double none = (double)NAN;
-    row_number ratio = {none, none, none, none, none, "1"},
-               needed = {none, none, none, none, none, "Pa"};
-    if (v->table != NULL) {
-        const int outcome = validation_key_enum(v, VALIDATION_KEY_OUTCOME);
-        ratio.value = validation_value(v, VALIDATION_KEY_RATIO).value;
-        ratio.low = validation_value(v, VALIDATION_KEY_RATIO_LOW).value;
-        ratio.high = validation_value(v, VALIDATION_KEY_RATIO_HIGH).value;
-        needed.value = validation_value(v, VALIDATION_KEY_NEEDED).value;
-        needed.low = validation_value(v, VALIDATION_KEY_NEEDED_LOW).value;
-        needed.high = validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value;
-        write_comparison_card(
-            page,
-            &(comparison_verdict){"Does theory match measured friction?",
-                                  validation_outcome_text((validation_outcome)outcome),
-                                  validation_key_text(v, VALIDATION_KEY_VERDICT),
-                                  validation_key_text(v, VALIDATION_KEY_SETTLED_BY), "validation",
-                                  outcome == OUTCOME_INCONCLUSIVE,
-                                  outcome < VALIDATION_OUTCOME_UNKNOWN},
-            &ratio, &needed);
-    }
-    if (r->table != NULL) {
-        const int verdict = validation_running_in_key_enum(r, VALIDATION_RUNNING_IN_KEY_VERDICT);
-        ratio.value = validation_running_in_value(r, VALIDATION_RUNNING_IN_KEY_TIME_RATIO).value;
-        ratio.low = validation_running_in_value(r, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_LOW).value;
-        ratio.high =
-            validation_running_in_value(r, VALIDATION_RUNNING_IN_KEY_TIME_RATIO_HIGH).value;
-        needed.low = none;
-        write_comparison_card(
-            page,
-            &(comparison_verdict){
-                "Does theory match the time of running-in?",
-                stated_verdict_text((stated_verdict)verdict),
-                validation_running_in_key_text(r, VALIDATION_RUNNING_IN_KEY_VERDICT),
-                validation_running_in_key_text(r, VALIDATION_RUNNING_IN_KEY_SETTLED_BY),
-                "validation_course", verdict == VERDICT_INCONCLUSIVE, verdict < VERDICT_UNKNOWN},
-            &ratio, &needed);
-    }
 }
 
 void page_cards(page_writer *page)
@@ -314,13 +281,13 @@ void page_cards(page_writer *page)
     const bool validation_first = findings[FINDING_TRACK_DIFFERS].verdict == FINDING_NOT_COMPUTED,
                validated = page->tables->validation.table != NULL;
     if (validation_first)
-        write_validation_cards(page);
+        write_validation_card(page);
     /* an answer that is there comes before one that is not */
     for (size_t i = 0; i < FINDING_QUESTIONS; i++)
         if (findings[i].verdict != FINDING_NOT_COMPUTED)
             write_card(page, &findings[i]);
     if (!validation_first)
-        write_validation_cards(page);
+        write_validation_card(page);
     for (size_t i = 0; i < FINDING_QUESTIONS; i++)
         if (findings[i].verdict == FINDING_NOT_COMPUTED && !validated)
             write_card(page, &findings[i]);
