@@ -188,7 +188,7 @@ static contact_point_values sharp_contact(const wt_tip *tip, double delta)
 /* G beyond the transition radius. */
 static double faces_force(const wt_tip *tip, double mcot, double s)
 {
-    const double b = tip->transition_radius, h = sqrt(1.0 + s * s), hs = h + s, a = b * h;
+    const double b = tip->transition_radius, h = hypot(1.0, s), hs = h + s, a = b * h;
     return 2.0 * (b * b / tip->radius * b * (2.0 * h + s) / (3.0 * hs * hs) +
                   0.5 * mcot * (a * a * atan(s) + b * (b * s)));
 }
@@ -205,7 +205,7 @@ static contact_point_values faces_contact(const wt_tip *tip, double delta)
     double s = 2.0 / M_PI * (delta / (mcot * b) + 1.0);
     double h = 0.0, hs = 0.0, rise = 0.0;
     for (;;) {
-        h = sqrt(1.0 + s * s);
+        h = hypot(1.0, s);
         hs = h + s;
         rise = mcot * b * (1.0 + s * atan(s)) - cap / (hs * hs); /* h ddelta/ds */
         double excess = mcot * b * h * atan(s) - cap * s / hs - beyond;
