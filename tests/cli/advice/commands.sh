@@ -23,8 +23,6 @@ helps validate --help
 piece 'indent --curves has force against indentation'
 cause 'indent --curves has force against indentation' convert --contact three.h5 "$curve"
 leads indent --tip "$tip" --spring-constant 0.3N/m --curves all "$curve" -o curves.h5
-piece 'friction is that of the mean over the directions of the roughness'
-cause 'friction is that of the mean over the directions of the roughness' friction $slide --anisotropy 0.5
 helps friction $slide
 piece 'weartrack view of the result shows all curves'
 cause 'weartrack view of the result shows all curves' report three.h5 --sheets a.pdf
