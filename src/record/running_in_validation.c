@@ -22,7 +22,9 @@ typedef struct running_in {
     const recorded_run *rec;
     const growth *growth; /* NULL if not predicted */
     wt_interval factor;   /* of the predicted times, by the record */
-    char note[256];       /* reason */
+    /* of ln of that factor and of ln of the measured time, by the errors of the prediction */
+    double factor_error, time_error;
+    char note[256]; /* reason */
 } running_in;
 
 typedef struct running_in_task {
@@ -119,25 +121,82 @@ static wt_status predict_run(running_in_task *task, size_t i, wt_error *err)
     return WT_OK;
 }
 
-static double nominal_course(const void *user, double time)
+/* The predicted course of the nominal values (k = 0) or of draw k - 1. */
+typedef struct drawn_course {
+    const growth *growth;
+    size_t k;
+} drawn_course;
+
+static double drawn_friction(const void *user, double time)
 {
-    return growth_friction_at(user, 0, time);
+    const drawn_course *const c = user;
+    return growth_friction_at(c->growth, c->k, time);
+}
+
+/* Adds a finite value to the n in x. */
+static size_t add_finite(double *x, size_t n, double value)
+{
+    if (isfinite(value))
+        x[n++] = value;
+    return n;
+}
+
+/* The course of each draw is fitted to the nominal one at times of the record, so that the errors
+ * hold that of the shape of the course, too. */
+static void fit_drawn_courses(running_in *run, const course_mean *mean)
+{
+    enum { MOST_TIMES = 256 };
+    static const double range = 4, /* of the factor of a draw over the nominal one, both ways */
+        least_share = 0.95;        /* of draws with a time; else the error is unknown */
+    const size_t every = (run->rec->n + MOST_TIMES - 1) / MOST_TIMES, n = run->rec->n / every,
+                 n_draws = run->growth->n_draws;
+    const drawn_course nominal = {run->growth, 0};
+    course_mean *const at = wt_alloc(n, sizeof *at);
+    double *const log_factor = wt_alloc(n_draws, sizeof *log_factor), *const log_time = wt_alloc(
+                                                                          n_draws,
+                                                                          sizeof *log_time);
+    size_t n_factors = 0, n_times = 0;
+    for (size_t i = 0; i < n; i++) {
+        at[i] = mean[i * every];
+        at[i].friction = course_mean_of(drawn_friction, &nominal, at[i].begin / run->factor.value,
+                                        at[i].end / run->factor.value);
+    }
+    for (size_t k = 1; k <= n_draws; k++) {
+        const drawn_course drawn = {run->growth, k};
+        const double factor = course_fit_between(
+            at, n, drawn_friction, &drawn, run->factor.value / range, run->factor.value * range);
+        n_factors = add_finite(log_factor, n_factors, log(factor));
+        n_times = add_finite(log_time, n_times,
+                             log(factor * growth_settling_time(run->growth, k, (double)NAN)));
+    }
+    if (n_factors > 1 && (double)n_factors >= least_share * (double)n_draws)
+        run->factor_error = sqrt(sample_moments(log_factor, n_factors).variance);
+    if (n_times > 1 && (double)n_times >= least_share * (double)n_draws)
+        run->time_error = sqrt(sample_moments(log_time, n_times).variance);
+    free(at);
+    free(log_factor);
+    free(log_time);
 }
 
 /* Fits the predicted course to the means of the cycles. */
 static void fit_course(running_in *run)
 {
     const recorded_run *const rec = run->rec;
-    double *const middle = wt_alloc(rec->n, sizeof *middle);
+    course_mean *const mean = wt_alloc(rec->n, sizeof *mean);
     for (size_t i = 0; i < rec->n; i++)
-        middle[i] = 0.5 * ((i > 0 ? rec->end[i - 1] : rec->begin) + rec->end[i]);
-    run->factor = course_fit_factor(middle, rec->friction, rec->n, nominal_course, run->growth);
+        mean[i] =
+            (course_mean){i > 0 ? rec->end[i - 1] : rec->begin, rec->end[i], rec->friction[i]};
+    const drawn_course nominal = {run->growth, 0};
+    run->factor = course_fit_factor(mean, rec->n, drawn_friction, &nominal);
+    run->factor_error = run->time_error = (double)NAN;
+    if (!isnan(run->factor.value))
+        fit_drawn_courses(run, mean);
     if (isnan(run->factor.value))
         snprintf(run->note, sizeof run->note,
                  "no change like that by the layer exceeds the scatter of the cycles");
     else if (isnan(run->factor.low) || isnan(run->factor.high))
         snprintf(run->note, sizeof run->note, "the record does not determine the time both ways");
-    free(middle);
+    free(mean);
 }
 
 static wt_status predict_runs(running_in_task *task, wt_error *err)
@@ -186,21 +245,18 @@ static void task_clear(running_in_task *task)
 TABLE_ROW(validation_running_in, VALIDATION_RUNNING_IN, measured_step at;
           wt_interval settled, time_ratio; wt_estimate predicted, change; const char *note, *file;)
 
-static wt_interval scaled_interval(wt_interval x, double by)
+/* Returns x times a factor, with the relative error of the prediction, too, as that of a logarithm.
+ */
+static wt_interval with_prediction(wt_interval x, double by, double error)
 {
-    return (wt_interval){x.value * by, x.standard_error * by, x.low * by, x.high * by};
+    const double low = exp(-hypot(log(x.value / x.low), NORMAL_95 * error)) * x.value,
+                 high = exp(hypot(log(x.high / x.value), NORMAL_95 * error)) * x.value;
+    return (wt_interval){by * x.value, by * (high - low) / (2 * NORMAL_95), by * low, by * high};
 }
 
-/* Measured over predicted time, with the error of the prediction, too; it is that of a
- * logarithm. */
 static wt_interval time_ratio(const running_in *run)
 {
-    const wt_estimate predicted = growth_estimate(run->growth, growth_settling_time, (double)NAN);
-    const wt_interval x = run->factor;
-    const double by = NORMAL_95 * predicted.standard_error / predicted.value,
-                 low = exp(-hypot(log(x.value / x.low), by)) * x.value,
-                 high = exp(hypot(log(x.high / x.value), by)) * x.value;
-    return (wt_interval){x.value, (high - low) / (2 * NORMAL_95), low, high};
+    return with_prediction(run->factor, 1, run->factor_error);
 }
 
 /* The keys are of a single record that determines a time. */
@@ -240,7 +296,7 @@ static void add_run_row(const running_in *run, const wt_sliding *sliding, table_
         row.predicted = growth_estimate(run->growth, growth_settling_time, none);
         row.change = growth_estimate(run->growth, growth_change, none);
         row.time_ratio = time_ratio(run);
-        row.settled = scaled_interval(row.time_ratio, row.predicted.value);
+        row.settled = with_prediction(run->factor, row.predicted.value, run->time_error);
     }
     validation_running_in_add_row(t, &row);
 }

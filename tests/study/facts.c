@@ -46,6 +46,8 @@ const quantity_facts quantities[Q_COUNT] = {
     [Q_SAID_PAIR] = {"said_pair", false},
     [Q_SAID_RECORD] = {"said_record", false},
     [Q_SETTLED] = {"settled", true},
+    [Q_MEASURED_TIME] = {"settled_measured", true},
+    [Q_TIME_RATIO] = {"time_ratio", true},
     [Q_ALLOWED] = {"allowed_thickness", false},
     [Q_BOTH] = {"thickness_of_both", false},
 };

@@ -54,9 +54,11 @@ typedef enum quantity {
     Q_SAID_DIFFERS,
     Q_SAID_PAIR,
     Q_SAID_RECORD,
-    Q_SETTLED, /* time after which friction is steady */
-    Q_ALLOWED, /* ln of the layer thickness [nm] that the curves allow */
-    Q_BOTH,    /* the same for the curves and another source together */
+    Q_SETTLED,       /* time after which friction is steady, as predicted */
+    Q_MEASURED_TIME, /* the same as measured */
+    Q_TIME_RATIO,    /* measured over predicted */
+    Q_ALLOWED,       /* ln of the layer thickness [nm] that the curves allow */
+    Q_BOTH,          /* the same for the curves and another source together */
     Q_COUNT
 } quantity;
 

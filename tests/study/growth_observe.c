@@ -1,4 +1,4 @@
-/* Observes the running-in that weartrack validate predicts for a case with a layer.
+/* Observes the running-in that weartrack validate predicts for a case with a layer, and finds.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "growth_observe.h"
 #include "growth_sample.h"
@@ -14,13 +14,18 @@ static void *prepare(int scene)
     return NULL;
 }
 
-static void read_found(const growth_made *m, const char *path, trial *t)
+static void read_found(const growth_scene *s, const growth_made *m, const char *path, trial *t)
 {
+    const double time = s->off_time > 0 ? s->off_time : 1;
     stream *found = stream_read(path);
     if (found == NULL || stream_rows(found, PLACE_VALIDATION_RUNNING_IN) != 1)
         trial_broke(t, "another number of records");
-    else
+    else {
         trial_add(t, Q_SETTLED, m->growth.settled, place_row(found, &place_settled_predicted, 0));
+        trial_add(t, Q_MEASURED_TIME, m->growth.settled * time,
+                  place_row(found, &place_settled_measured, 0));
+        trial_add(t, Q_TIME_RATIO, time, place_row(found, &place_time_ratio, 0));
+    }
     stream_free(found);
 }
 
@@ -38,7 +43,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
         !growth_write_record(s, &m, record, random))
         trial_broke(t, "there is no layer, or a file cannot be written");
     else if (trial_run(t, arguments))
-        read_found(&m, written, t);
+        read_found(s, &m, written, t);
 }
 
 family growth_family(void)

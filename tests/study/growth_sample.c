@@ -39,7 +39,7 @@ bool growth_make(const growth_scene *s, random_source *random, growth_made *m)
     if (!growth_solve(&stated, &state, is_stated_ratio, s->transport, &expected) ||
         !growth_solve(&m->truth, &state, ratio, s->transport, &m->growth))
         return false;
-    m->length = 4 * expected.settled;
+    m->length = (s->lengths > 0 ? s->lengths : 4) * expected.settled;
     return true;
 }
 
@@ -75,11 +75,12 @@ bool growth_write_case(const growth_scene *s, const growth_made *m, const char *
     return ferror(out) == 0 && fclose(out) == 0;
 }
 
-static double mean_friction(const growth_made *m, double from, double length)
+static double mean_friction(const growth_scene *s, const growth_made *m, double from, double length)
 {
+    const double time = s->off_time > 0 ? s->off_time : 1;
     double sum = 0;
     for (int i = 0; i < WITHIN; i++)
-        sum += growth_friction(&m->growth, from + length * (i + 0.5) / WITHIN);
+        sum += growth_friction(&m->growth, (from + length * (i + 0.5) / WITHIN) / time);
     return sum / WITHIN;
 }
 
@@ -100,7 +101,7 @@ bool growth_write_record(const growth_scene *s, const growth_made *m, const char
         for (int k = 0; k < samples; k++)
             fprintf(out, "%.9g,%.9g,%.9g,%.9g\n", lap * (i + k / (double)samples),
                     i + k / (double)samples, 1e3 * velocity,
-                    mean_friction(m, lap * (i + k / (double)samples), lap / samples) + off);
+                    mean_friction(s, m, lap * (i + k / (double)samples), lap / samples) + off);
     }
     return ferror(out) == 0 && fclose(out) == 0;
 }

@@ -12,6 +12,8 @@ typedef struct growth_scene {
     double of_inputs;  /* stated relative errors of pressure, C0 and shear stress */
     double of_layer;   /* of wear rate and critical energy */
     double of_ratio;   /* of the modulus ratio */
+    double off_time;   /* true over predicted time; 0: 1 */
+    double lengths;    /* of the record, in predicted times; 0: 4 */
     double weighed;    /* error of the mass loss; 0: not stated */
     int laps, samples; /* 0: 600, and 8 per lap */
     bool transport;    /* transport of damage with an incubation, else rates */

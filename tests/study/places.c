@@ -74,6 +74,10 @@ const place place_collected_friction = {"collected_friction", "friction", "frict
 const place place_pair = {"ratio_pairs", "ratio", NULL, "ratio_low", "ratio_high"};
 const place place_settled_predicted = {PLACE_VALIDATION_RUNNING_IN, "settled_predicted",
                                        "settled_predicted_standard_error", NULL, NULL};
+const place place_settled_measured = {PLACE_VALIDATION_RUNNING_IN, "settled_measured", NULL,
+                                      "settled_measured_low", "settled_measured_high"};
+const place place_time_ratio = {PLACE_VALIDATION_RUNNING_IN, "time_ratio", NULL, "time_ratio_low",
+                                "time_ratio_high"};
 
 static const double normal95 = 1.959963984540054;
 

@@ -48,7 +48,8 @@ extern const place place_collected_modulus, place_collected_friction, place_pair
 #define PLACE_PAUSED "paused_time"
 #define PLACE_ROUGHNESS "roughness" /* quantity of a surface that friction uses */
 
-extern const place place_settled_predicted; /* of a running-in */
+extern const place place_settled_predicted, place_settled_measured,
+    place_time_ratio; /* of a running-in */
 #define PLACE_LAYER "track_layer"
 #define PLACE_LAYER_LOW "thickness_low" /* [m]; absent without a lower limit */
 #define PLACE_LAYER_HIGH "thickness_high"

@@ -20,25 +20,36 @@ static double log_factor_at(size_t k)
     return last_log * ((double)k - STEPS) / STEPS;
 }
 
+double course_mean_of(course_function *course, const void *user, double begin, double end)
+{
+    enum { WITHIN = 8 };
+    /* a course that is smooth in the logarithm of time hardly changes within a tenth */
+    const size_t n = end - begin > 0.1 * begin ? WITHIN : 1;
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += course(user, begin + (end - begin) * ((double)i + 0.5) / (double)n);
+    return sum / (double)n;
+}
+
 /* Fits level and ratio at a factor and returns the sum of squares. residual: [n], or NULL. */
-static double sum_of_squares(const double *time, const double *y, size_t n, course_function *course,
+static double sum_of_squares(const course_mean *mean, size_t n, course_function *course,
                              const void *user, double factor, double *residual)
 {
     double mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
     double *const x = wt_alloc(n, sizeof *x);
     for (size_t i = 0; i < n; i++) {
-        x[i] = course(user, time[i] / factor);
+        x[i] = course_mean_of(course, user, mean[i].begin / factor, mean[i].end / factor);
         mean_x += x[i] / (double)n;
-        mean_y += y[i] / (double)n;
+        mean_y += mean[i].friction / (double)n;
     }
     for (size_t i = 0; i < n; i++) {
         xx += (x[i] - mean_x) * (x[i] - mean_x);
-        xy += (x[i] - mean_x) * (y[i] - mean_y);
-        yy += (y[i] - mean_y) * (y[i] - mean_y);
+        xy += (x[i] - mean_x) * (mean[i].friction - mean_y);
+        yy += (mean[i].friction - mean_y) * (mean[i].friction - mean_y);
     }
     const double ratio = xx > 0 ? xy / xx : 0;
     for (size_t i = 0; residual != NULL && i < n; i++)
-        residual[i] = y[i] - mean_y - ratio * (x[i] - mean_x);
+        residual[i] = mean[i].friction - mean_y - ratio * (x[i] - mean_x);
     free(x);
     return fmax(yy - ratio * xy, 0);
 }
@@ -55,8 +66,8 @@ static double correlation_factor(const double *residual, size_t n)
     return (1 + r) / (1 - r);
 }
 
-wt_interval course_fit_factor(const double *time, const double *y, size_t n,
-                              course_function *course, const void *user)
+wt_interval course_fit_factor(const course_mean *mean, size_t n, course_function *course,
+                              const void *user)
 {
     wt_interval found = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     if (n < 4) /* one more than the constants */
@@ -65,19 +76,18 @@ wt_interval course_fit_factor(const double *time, const double *y, size_t n,
     double squares[FACTORS];
     size_t best = 0;
     for (size_t k = 0; k < FACTORS; k++) {
-        squares[k] = sum_of_squares(time, y, n, course, user, exp(log_factor_at(k)), NULL);
+        squares[k] = sum_of_squares(mean, n, course, user, exp(log_factor_at(k)), NULL);
         if (squares[k] < squares[best])
             best = k;
     }
-    const double least =
-        sum_of_squares(time, y, n, course, user, exp(log_factor_at(best)), residual);
+    const double least = sum_of_squares(mean, n, course, user, exp(log_factor_at(best)), residual);
     const double allowed =
         least * (1 + NORMAL_95 * NORMAL_95 * correlation_factor(residual, n) / ((double)n - 3));
-    double mean = 0, constant = 0;
+    double level = 0, constant = 0;
     for (size_t i = 0; i < n; i++)
-        mean += y[i] / (double)n;
+        level += mean[i].friction / (double)n;
     for (size_t i = 0; i < n; i++)
-        constant += (y[i] - mean) * (y[i] - mean);
+        constant += (mean[i].friction - level) * (mean[i].friction - level);
     free(residual);
     if (!(constant > allowed)) /* a constant is as good */
         return found;
@@ -92,4 +102,22 @@ wt_interval course_fit_factor(const double *time, const double *y, size_t n,
     found.high = high + 1 < FACTORS ? exp(log_factor_at(high) + half_step) : (double)NAN;
     found.standard_error = (found.high - found.low) / (2 * NORMAL_95);
     return found;
+}
+
+double course_fit_between(const course_mean *mean, size_t n, course_function *course,
+                          const void *user, double low, double high)
+{
+    enum { BETWEEN = 100 };
+    const double step = log(high / low) / BETWEEN;
+    size_t best = 0;
+    double least = (double)NAN;
+    for (size_t k = 0; k <= BETWEEN; k++) {
+        const double squares =
+            sum_of_squares(mean, n, course, user, low * exp((double)k * step), NULL);
+        if (isnan(least) || squares < least) {
+            least = squares;
+            best = k;
+        }
+    }
+    return best > 0 && best < BETWEEN ? low * exp((double)best * step) : (double)NAN;
 }

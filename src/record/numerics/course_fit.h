@@ -11,11 +11,23 @@
 /* Returns the predicted friction at a time > 0 [s]. */
 typedef double course_function(const void *user, double time);
 
-/* Least squares of y [n] at rising times [n]: level + ratio x course(time / factor). Returns the
- * factor with its 95 % interval by the sum of squares, which the correlation of successive
- * residuals widens. NaN if the course is not seen; a limit that the points do not determine is
- * NaN. */
-wt_interval course_fit_factor(const double *time, const double *y, size_t n,
-                              course_function *course, const void *user);
+/* A mean of the friction over a time [s]. */
+typedef struct course_mean {
+    double begin, end, friction;
+} course_mean;
+
+/* Mean of the course from `begin` to `end` [s]. */
+double course_mean_of(course_function *course, const void *user, double begin, double end);
+
+/* Least squares of level + ratio x course(time / factor), with the course averaged as the n means
+ * are. Returns the factor with its 95 % interval by the sum of squares, which the correlation of
+ * successive residuals widens. NaN if the course is not seen; a limit that the means do not
+ * determine is NaN. */
+wt_interval course_fit_factor(const course_mean *mean, size_t n, course_function *course,
+                              const void *user);
+
+/* The same factor alone, sought between `low` and `high`; NaN if it is a limit. */
+double course_fit_between(const course_mean *mean, size_t n, course_function *course,
+                          const void *user, double low, double high);
 
 #endif
