@@ -145,6 +145,7 @@ static size_t add_finite(double *x, size_t n, double value)
  * hold that of the shape of the course, too. */
 static void fit_drawn_courses(running_in *run, const course_mean *mean)
 {
+    /* The courses are without scatter, so that more times add nothing. */
     enum { MOST_TIMES = 256 };
     static const double range = 4, /* of the factor of a draw over the nominal one, both ways */
         least_share = 0.95;        /* of draws with a time; else the error is unknown */
