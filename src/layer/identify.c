@@ -6,7 +6,6 @@
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
 #include "job/random_draws.h"
-#include "layer/numerics/correlated_pair.h"
 
 #include "core/base/clocale.h"
 #include "core/base/number.h"
@@ -16,6 +15,36 @@
 
 #include <math.h>
 #include <string.h>
+
+/* Variances of ln U_c and ln k of a layer, and their covariance. */
+typedef struct pair_covariance {
+    double energy, wear, both;
+} pair_covariance;
+
+/* Principal axes of a covariance; NaN and "" if unknown. */
+typedef struct constant_axes {
+    double correlation;
+    char loose[32];                  /* combination with the largest uncertainty: "U_c k^-0.42" */
+    double loose_error, tight_error; /* standard deviations along and across that combination */
+} constant_axes;
+
+static constant_axes constant_axes_compute(pair_covariance c)
+{
+    const double middle = 0.5 * (c.energy + c.wear),
+                 apart = hypot(0.5 * (c.energy - c.wear), c.both),
+                 angle = 0.5 * atan2(2 * c.both, c.energy - c.wear),
+                 scale = sqrt(c.energy * c.wear);
+    constant_axes a = {.correlation = scale > 0 ? fmax(-1, fmin(1, c.both / scale)) : (double)NAN,
+                       .loose_error = sqrt(middle + apart),
+                       .tight_error = sqrt(fmax(middle - apart, 0))};
+    if (isnan(angle))
+        a.tight_error = (double)NAN; /* fmax ignores NaN */
+    else if (fabs(cos(angle)) >= fabs(sin(angle)))
+        clocale_print(a.loose, sizeof a.loose, "U_c k^%.2f", tan(angle));
+    else
+        clocale_print(a.loose, sizeof a.loose, "k U_c^%.2f", 1 / tan(angle));
+    return a;
+}
 
 /* ---- parameters ------------------------------------------------------------------------------ */
 
