@@ -15,7 +15,7 @@ typedef struct summary_reading {
     file_result *results;
 } summary_reading;
 
-/* Reads one file on a worker thread. It never fails; a failure is stored. */
+/* Reads one file. It never fails; a failure is stored. */
 static wt_status read_result(void *user, size_t i, unsigned worker)
 {
     const summary_reading *const r = user;
@@ -61,14 +61,14 @@ static size_t collect_read_results(cmd_session *s, file_result *results, wt_tabl
     return n_read;
 }
 
-/* Reads the headlines of all files in parallel; those that were read are moved to the front. */
+/* Reads the headlines of all files; those that were read are moved to the front. They are read one
+ * by one, as a process that reads HDF5 is not forked beside other threads, which may hold locks. */
 static wt_status read_all_results(cmd_session *s, wt_table **headlines, size_t *n_read)
 {
     file_result *const results = wt_alloc(s->n_files, sizeof *results);
     summary_reading all = {s->files, results};
     const wt_progress progress = cmd_progress_start(s);
-    const wt_status status =
-        wt_parallel_for(s->n_files, s->work.threads, read_result, &all, &progress, "result");
+    const wt_status status = wt_parallel_for(s->n_files, 1, read_result, &all, &progress, "result");
     cmd_progress_end(s);
     *n_read = collect_read_results(s, results, headlines);
     free(results);
@@ -158,8 +158,7 @@ int cmd_summary(int argc, char **argv)
         .files = "no result given"};
     export_options form = {.form = WT_EXPORT_TSV};
     cmd_session s = cmd_session_defaults();
-    cmd_option_group parts[] = {{export_params(), &form, NULL, 0},
-                                {wt_job_params(), &s.work, "threads", 0}};
+    cmd_option_group parts[] = {{export_params(), &form, NULL, 0}};
     wt_table *summary = NULL;
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) ||
         !cmd_require_text_output(&s, true))

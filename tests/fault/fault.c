@@ -58,7 +58,7 @@ static const job jobs[] = {
     {"spool", {"info", "../unpacks.tsv.gz"}}, /* a file without a name */
     {"studio", {"convert", "--no-provenance", "@fuzz/nhf/new.nhf", "-o", "out.tsv"}},
     {"master", {"master", "--no-provenance", "@case/dma.txt", "-o", "out.h5"}},
-    {"summary", {"summary", "--threads", "1", "../master/out.h5", "-o", "out.csv"}},
+    {"summary", {"summary", "../master/out.h5", "-o", "out.csv"}},
     {"friction",
      {"friction", "--no-provenance", "--threads", "1", "--replicates", "0", "-m",
       "../master/out.h5", "--roughness",
