@@ -15,11 +15,10 @@ typedef struct answer_context {
     table_view modulus_depth, dma_comparison, shift_factors, roughness, softening, flash, wear;
 } answer_context;
 
+/* ---- limits.c: what the numbers of a result leave out, assume, or make doubtful. */
 /* Binds the views of the tables of a result. */
 wt_status answer_context_bind(answer_context *context, const wt_result *result,
                               wt_error *err) WT_NODISCARD;
-
-/* ---- limits.c: what the numbers of a result leave out, assume, or make doubtful. */
 /* Creates the table "limits", the most serious limits first. *table is NULL without limits. */
 wt_status limits_table(const answer_context *context, wt_table **table, wt_error *err) WT_NODISCARD;
 
