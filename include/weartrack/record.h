@@ -184,8 +184,8 @@ typedef struct wt_running_in_tables {
 } wt_running_in_tables;
 
 /* Sets the running-in of the first step of every record beside that predicted for the growing layer
- * of `layer` and `layer_observation` (not NULL): time to the steady state, change of friction, and
- * friction in time, with the errors of the prediction. */
+ * of `layer` and `layer_observation` (not NULL): time to the steady state, measured, predicted and
+ * as a ratio; change of friction; and friction in time, with errors. */
 WT_API wt_status wt_running_in_validation_compute(const wt_validation_job *job, const wt_job *work,
                                                   wt_running_in_tables *tables,
                                                   wt_error *err) WT_NODISCARD;

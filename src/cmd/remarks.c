@@ -141,9 +141,9 @@ static int compare_severity(const void *a, const void *b)
     return -compare_first(a, b);
 }
 
-/* Moves the first limit of the answers, the worst, behind all other remarks. `groups` has room for
- * one more, as the limit may have other words than its remark. */
-static void move_worst_limit(const cmd_session *s, log_group *groups, size_t *n)
+/* Puts the first limit of the answers, the worst, before the other warnings. `groups` has room for
+ * one more, as a limit may have other words than its remark. */
+static void put_worst_limit_first(const cmd_session *s, log_group *groups, size_t *n)
 {
     const wt_table *const limits = s->result != NULL ? wt_result_find(s->result, "limits") : NULL;
     if (limits == NULL || wt_table_n_rows(limits) == 0 ||
@@ -155,7 +155,7 @@ static void move_worst_limit(const cmd_session *s, log_group *groups, size_t *n)
         i++;
     if (i == *n)
         groups[(*n)++] = (log_group){{WT_WARNING, .file = "", .place = "", .text = text}, 0, 1, 1};
-    groups[i].first = SIZE_MAX;
+    groups[i].first = SIZE_MAX; /* later remarks come first, see compare_severity */
 }
 
 /* The worst first. */
@@ -230,7 +230,7 @@ void cmd_print_log(cmd_session *s, const wt_log *log, bool notes)
     }
     n_folds = group_equal_entries(folds, n_folds);
     if (cmd_is_brief(s)) {
-        move_worst_limit(s, folds, &n_folds);
+        put_worst_limit_first(s, folds, &n_folds);
         print_groups_briefly(s, folds, n_folds);
     }
     for (size_t i = 0; i < n_folds && !cmd_is_brief(s); i++)

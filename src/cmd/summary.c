@@ -6,6 +6,7 @@
 /* Result of reading one file: headlines or failure. */
 typedef struct file_result {
     wt_table *headlines; /* NULL after a failure */
+    char *first_numbers; /* main numbers for a terminal, or NULL */
     wt_error *failure;   /* NULL without a failure */
     size_t n_remarks;
 } file_result;
@@ -13,7 +14,33 @@ typedef struct file_result {
 typedef struct summary_reading {
     const char *const *files;
     file_result *results;
+    bool brief;
 } summary_reading;
+
+/* Results that a terminal shows, in three lines each. */
+enum { SHOWN = 6, INDENT = 4, ROOM = 3 * CMD_SCREEN_WIDTH - 4 * INDENT };
+
+/* Returns the first main numbers that fit behind the name of the result. */
+static char *first_numbers(const wt_result *result, const char *file)
+{
+    char text[ROOM + 1] = "";
+    wt_result_rows *rows = wt_result_rows_new(result, wt_result_find(result, "answer") != NULL);
+    const size_t name = cmd_text_width(file, strlen(file));
+    for (size_t k = 0, used = 0; k < wt_result_rows_count(rows); k++) {
+        const wt_result_row row = wt_result_rows_get(rows, k);
+        const bool closed = row.interval[0] != '\0';
+        const int length =
+            snprintf(text + used, sizeof text - used, "%s %s %s%s%s%s", k == 0 ? ":" : ";",
+                     row.name, row.text, closed ? " (" : "", row.interval, closed ? ")" : "");
+        if (name + used + (size_t)length > ROOM) {
+            text[used] = '\0';
+            break;
+        }
+        used += (size_t)length;
+    }
+    wt_result_rows_free(rows);
+    return wt_strdup(text);
+}
 
 /* Reads one file. It never fails; a failure is stored. */
 static wt_status read_result(void *user, size_t i, unsigned worker)
@@ -29,6 +56,7 @@ static wt_status read_result(void *user, size_t i, unsigned worker)
         read = wt_result_main_values(result, &one->headlines, &err);
     if (read == WT_OK) {
         one->n_remarks = cmd_count_remarks(result);
+        one->first_numbers = r->brief && i < SHOWN ? first_numbers(result, r->files[i]) : NULL;
     } else {
         one->failure = wt_alloc(1, sizeof err);
         wt_error_file(&err, r->files[i]);
@@ -38,8 +66,17 @@ static wt_status read_result(void *user, size_t i, unsigned worker)
     return WT_OK;
 }
 
-/* Reports failures in the order of the files and moves the files that were read to the front, with
- * their headlines. Returns their number. */
+static void print_first_numbers(const char *path, const file_result *one)
+{
+    if (one->first_numbers == NULL)
+        return;
+    cmd_print_safely(stdout, path, strlen(path));
+    cmd_wrap(stdout, cmd_text_width(path, strlen(path)), INDENT, one->first_numbers);
+    free(one->first_numbers);
+}
+
+/* Reports failures in the order of the files, prints first numbers, and moves the files that were
+ * read to the front, with their headlines. Returns their number. */
 static size_t collect_read_results(cmd_session *s, file_result *results, wt_table **headlines)
 {
     size_t n_read = 0;
@@ -50,6 +87,7 @@ static size_t collect_read_results(cmd_session *s, file_result *results, wt_tabl
             s->files[n_read] = path;
             headlines[n_read++] = one->headlines;
             cmd_apply_strict(s, path, one->n_remarks);
+            print_first_numbers(path, one);
             continue;
         }
         s->err = *one->failure;
@@ -63,14 +101,17 @@ static size_t collect_read_results(cmd_session *s, file_result *results, wt_tabl
 
 /* Reads the headlines of all files; those that were read are moved to the front. They are read one
  * by one, as a process that reads HDF5 is not forked beside other threads, which may hold locks. */
-static wt_status read_all_results(cmd_session *s, wt_table **headlines, size_t *n_read)
+static wt_status read_all_results(cmd_session *s, bool brief, wt_table **headlines, size_t *n_read)
 {
     file_result *const results = wt_alloc(s->n_files, sizeof *results);
-    summary_reading all = {s->files, results};
+    summary_reading all = {s->files, results, brief};
+    const size_t n_files = s->n_files;
     const wt_progress progress = cmd_progress_start(s);
     const wt_status status = wt_parallel_for(s->n_files, 1, read_result, &all, &progress, "result");
     cmd_progress_end(s);
     *n_read = collect_read_results(s, results, headlines);
+    if (brief && n_files > SHOWN)
+        printf("and %zu more files\n", n_files - SHOWN);
     free(results);
     return status == WT_OK ? WT_OK : wt_fail(&s->err, status, "%s", wt_status_text(status));
 }
@@ -109,39 +150,6 @@ static bool print_one_result(cmd_session *s, const cmd_option_group *form)
     return true;
 }
 
-/* Prints the first main numbers of each of several results, in three lines each. */
-static void print_several_results(cmd_session *s, size_t n)
-{
-    enum { SHOWN = 6, INDENT = 4, ROOM = 3 * CMD_SCREEN_WIDTH - 4 * INDENT };
-    for (size_t i = 0; i < n && i < SHOWN; i++) {
-        wt_result *result = NULL;
-        char text[ROOM + 1] = "";
-        if (cmd_tables_read(s->files[i], &result, &s->err) != WT_OK)
-            continue; /* it changed since it was read */
-        wt_result_rows *rows = wt_result_rows_new(result, wt_result_find(result, "answer") != NULL);
-        const size_t name = cmd_text_width(s->files[i], strlen(s->files[i]));
-        for (size_t k = 0, used = 0; k < wt_result_rows_count(rows); k++) {
-            const wt_result_row row = wt_result_rows_get(rows, k);
-            const bool closed = row.interval[0] != '\0';
-            const int length =
-                snprintf(text + used, sizeof text - used, "%s %s %s%s%s%s", k == 0 ? ":" : ";",
-                         row.name, row.text, closed ? " (" : "", row.interval, closed ? ")" : "");
-            if (name + used + (size_t)length > ROOM) {
-                text[used] = '\0';
-                break;
-            }
-            used += (size_t)length;
-        }
-        cmd_print_safely(stdout, s->files[i], strlen(s->files[i]));
-        cmd_wrap(stdout, name, INDENT, text);
-        wt_result_rows_free(rows);
-        wt_result_free(result);
-    }
-    if (n > SHOWN)
-        printf("and %zu more results\n", n - SHOWN);
-    puts("a row of all main numbers for each: -o FILE, or -o - to print them");
-}
-
 int cmd_summary(int argc, char **argv)
 {
     static const cmd_usage usage = {
@@ -168,9 +176,9 @@ int cmd_summary(int argc, char **argv)
     const bool brief = shows_list(&s, &parts[0]);
     size_t n_read = 0;
     wt_table **headlines = wt_alloc(s.n_files, sizeof *headlines);
-    wt_status status = read_all_results(&s, headlines, &n_read);
+    wt_status status = read_all_results(&s, brief, headlines, &n_read);
     if (status == WT_OK && brief)
-        print_several_results(&s, n_read);
+        puts("a row of all main numbers for each: -o FILE, or -o - to print them");
     if (n_read > 0 && status == WT_OK && !brief)
         status =
             wt_summary_table(s.files, (const wt_table *const *)headlines, n_read, &summary, &s.err);

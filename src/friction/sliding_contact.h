@@ -39,7 +39,7 @@ wt_layer_state sliding_layer_at_shear_rate(const sliding_contact *contact, wt_la
                                            double velocity);
 void sliding_contact_clear(sliding_contact *contact);
 
-/* Writes the model, and the velocities with no solution or with two. The text is "" without a flash
+/* Writes the model, and the velocities without a solution. The text is "" without a flash
  * temperature. */
 void flash_describe(const wt_sliding *sliding, const wt_friction_point *points, size_t n,
                     char text[256]);

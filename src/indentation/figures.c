@@ -181,8 +181,9 @@ static void draw_modulus_groups(figure_drawing *d)
     text_format(&d->script, "set xrange [0.5:%zu.6]\nset xtics (", n);
     for (size_t i = 0; i < n; i++) {
         text_buffer label = {0};
-        size_t row = 0; /* of the group, which is in the table */
-        while (strcmp(modulus_groups_text(d->table, row, MODULUS_GROUPS_GROUP), d->groups[i]) != 0)
+        size_t row = 0; /* of the group */
+        while (row + 1 < d->table->n_rows &&
+               strcmp(modulus_groups_text(d->table, row, MODULUS_GROUPS_GROUP), d->groups[i]) != 0)
             row++;
         text_format(&label, "%s (n = %.0f)", d->groups[i],
                     modulus_groups_get(d->table, row, MODULUS_GROUPS_N));

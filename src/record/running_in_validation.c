@@ -192,7 +192,7 @@ static void fit_course(running_in *run)
     run->factor_error = run->time_error = (double)NAN;
     if (!isnan(run->factor.value))
         fit_drawn_courses(run, mean);
-    if (isnan(run->factor.value))
+    if (isnan(run->factor.low) && isnan(run->factor.high))
         snprintf(run->note, sizeof run->note,
                  "no change like that by the layer exceeds the scatter of the cycles");
     else if (isnan(run->factor.low) || isnan(run->factor.high))

@@ -403,13 +403,14 @@ static bool check_store_format(hdf5_reader *r)
         H5Aread(attribute, H5T_NATIVE_INT, &format) < 0) {
         r->status = wt_fail(r->err, WT_E_FORMAT, "not a result file of weartrack");
         wt_error_expected(r->err, "the attribute \"%s\"", STORE_FORMAT_ATTRIBUTE);
-    } else if (format < STORE_FORMAT_OLDEST || format > STORE_FORMAT) {
+    } else if (format != STORE_FORMAT_OLDEST && format != STORE_FORMAT) {
         r->status = wt_fail(r->err, WT_E_UNSUPPORTED, "result file of another version");
-        wt_error_expected(r->err, "layout %d to %d", STORE_FORMAT_OLDEST, STORE_FORMAT);
+        wt_error_expected(r->err, "layout %d or %d", STORE_FORMAT_OLDEST, STORE_FORMAT);
         wt_error_found(r->err, "%d", format);
         wt_error_advice(
             r->err,
-            "make it again from its case, or use the weartrack that wrote it or a newer one");
+            "make it again from its case or from the file of the instrument, or use the weartrack "
+            "that wrote it or a newer one");
     }
     hdf5_close(type);
     hdf5_close(attribute);

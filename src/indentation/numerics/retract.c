@@ -307,7 +307,7 @@ WIDE_REGISTERS static double find_pull_off(const double *above, size_t n, size_t
         const size_t width = (size_t)(part * pull_off_share * (double)n);
         if (width < 4 || n_free < 4 * width)
             continue;
-        enum { OVERLAP = 4 }; /* means that share a sample; more hold hardly more */
+        enum { OVERLAP = 4 }; /* means that contain one sample; more of them add little */
         const size_t step = width / OVERLAP, means = (n - width) / step + 1,
                      free = (n_free - width) / step + 1, from = (n - width) % step;
         for (size_t i = 0; i < means; i++)

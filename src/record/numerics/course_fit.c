@@ -22,8 +22,8 @@ static double log_factor_at(size_t k)
 
 double course_mean_of(course_function *course, const void *user, double begin, double end)
 {
-    /* Eight points hold a mean over a factor of ten in time to 1 % of the change of a course that
-     * is smooth in the logarithm of time; within a tenth it hardly changes. */
+    /* Eight points give the mean of a course that is linear in the logarithm of time to 2 % of its
+     * change over a decade; within a tenth of the time it hardly changes. */
     enum { WITHIN = 8 };
     const size_t n = end - begin > 0.1 * begin ? WITHIN : 1;
     double sum = 0;
@@ -32,12 +32,12 @@ double course_mean_of(course_function *course, const void *user, double begin, d
     return sum / (double)n;
 }
 
-/* Fits level and ratio at a factor and returns the sum of squares. residual: [n], or NULL. */
+/* Fits level and ratio at a factor and returns the sum of squares. x: [n] scratch. residual: [n],
+ * or NULL. */
 static double sum_of_squares(const course_mean *mean, size_t n, course_function *course,
-                             const void *user, double factor, double *residual)
+                             const void *user, double factor, double *x, double *residual)
 {
     double mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
-    double *const x = wt_alloc(n, sizeof *x);
     for (size_t i = 0; i < n; i++) {
         x[i] = course_mean_of(course, user, mean[i].begin / factor, mean[i].end / factor);
         mean_x += x[i] / (double)n;
@@ -51,7 +51,6 @@ static double sum_of_squares(const course_mean *mean, size_t n, course_function 
     const double ratio = xx > 0 ? xy / xx : 0;
     for (size_t i = 0; residual != NULL && i < n; i++)
         residual[i] = mean[i].friction - mean_y - ratio * (x[i] - mean_x);
-    free(x);
     return fmax(yy - ratio * xy, 0);
 }
 
@@ -73,15 +72,16 @@ wt_interval course_fit_factor(const course_mean *mean, size_t n, course_function
     wt_interval found = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     if (n < 4) /* one more than the constants */
         return found;
-    double *const residual = wt_alloc(n, sizeof *residual);
+    double *const x = wt_alloc(2 * n, sizeof *x), *const residual = x + n;
     double squares[FACTORS];
     size_t best = 0;
     for (size_t k = 0; k < FACTORS; k++) {
-        squares[k] = sum_of_squares(mean, n, course, user, exp(log_factor_at(k)), NULL);
+        squares[k] = sum_of_squares(mean, n, course, user, exp(log_factor_at(k)), x, NULL);
         if (squares[k] < squares[best])
             best = k;
     }
-    const double least = sum_of_squares(mean, n, course, user, exp(log_factor_at(best)), residual);
+    const double least =
+        sum_of_squares(mean, n, course, user, exp(log_factor_at(best)), x, residual);
     const double allowed =
         least * (1 + NORMAL_95 * NORMAL_95 * correlation_factor(residual, n) / ((double)n - 3));
     double level = 0, constant = 0;
@@ -89,7 +89,7 @@ wt_interval course_fit_factor(const course_mean *mean, size_t n, course_function
         level += mean[i].friction / (double)n;
     for (size_t i = 0; i < n; i++)
         constant += (mean[i].friction - level) * (mean[i].friction - level);
-    free(residual);
+    free(x);
     if (!(constant > allowed)) /* a constant is as good */
         return found;
     size_t low = best, high = best;
@@ -98,7 +98,8 @@ wt_interval course_fit_factor(const course_mean *mean, size_t n, course_function
     while (high + 1 < FACTORS && squares[high + 1] <= allowed)
         high++;
     const double half_step = 0.5 * last_log / STEPS;
-    found.value = exp(log_factor_at(best));
+    if (best > 0 && best + 1 < FACTORS) /* else it is beyond the search */
+        found.value = exp(log_factor_at(best));
     found.low = low > 0 ? exp(log_factor_at(low) - half_step) : (double)NAN;
     found.high = high + 1 < FACTORS ? exp(log_factor_at(high) + half_step) : (double)NAN;
     found.standard_error = (found.high - found.low) / (2 * NORMAL_95);
@@ -111,15 +112,17 @@ double course_fit_between(const course_mean *mean, size_t n, course_function *co
     /* steps of 3 % for a range of a factor of 16, far below the errors of a running-in */
     enum { BETWEEN = 100 };
     const double step = log(high / low) / BETWEEN;
+    double *const x = wt_alloc(n, sizeof *x);
     size_t best = 0;
     double least = (double)NAN;
     for (size_t k = 0; k <= BETWEEN; k++) {
         const double squares =
-            sum_of_squares(mean, n, course, user, low * exp((double)k * step), NULL);
+            sum_of_squares(mean, n, course, user, low * exp((double)k * step), x, NULL);
         if (isnan(least) || squares < least) {
             least = squares;
             best = k;
         }
     }
+    free(x);
     return best > 0 && best < BETWEEN ? low * exp((double)best * step) : (double)NAN;
 }
