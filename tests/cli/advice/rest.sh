@@ -3,7 +3,7 @@
 not_advice 'weartrack or the textbook' 'a name in a table'
 not_advice 'will not be replaced: it is not a weartrack report' 'what a file is not'
 no_input 'make it by weartrack indent --curves all' 'of the server: cli_view_server'
-no_input 'make it again from its case, or use the weartrack that wrote it' 'a file of a version to come'
+no_input 'make it again from its case or from the file of the instrument, or use the weartrack' 'a file of a version to come'
 no_input 'no browser found; open the address by hand' 'of a computer without a browser: cli_view_server'
 no_input 'use another --port, or none for a free one' 'of the server: cli_view_server'
 not_advice 'Give force curves of bulk and track to' 'a remark of a result, which needs other data'
