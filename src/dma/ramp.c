@@ -26,7 +26,7 @@ wt_ramp_job wt_ramp_job_defaults(void)
 static const wt_param rows[] = {
     {PARAM_LIST_OF("at", wt_ramp_job, temperature, n_temperatures, WT_Q_TEMPERATURE, ABOVE(0)),
      .value = "T", .unset = "",
-     .help = "temperatures at which the moduli are reported, such as 0degC,25degC,60degC"},
+     .help = SUCH_AS("temperatures at which the moduli are reported, ", "0degC", ",25degC,60degC")},
 };
 PARAM_TABLE(wt_ramp_job_params, wt_ramp_job, rows, wt_ramp_job_defaults, NO_PARTS)
 

@@ -32,7 +32,8 @@ wt_sliding wt_sliding_defaults(void)
 
 static const wt_param rows[] = {
     {PARAM("pressure", wt_sliding, pressure, WT_Q_PRESSURE, ABOVE(0)), .value = "P", .letter = 'p',
-     .flags = PARAM_REQUIRED, .help = "nominal pressure, such as 0.4MPa or \"0.4MPa +- 5%\""},
+     .flags = PARAM_REQUIRED,
+     .help = SUCH_AS("nominal pressure, ", "0.4MPa", " or \"0.4MPa +- 5%\"")},
     {PARAM_LIST_OF("velocity", wt_sliding, velocity, n_velocity, WT_Q_VELOCITY, ABOVE(0)),
      .value = "V", .letter = 'v', .flags = PARAM_REQUIRED,
      .help = "0.3m/s, a list 1mm/s,1cm/s or a range 1e-4:10m/s:log:40 (or lin) of 40 values"},
@@ -45,8 +46,8 @@ static const wt_param rows[] = {
              "another one than the reference needs a WLF law"},
     {PARAM("shear-stress", wt_sliding, shear_stress, WT_Q_STRESS, AT_LEAST(0)), .value = "TAU",
      .unset = "",
-     .help = "tau_f of the real contact, such as 5MPa; without it there is no total "
-             "friction"},
+     .help =
+         SUCH_AS("tau_f of the real contact, ", "5MPa", "; without it there is no total friction")},
     FRICTION_GAMMA(wt_sliding),
     FRICTION_STRAIN_FACTOR(wt_sliding),
     {PARAM_FLAG_OF("decades", wt_sliding, decades),
@@ -375,9 +376,9 @@ static const wt_param parameter_rows[] = {
     /* Beyond 1 the phase alone makes a storage modulus negative. */
     {PARAM("ratio-slope", wt_layer_observation, ratio_slope, WT_Q_NONE, FROM_TO(-1, 1)),
      .value = "S", .flags = PARAM_ONLY_C,
-     .help =
-         "of ln modulus ratio against ln frequency, such as \"0.06 +- 0.02\"; the ratio is then "
-         "complex, with the phase that causality asks for (reconstructed); 0: one ratio"},
+     .help = SUCH_AS("of ln modulus ratio against ln frequency, ", "\"0.06 +- 0.02\"",
+                     "; the ratio is then complex, with the phase that causality asks for "
+                     "(reconstructed); 0: one ratio")},
     {PARAM("ratio-frequency", wt_layer_observation, ratio_frequency, WT_Q_ANGULAR_FREQUENCY,
            AT_LEAST(0)),
      .value = "W", .unset = "needed with a slope", .flags = PARAM_ONLY_C,

@@ -85,7 +85,7 @@ static const wt_param rows[] = {
              "punch:radius=2um; half-angle and radius with their standard errors, as "
              "radius=20nm+-15%"},
     {PARAM("sample-thickness", wt_indent_job, tip.sample_thickness, WT_Q_LENGTH, AT_LEAST(0)),
-     .value = "H", .help = "of a thin sample on a rigid base, such as 2um; 0 is thick"},
+     .value = "H", .help = SUCH_AS("of a thin sample on a rigid base, ", "2um", "; 0 is thick")},
     {PARAM_FLAG_OF("unbonded", wt_indent_job, tip.unbonded),
      .help = "the thin sample slides on its base"},
     {PARAM_TEXT_OF("group", wt_indent_job, group), .check = check_group_name, .value = "NAME",
@@ -97,10 +97,11 @@ static const wt_param rows[] = {
     SENSITIVITY(wt_indent_job, PARAM_NO_CASE, indent_error_check),
     {PARAM("spring-constant-error", wt_indent_job, lever_error, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "X", .flags = PARAM_NO_CASE,
-     .help = "relative standard error of a spring constant that states none, such as 0.1"},
+     .help = SUCH_AS("relative standard error of a spring constant that states none, ", "0.1", "")},
     {PARAM("sensitivity-error", wt_indent_job, sensitivity_error, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "X", .flags = PARAM_NO_CASE,
-     .help = "relative standard error of a deflection sensitivity that states none, such as 0.05"},
+     .help = SUCH_AS("relative standard error of a deflection sensitivity that states none, ",
+                     "0.05", "")},
     {PARAM_TEXTS_OF("curves", wt_indent_job, curves, n_curves), .check = check_curve_selection,
      .value = "WHICH", .unset = "",
      .help = "curves to look at, as the table curves: rejected, worst:N (of the largest relative "

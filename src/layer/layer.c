@@ -32,8 +32,7 @@ wt_layer_job wt_layer_job_defaults(void)
 static const wt_param rows[] = {
     {PARAM("critical-energy", wt_layer_job, critical_energy, WT_Q_ENERGY_DENSITY, ABOVE(0)),
      .value = "U", .unset = "",
-     .help = "U_c, the energy per volume that modifies the rubber, such "
-             "as 2e10J/m^3"},
+     .help = SUCH_AS("U_c, the energy per volume that modifies the rubber, ", "2e10J/m^3", "")},
     {PARAM("observed-thickness", wt_layer_job, observed_thickness, WT_Q_LENGTH, ABOVE(0)),
      .value = "D", .unset = "",
      .help = "of a layer at balance, from which the critical energy is calculated"},
@@ -46,7 +45,7 @@ static const wt_param rows[] = {
      .flags = PARAM_ONLY_C, .help = "how the energy falls off with depth"},
     ENERGY_LOCAL_FRICTION(wt_layer_job),
     {PARAM_LIST_OF("times", wt_layer_job, time, n_time, WT_Q_TIME, AT_LEAST(0)), .value = "T",
-     .unset = "around the time scales", .help = "such as 1:1e4s:log:40"},
+     .unset = "around the time scales", .help = SUCH_AS("", "1:1e4s:log:40", "")},
     {PARAM("layer-velocity", wt_layer_job, velocity, WT_Q_VELOCITY, ABOVE(0)),
      .unset = "the reference velocity", .flags = PARAM_NO_OPTION,
      .help = "at which the track was worn"},

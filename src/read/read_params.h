@@ -12,13 +12,13 @@
     {                                                                                              \
         PARAM("spring-constant", type, spring_constant, WT_Q_SPRING_CONSTANT, ABOVE(0)),           \
             .check = (test), .value = "K", .unset = "that of the files", .flags = (where),         \
-            .help = "spring constant of the cantilever, such as 0.1N/m"                            \
+            .help = SUCH_AS("spring constant of the cantilever, ", "0.1N/m", "")                   \
     }
 #define SENSITIVITY(type, where, test)                                                             \
     {                                                                                              \
         PARAM("sensitivity", type, sensitivity, WT_Q_SENSITIVITY, ABOVE(0)),                       \
             .check = (test), .value = "S", .unset = "that of the files", .flags = (where),         \
-            .help = "deflection sensitivity (InvOLS), such as 60nm/V"                              \
+            .help = SUCH_AS("deflection sensitivity (InvOLS), ", "60nm/V", "")                     \
     }
 
 #endif

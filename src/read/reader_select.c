@@ -50,20 +50,23 @@ static const wt_param rows[] = {
     SPRING_CONSTANT(wt_read_options, PARAM_NO_CASE, NULL),
     SENSITIVITY(wt_read_options, PARAM_NO_CASE, NULL),
     {PARAM("temperature", wt_read_options, temperature, WT_Q_TEMPERATURE, ABOVE(0)), .value = "T",
-     .unset = "", .help = "temperature of DMA files that state none, such as 20degC"},
+     .unset = "", .help = SUCH_AS("temperature of DMA files that state none, ", "20degC", "")},
     {PARAM_TEXT_OF("temperature-in-name", wt_read_options, temperature_in_name), .value = "PATTERN",
      .unset = "",
-     .help = "place of the temperature in the names of DMA files or sheets that state none, in "
-             "degrees Celsius: # is the number and * any text, such as \"*_#C.txt\"",
+     .help = SUCH_AS("place of the temperature in the names of DMA files or sheets that state "
+                     "none, in degrees Celsius: # is the number and * any text, ",
+                     "\"*_#C.txt\"", ""),
      .check = check_name_pattern},
     {PARAM("frequency", wt_read_options, frequency, WT_Q_FREQUENCY, ABOVE(0)), .value = "F",
      .unset = "",
-     .help = "frequency of strain and temperature sweeps whose files state none, such as 10Hz"},
+     .help = SUCH_AS("frequency of strain and temperature sweeps whose files state none, ", "10Hz",
+                     "")},
     {PARAM_TEXTS_OF("units", wt_read_options, units, n_units), .value = "NAME=UNIT", .unset = "",
      .help = "unit of a column for which the file states none, such as \"E'=MPa\"; repeatable"},
     {PARAM("pixel-size", wt_read_options, pixel_size, WT_Q_LENGTH, ABOVE(0)), .value = "L",
      .unset = "",
-     .help = "pixel spacing of height maps whose files do not state their size, such as 0.5um"},
+     .help = SUCH_AS("pixel spacing of height maps whose files do not state their size, ", "0.5um",
+                     "")},
     {PARAM_TEXT_OF("height-unit", wt_read_options, height_unit), .value = "UNIT", .unset = "",
      .help = "unit of the values of height maps whose files state no unit of length, such as nm",
      .check = check_length_unit},
@@ -80,8 +83,9 @@ static const wt_param rows[] = {
      .help = "deformation that the moduli of a DMA file belong to if their names do not state it, "
              "as in \"storage modulus\"; bending gives E like tension"},
     {PARAM("strain", wt_read_options, strain, WT_Q_STRAIN, ABOVE(0)), .value = "S", .unset = "",
-     .help = "select the DMA isotherms and temperature sweeps with the strain amplitude nearest to "
-             "this one, such as 0.1%, if there are several amplitudes"},
+     .help = SUCH_AS("select the DMA isotherms and temperature sweeps with the strain amplitude "
+                     "nearest to this one, ",
+                     "0.1%", ", if there are several amplitudes")},
     {PARAM_TEXT_OF("sample", wt_read_options, sample), .value = "NAME", .unset = "",
      .help = "select the DMA sweeps of this sample, or its result of weartrack master; all: the "
              "sweeps are of one material whatever their names are"},

@@ -29,23 +29,23 @@ static const wt_param rows[] = {
              "steady"},
     {PARAM("load", wt_record_job, load, WT_Q_NORMAL_FORCE, ABOVE(0)), .value = "F",
      .unset = "that of the file",
-     .help = "normal force where the record says none, such as \"5N +- 1%\""},
+     .help = SUCH_AS("normal force where the record says none, ", "\"5N +- 1%\"", "")},
     {PARAM("track-radius", wt_record_job, track_radius, WT_Q_LENGTH, ABOVE(0)), .value = "R",
      .unset = "that of the file",
      .help = "radius of the track on a disc, which relates distance to laps and velocity to "
              "rotation"},
     {PARAM("track-area", wt_record_job, track_area, WT_Q_AREA, ABOVE(0)), .value = "A", .unset = "",
-     .help = "cross-section that the track has lost, such as \"3e-11m^2 +- 20%\", for the specific "
-             "wear rate"},
+     .help = SUCH_AS("cross-section that the track has lost, ", "\"3e-11m^2 +- 20%\"",
+                     ", for the specific wear rate")},
     {PARAM_TEXT_OF("profile", wt_record_job, profile), .value = "FILE", .unset = "",
      .flags = PARAM_NO_CASE,
      .help =
          "the same from profiles of heights across the track: a file, a folder or a pattern; of "
          "several the mean, with their scatter"},
     {PARAM("mass-loss", wt_record_job, mass_loss, WT_Q_MASS, ABOVE(0)), .value = "M", .unset = "",
-     .help = "mass that was lost, such as \"3mg +- 0.2mg\"; with --density"},
+     .help = SUCH_AS("mass that was lost, ", "\"3mg +- 0.2mg\"", "; with --density")},
     {PARAM("density", wt_record_job, density, WT_Q_MASS_DENSITY, ABOVE(0)), .value = "RHO",
-     .unset = "", .help = "density of the rubber, such as 1150kg/m^3"},
+     .unset = "", .help = SUCH_AS("density of the rubber, ", "1150kg/m^3", "")},
     {PARAM("track-length", wt_record_job, track_length, WT_Q_LENGTH, ABOVE(0)), .value = "L",
      .unset = "the circumference of the track, or the length of its strokes",
      .help = "length of the track, such as the stroke of a reciprocating record"},
@@ -54,7 +54,8 @@ static const wt_param rows[] = {
      .help = "radius of the ball: with --modulus its nominal pressure; and the cross-section that "
              "it has worn, by the depth of the record, if it is harder than the track"},
     {PARAM("modulus", wt_record_job, modulus, WT_Q_MODULUS, ABOVE(0)), .value = "E", .unset = "",
-     .help = "Young's modulus of the rubber at the frequency of the contact, such as 20MPa"},
+     .help =
+         SUCH_AS("Young's modulus of the rubber at the frequency of the contact, ", "20MPa", "")},
     {PARAM("poisson-ratio", wt_record_job, poisson_ratio, WT_Q_NONE, FROM_TO(0, 0.5)), .value = "X",
      .help = "Poisson's ratio of the rubber"},
 };

@@ -51,8 +51,9 @@ static const wt_param rows[] = {
     /* The key needs the lower limit; the upper limit is a poster. */
     {PARAM("width", wt_report_options, width, WT_Q_LENGTH, FROM_TO(0.05, 1)), .value = "LENGTH",
      .unset = "as the style has it",
-     .help = "width of a figure in the paper, such as 85mm, with type of 8 points (style screen: "
-             "12); panels stand side by side from 170 mm"},
+     .help = SUCH_AS(
+         "width of a figure in the paper, ", "85mm",
+         ", with type of 8 points (style screen: 12); panels stand side by side from 170 mm")},
     {PARAM_TEXT_OF("font", wt_report_options, font), .value = "NAME",
      .unset = "as the style has it", .check = figure_font_check,
      .help = "font of the figures, such as Arial; one that is not on this computer causes a "

@@ -244,24 +244,26 @@ wt_compare_job wt_compare_job_defaults(void)
 static const wt_param rows[] = {
     {PARAM("indentation-temperature", wt_compare_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
      .value = "T", .unset = "that of indent, or the reference temperature of the DMA",
-     .help = "at which the sample was indented, such as \"23degC +- 1K\"; for the comparison with "
-             "DMA"},
+     .help = SUCH_AS("at which the sample was indented, ", "\"23degC +- 1K\"",
+                     "; for the comparison with DMA")},
     {PARAM("track-temperature", wt_compare_job, track_temperature, WT_Q_TEMPERATURE, ABOVE(0)),
      .value = "T", .unset = "that of indent, or of the bulk",
      .help = "at which the track was indented, if it was not that of the bulk"},
     {PARAM("temperature-slope", wt_compare_job, temperature_slope, WT_Q_NONE, ANY_NUMBER),
      .value = "X", .unset = "that of the DMA",
-     .help = "of ln E against temperature per kelvin, such as \"-0.012 +- 0.002\"; brings the "
-             "track to the temperature of the bulk"},
+     .help = SUCH_AS("of ln E against temperature per kelvin, ", "\"-0.012 +- 0.002\"",
+                     "; brings the track to the temperature of the bulk")},
     {PARAM_CHOICE_OF("cantilevers", wt_compare_job, cantilevers, "auto|one|two"),
      .help = "whether bulk and track were indented with one cantilever, whose errors cancel in the "
              "ratio, or with two, whose errors enter it; auto: one if spring constants and "
              "tips are equal"},
     {PARAM("spring-constant-error", wt_compare_job, lever_error, WT_Q_NONE, FROM_BELOW(0, 1)),
      .value = "X",
-     .help = "relative standard error of a spring constant whose curves state none, such as 0.1"},
+     .help = SUCH_AS("relative standard error of a spring constant whose curves state none, ",
+                     "0.1", "")},
     {PARAM("sensitivity-error", wt_compare_job, sensitivity_error, WT_Q_NONE, FROM_BELOW(0, 1)),
-     .value = "X", .help = "relative standard error of a deflection sensitivity, such as 0.05"},
+     .value = "X",
+     .help = SUCH_AS("relative standard error of a deflection sensitivity, ", "0.05", "")},
     {PARAM("tip-error", wt_compare_job, tip_error, WT_Q_NONE, FROM_BELOW(0, 1)), .value = "X",
      .help = "relative standard error of a modulus by the shape of its tip"},
     {PARAM_FLAG_OF("map-spots", wt_compare_job, map_spots),
@@ -269,12 +271,13 @@ static const wt_param rows[] = {
              "one, for its places are near to each other"},
     {PARAM("between-spot-sd", wt_compare_job, spot_scatter, WT_Q_NONE, FROM_BELOW(0, 1)),
      .former = "spot-scatter", .value = "X", .unset = "not known",
-     .help = "relative standard deviation of the modulus from spot to spot, as known of other "
-             "samples, such as 15%; for one spot against one or two, which do not determine it"},
+     .help = SUCH_AS("relative standard deviation of the modulus from spot to spot, as known of "
+                     "other samples, ",
+                     "15%", "; for one spot against one or two, which do not determine it")},
     {PARAM("expected-thickness", wt_compare_job, expected_thickness, WT_Q_LENGTH, ABOVE(0)),
      .value = "D", .unset = "that of the theory, where the case has a layer",
-     .help = "thickness of the layer known otherwise, such as \"3um +- 20%\" of a section, for the "
-             "comparison with what the curves allow"},
+     .help = SUCH_AS("thickness of the layer known otherwise, ", "\"3um +- 20%\"",
+                     " of a section, for the comparison with what the curves allow")},
     EQUIVALENCE_MARGIN(wt_compare_job),
 };
 PARAM_TABLE(wt_compare_job_params, wt_compare_job, rows, wt_compare_job_defaults, NO_PARTS)

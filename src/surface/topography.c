@@ -37,18 +37,19 @@ static const wt_param rows[] = {
     {PARAM("tip-radius", wt_topography_job, options.tip_radius, WT_Q_LENGTH, ABOVE(0)),
      .value = "R", .unset = "",
      .help =
-         "radius of the tip that scanned, such as 10nm: the reliable range ends where peaks are "
-         "as sharp as half of its curvature"},
+         SUCH_AS("radius of the tip that scanned, ", "10nm",
+                 ": the reliable range ends where peaks are as sharp as half of its curvature")},
     {PARAM_TEXT_OF("image", wt_topography_job, image), .value = "NAME",
      .unset = "the first image of heights", .flags = PARAM_NO_CASE,
      .help = "which image of a file: a part of its name, such as backward"},
     {PARAM("end", wt_topography_job, end, WT_Q_WAVENUMBER, ABOVE(0)), .value = "Q",
      .unset = "the end of the reliable range",
-     .help = "largest wavenumber of the spectrum, such as 1e8rad/m; beyond the reliable range "
-             "it follows its self-affine law"},
+     .help = SUCH_AS("largest wavenumber of the spectrum, ", "1e8rad/m",
+                     "; beyond the reliable range it follows its self-affine law")},
     {PARAM("end-slope", wt_topography_job, end_slope, WT_Q_NONE, ABOVE(0)), .value = "X",
      .unset = "",
-     .help = "end it where the rms slope reaches this, such as 1.3, by its law if it must be"},
+     .help =
+         SUCH_AS("end it where the rms slope reaches this, ", "1.3", ", by its law if it must be")},
     {PARAM_FLAG_OF("heights", wt_topography_job, heights), .flags = PARAM_NO_CASE,
      .help = "the tables height_map and height_profile, too: heights less their form, thinned, of "
              "which weartrack report makes figures"},

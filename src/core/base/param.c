@@ -153,7 +153,7 @@ static wt_status parse_estimate_value(const wt_param *param, const char *text,
                                       wt_estimate *estimate, wt_error *err)
 {
     wt_estimate read = {0};
-    wt_status status = wt_estimate_parse(text, param->quantity, &read, err);
+    wt_status status = estimate_parse(text, param->quantity, param->example, &read, err);
     if (status == WT_OK)
         status = check_read_value(param, read.value, text, err);
     if (status == WT_OK)
@@ -181,7 +181,7 @@ static wt_status parse_list_member(const bound_member *s, const char *text, wt_e
 {
     double *values = NULL;
     size_t n = 0;
-    wt_status status = wt_list_parse(text, s->param->quantity, &values, &n, err);
+    wt_status status = list_parse(text, s->param->quantity, s->param->example, &values, &n, err);
     for (size_t i = 0; status == WT_OK && i < n; i++)
         status = check_read_value(s->param, values[i], text, err);
     if (status != WT_OK) {
@@ -331,23 +331,6 @@ static wt_status parse_member(const bound_member *s, const char *text, wt_error 
     return WT_OK;
 }
 
-/* Puts the example of the help in the place of that of the quantity, which need not lie within the
- * limits of this parameter. */
-static void use_example_of_help(const wt_param *param, wt_error *err)
-{
-    static const char such_as[] = "such as ";
-    char *const shown = strstr(err->expected, such_as);
-    const char *example = param->help != NULL ? strstr(param->help, such_as) : NULL;
-    if (shown == NULL || example == NULL)
-        return;
-    example += sizeof such_as - 1;
-    const bool quoted = *example == '"';
-    const size_t n = quoted ? strcspn(example + 1, "\"") + 2 : strcspn(example, " ,;)");
-    const size_t room = sizeof err->expected - (size_t)(shown - err->expected);
-    if (n + sizeof such_as <= room)
-        snprintf(shown, room, "%s%.*s", such_as, (int)n, example);
-}
-
 wt_status wt_params_set(const wt_params *params, const char *name, void *structure,
                         const char *text, uint64_t *given, wt_error *err)
 {
@@ -367,8 +350,6 @@ wt_status wt_params_set(const wt_params *params, const char *name, void *structu
         clear_list(&s);
     *given |= bit;
     wt_status status = parse_member(&s, text, err);
-    if (status != WT_OK)
-        use_example_of_help(s.param, err);
     return status == WT_OK && s.param->check != NULL ? s.param->check(s.member, err) : status;
 }
 

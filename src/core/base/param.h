@@ -43,6 +43,9 @@ typedef struct param_limits {
 #define FROM_TO(first, last) BRACED(first, last, true, true)
 #define FROM_BELOW(first, bound) BRACED(first, bound, true, false)
 
+/* Help with an example, which messages about a wrong value show. */
+#define SUCH_AS(before, example_, after) before "such as " example_ after, .example = (example_)
+
 /* Flags for options and case elements. By default a parameter has both. */
 #define PARAM_REQUIRED 1u
 #define PARAM_NO_OPTION 2u
@@ -61,6 +64,7 @@ struct wt_param {
     const char *former; /* name in an earlier version: accepted, but not shown; NULL for most */
     const char *value;  /* what stands for the value in the help, or the choices parted by '|' */
     const char *help;
+    const char *example; /* in the help and in messages; NULL for that of the quantity */
     const char
         *unset; /* text for NaN, NULL or an empty list, which are then allowed; "" without a text */
     unsigned flags;

@@ -10,6 +10,14 @@
 
 /* Returns an example of a value as the user types it, such as "250nm". */
 const char *quantity_example(wt_quantity quantity);
+/* As wt_quantity_parse, wt_estimate_parse and wt_list_parse, with the example that a message shows;
+ * NULL for that of the quantity. */
+wt_status quantity_parse(const char *text, wt_quantity quantity, const char *example, double *value,
+                         wt_error *err);
+wt_status estimate_parse(const char *text, wt_quantity quantity, const char *example,
+                         wt_estimate *estimate, wt_error *err);
+wt_status list_parse(const char *text, wt_quantity quantity, const char *example, double **values,
+                     size_t *n, wt_error *err);
 /* Returns the largest plausible magnitude of a quantity. It is far above real values and far below
  * the overflow of a calculation. */
 double quantity_plausible_maximum(wt_quantity quantity);

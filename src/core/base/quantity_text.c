@@ -1,6 +1,7 @@
 /* Parses quantities: an estimate with its stated error, or a list of values.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
+#include "core/base/quantity.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -38,8 +39,8 @@ static size_t length_before_percent(const char *text)
 }
 
 /* Parses a stated error: a percentage of the value, or a quantity of the same dimension. */
-static wt_status parse_stated_error(const char *text, wt_quantity quantity, double value,
-                                    double *error, wt_error *err)
+static wt_status parse_stated_error(const char *text, wt_quantity quantity, const char *example,
+                                    double value, double *error, wt_error *err)
 {
     const size_t before = length_before_percent(text);
     if (before > 0) {
@@ -66,7 +67,7 @@ static wt_status parse_stated_error(const char *text, wt_quantity quantity, doub
     }
     wt_quantity kind = quantity == WT_Q_TEMPERATURE ? WT_Q_TEMPERATURE_DIFFERENCE : quantity;
     double parsed = (double)NAN;
-    wt_status status = wt_quantity_parse(text, kind, &parsed, err);
+    wt_status status = quantity_parse(text, kind, example, &parsed, err);
     if (status != WT_OK)
         return status;
     if (!(parsed >= 0)) {
@@ -92,6 +93,12 @@ static wt_status fail_two_percents(const char *text, wt_error *err)
 wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate *estimate,
                             wt_error *err)
 {
+    return estimate_parse(text, quantity, NULL, estimate, err);
+}
+
+wt_status estimate_parse(const char *text, wt_quantity quantity, const char *example,
+                         wt_estimate *estimate, wt_error *err)
+{
     if (text == NULL || estimate == NULL)
         return wt_fail(err, WT_E_ARG, "no text to parse");
     wt_estimate parsed = {(double)NAN, 0, 0, wt_quantity_unit(quantity)};
@@ -99,12 +106,13 @@ wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate 
     const char *sign = ascii != NULL ? ascii : strstr(text, "\xc2\xb1"), *end = text + strlen(text);
     char *head = copy_trimmed(text, sign != NULL ? sign : end);
     char *tail = sign != NULL ? copy_trimmed(sign + 2, end) : NULL;
-    wt_status status = wt_quantity_parse(head, quantity, &parsed.value, err);
+    wt_status status = quantity_parse(head, quantity, example, &parsed.value, err);
     if (status == WT_OK && tail != NULL && length_before_percent(head) > 0 &&
         length_before_percent(tail) > 0)
         status = fail_two_percents(text, err);
     if (status == WT_OK && tail != NULL)
-        status = parse_stated_error(tail, quantity, parsed.value, &parsed.standard_error, err);
+        status =
+            parse_stated_error(tail, quantity, example, parsed.value, &parsed.standard_error, err);
     if (status == WT_OK)
         *estimate = parsed;
     free(head);
@@ -132,7 +140,7 @@ static wt_status fail_list(const char *text, const char *what, wt_error *err)
 
 /* Parses FIRST:LAST UNIT:log|lin:COUNT; `part` contains the four parts. */
 static wt_status parse_range(const char *text, char *const *part, wt_quantity quantity,
-                             value_list *out, wt_error *err)
+                             const char *example, value_list *out, wt_error *err)
 {
     const char *unit = part[1];
     unit += strspn(unit, "0123456789.");
@@ -146,9 +154,9 @@ static wt_status parse_range(const char *text, char *const *part, wt_quantity qu
     if (written < 0 || (size_t)written >= sizeof first_text)
         return fail_list(text, "the first value is too long", err);
     double first = (double)NAN, last = (double)NAN, count = (double)NAN;
-    wt_status status = wt_quantity_parse(first_text, quantity, &first, err);
+    wt_status status = quantity_parse(first_text, quantity, example, &first, err);
     if (status == WT_OK)
-        status = wt_quantity_parse(part[1], quantity, &last, err);
+        status = quantity_parse(part[1], quantity, example, &last, err);
     if (status != WT_OK)
         return status;
     bool logarithmic = strcmp(part[2], "log") == 0;
@@ -191,6 +199,12 @@ static char **split_at_mark(const char *text, char mark, size_t n)
 wt_status wt_list_parse(const char *text, wt_quantity quantity, double **result, size_t *n,
                         wt_error *err)
 {
+    return list_parse(text, quantity, NULL, result, n, err);
+}
+
+wt_status list_parse(const char *text, wt_quantity quantity, const char *example, double **result,
+                     size_t *n, wt_error *err)
+{
     if (text == NULL || result == NULL || n == NULL)
         return wt_fail(err, WT_E_ARG, "no text to parse");
     wt_status status = WT_OK;
@@ -205,9 +219,9 @@ wt_status wt_list_parse(const char *text, wt_quantity quantity, double **result,
     if (!range) {
         list = (value_list){wt_alloc(n_parts, sizeof *list.v), n_parts};
         for (size_t i = 0; status == WT_OK && i < n_parts; i++)
-            status = wt_quantity_parse(parts[i], quantity, &list.v[i], err);
+            status = quantity_parse(parts[i], quantity, example, &list.v[i], err);
     } else if (n_parts == 4)
-        status = parse_range(text, parts, quantity, &list, err);
+        status = parse_range(text, parts, quantity, example, &list, err);
     else
         status = fail_list(text, "a range has four parts", err);
     for (size_t i = 1; status == WT_OK && i < list.n; i++)

@@ -56,7 +56,7 @@
 /* State of the surface layer. `in` is a prefix of the member. */
 #define LAYER_STATE_ROWS(type, in)                                                                 \
     {PARAM("layer-thickness", type, in thickness, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",         \
-     .flags = PARAM_NO_CASE, .help = "of the modified layer, such as 1um"},                        \
+     .flags = PARAM_NO_CASE, .help = SUCH_AS("of the modified layer, ", "1um", "")},               \
     {                                                                                              \
         PARAM("modulus-ratio", type, in modulus_ratio, WT_Q_NONE, ABOVE(0)),                       \
             .value = "X", .help = "modulus of the layer over that of the bulk"                     \
@@ -65,7 +65,7 @@
 #define LAYER_WEAR_RATE(type, wear_unset)                                                          \
     {                                                                                              \
         PARAM("specific-wear-rate", type, specific_wear_rate, WT_Q_WEAR_RATE, AT_LEAST(0)),        \
-            .value = "K", .unset = (wear_unset), .help = "k, such as \"1e-3mm^3/(N m)\""           \
+            .value = "K", .unset = (wear_unset), .help = SUCH_AS("k, ", "\"1e-3mm^3/(N m)\"", "")  \
     }
 #define LAYER_DUTY(type)                                                                           \
     {                                                                                              \

@@ -470,6 +470,12 @@ static const char *find_temperature_advice(const char *unit, wt_quantity quantit
 
 wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *value, wt_error *err)
 {
+    return quantity_parse(text, quantity, NULL, value, err);
+}
+
+wt_status quantity_parse(const char *text, wt_quantity quantity, const char *example, double *value,
+                         wt_error *err)
+{
     wt_status status = WT_OK;
     double number = (double)NAN, factor = 1.0, offset = 0.0, result = (double)NAN;
     const bool bare = strcmp(wt_quantity_unit(quantity), "1") == 0;
@@ -504,7 +510,7 @@ wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *valu
         char words[64];
         format_quantity_name(quantity, words, sizeof words);
         wt_error_expected(err, "%s%s, such as %s", words, bare ? "" : " with its unit",
-                          quantity_example(quantity));
+                          example != NULL ? example : quantity_example(quantity));
         wt_error_found(err, "\"%s\"", text);
         if (reason != NULL)
             wt_error_advice(err, "%s", reason);

@@ -65,7 +65,7 @@ static const wt_param rows[] = {
     {PARAM("reference-temperature", wt_master_options, reference_temperature, WT_Q_TEMPERATURE,
            ABOVE(0)),
      .value = "T", .unset = "the isotherm in the middle",
-     .help = "reference temperature, such as 20degC; it need not be one of the isotherms"},
+     .help = SUCH_AS("reference temperature, ", "20degC", "; it need not be one of the isotherms")},
     {PARAM_CHOICE_OF("reference-at", wt_master_options, reference_at, "temperature|tan-delta-peak"),
      .help =
          "reference: the temperature that is given or chosen, or that at which tan delta peaks at "
