@@ -143,6 +143,9 @@ WT_API void wt_error_options(wt_error *err, const char *format, ...) WT_PRINTF(2
 /* Formats an error as one line: "FILE: PLACE: MESSAGE; expected ...; found ...; ADVICE". Returns
  * the required length, as snprintf does. */
 WT_API size_t wt_error_format(const wt_error *err, char *buffer, size_t size);
+/* True if a text equals one that was shown before (NULL: none), so that it is shown once. Nothing
+ * else may follow from it: code depends on types, not on texts. */
+WT_API bool wt_text_repeats(const char *text, const char *before);
 
 /* ---- parse log ------------------------------------------------------------------------------ */
 

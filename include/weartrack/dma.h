@@ -446,10 +446,11 @@ typedef struct wt_master_job {
     const char *const *leave_out; /* "temperature:LOW..HIGH" or "frequency:LOW..HIGH"; one limit may
                                      be missing, or one value replaces both */
     size_t n_leave_out;
-    const char *shift_law;  /* "wlf:reference-temperature=T,c1=X,c2=X" or
-                               "arrhenius:activation-energy=E", the law of all shifts; or NULL */
-    const wt_table *shifts; /* columns temperature, log_a and optionally log_b of fixed shifts,
-                               borrowed; or NULL */
+    const char *shift_law;   /* "wlf:reference-temperature=T,c1=X,c2=X" or
+                                "arrhenius:activation-energy=E", the law of all shifts; or NULL */
+    const wt_table *shifts;  /* columns temperature, log_a and optionally log_b of fixed shifts,
+                                borrowed; or NULL */
+    const char *shifts_file; /* of the shifts, for the message of an error in them; or NULL */
     const char *const *hand_shifts; /* "T=LOG_AT", the shift of an isotherm against that nearest to
                                        the reference temperature */
     size_t n_hand_shifts;

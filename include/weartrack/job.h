@@ -107,6 +107,8 @@ WT_API wt_status wt_job_add_failure(const wt_job *work, const char *file, wt_sta
  * = unchanged. */
 WT_API wt_status wt_notes_table(const wt_log *log, const char *folder, wt_table **table,
                                 wt_error *err) WT_NODISCARD;
+/* Severity of a row of a table with a column "severity", such as "notes"; WT_NOTE without one. */
+WT_API wt_severity wt_table_severity(const wt_table *table, size_t row);
 /* Creates the table "data_quality" of the actions on data in a log; *table is NULL if there are
  * none. `folder` as above. Free with wt_table_free. */
 WT_API wt_status wt_data_quality_table(const wt_log *log, const char *folder, wt_table **table,

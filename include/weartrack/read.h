@@ -64,6 +64,8 @@ typedef struct wt_format_info {
     const char *evidence; /* source of the description: "measured files of software 1.7 to 3.10" */
     const char *version;  /* version of the description or of the library */
 } wt_format_info;
+/* True for the formats that this program writes, whose ids begin with "weartrack-". NULL: false. */
+WT_API bool wt_format_is_own(const wt_format_info *format);
 
 /* Set of formats: the binary readers and the XML descriptions. It is immutable after creation and
  * may be shared between threads. folder NULL = built-in descriptions only. The descriptions of

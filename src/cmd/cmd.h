@@ -96,7 +96,8 @@ typedef struct cmd_usage {
     const char *first;  /* most important options, for --help without "all"; NULL: all */
     const char *master; /* options that weartrack master documents; NULL: none */
     const char *notes;  /* text after the options; NULL if none */
-    const char *next;   /* call that follows with the RESULT, shown on a terminal; NULL: none */
+    const char *next;   /* call that follows, shown on a terminal; NULL: none. CMD_NEXT_RESULT in it
+                           stands for " RESULT" */
     bool exports;       /* writes tables for other programs */
     bool one_by_one;    /* writes each table when it is read: no CSV and no JSON */
     int n_files;        /* required number of files; CMD_ONE_OR_MORE: one or more; 0: any */
@@ -112,6 +113,8 @@ typedef struct cmd_progress {
     double interval; /* time between updates [s] */
     bool active;
 } cmd_progress;
+
+#define CMD_NEXT_RESULT '@' /* occurs in no call */
 
 /* One call of a subcommand: its options and common data. */
 typedef struct cmd_session {

@@ -148,8 +148,7 @@ static void read_metadata(const wt_formats *formats, const wt_table *metadata, f
     for (size_t i = 0; i < FILE_KIND_N_MISSING; i++)
         can_mend = can_mend || found->missing[i];
     found->nothing = found->unread && found->kind == 0 && !can_mend;
-    found->is_result =
-        found->is_result && format != NULL && strncmp(format->id, "weartrack-", 10) == 0;
+    found->is_result = found->is_result && wt_format_is_own(format);
     /* a file that is not readable yet does not show its kind */
     if (found->kind == 0 && format != NULL && !found->is_result)
         found->kind = format->kinds & (~format->kinds + 1);

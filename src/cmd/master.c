@@ -269,7 +269,7 @@ static void fit_sample_masters(cmd_session *s, wt_master_job *job, wt_file_set *
         for (size_t k = 0; k < TABLES; k++)
             made_tables[n++] = &fits[i].named[k];
     }
-    s->next = "friction --material RESULT --sample NAME, or compare BULK TRACK --master RESULT "
+    s->next = "friction --material@ --sample NAME, or compare BULK TRACK --master@ "
               "--sample NAME";
     cmd_finish(s, status, made_tables, n);
     for (size_t i = 0; i < samples->n; i++) {
@@ -289,8 +289,6 @@ static void fit_single_master(cmd_session *s, wt_status status, const wt_master_
     wt_master_tables tables = {0};
     if (status == WT_OK)
         status = wt_master_compute(job, &s->work, &tables, NULL, &s->err);
-    if (status != WT_OK && job->shifts != NULL && strcmp(s->err.place, "shifts") == 0)
-        wt_error_file(&s->err, saved->read);
     if (status == WT_OK && saved->written != NULL)
         status = save_shifts(saved->written, tables.shift_factors, &s->err);
     if (status == WT_OK)
@@ -307,7 +305,7 @@ int cmd_master(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "master",
-        .next = "friction --material RESULT, or compare BULK TRACK --master RESULT",
+        .next = "friction --material@, or compare BULK TRACK --master@",
         .arguments = "[OPTION]... FILE...",
         .description =
             "Fits one relaxation spectrum to all isotherms of DMA frequency sweeps, with their "
@@ -365,6 +363,7 @@ int cmd_master(int argc, char **argv)
     if (status == WT_OK && set.read.sample == NULL && saved.written == NULL &&
         exports_given.n_exports == 0)
         status = wt_sample_names_read(&set, 1, &s.work, &samples, &s.err);
+    job.shifts_file = samples.n > 1 ? NULL : saved.read;
     if (status == WT_OK && samples.n > 1)
         fit_sample_masters(&s, &job, &set, &samples);
     else

@@ -6,7 +6,7 @@ int cmd_psd(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "psd",
-        .next = "friction --roughness RESULT --material DMA",
+        .next = "friction --roughness@ --material DMA",
         .arguments = "[OPTION]... FILE...",
         .description =
             "Power spectrum C(q) of a surface from height maps and profiles of it, as "

@@ -6,7 +6,7 @@ int cmd_record(int argc, char **argv)
 {
     static const cmd_usage usage = {
         .name = "record",
-        .next = "validate CASE.xml RESULT",
+        .next = "validate CASE.xml@",
         .arguments = "[OPTION]... FILE...",
         .description =
             "Records of pin-on-disc, linear and reciprocating tribometers: where the running-in "

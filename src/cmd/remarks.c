@@ -35,7 +35,7 @@ static size_t group_equal_entries(log_group *folds, size_t n)
     for (size_t i = 0; i < n; i++) {
         const log_group *last = &folds[kept > 0 ? kept - 1 : 0];
         if (kept > 0 && last->entry.severity == folds[i].entry.severity &&
-            strcmp(last->entry.text, folds[i].entry.text) == 0) {
+            wt_text_repeats(folds[i].entry.text, last->entry.text)) {
             folds[kept - 1].n_files++;
             folds[kept - 1].n += folds[i].n;
         } else {
@@ -147,11 +147,11 @@ static void put_worst_limit_first(const cmd_session *s, log_group *groups, size_
 {
     const wt_table *const limits = s->result != NULL ? wt_result_find(s->result, "limits") : NULL;
     if (limits == NULL || wt_table_n_rows(limits) == 0 ||
-        strcmp(wt_table_text(limits, 0, LIMITS_SEVERITY), wt_severity_name(WT_WARNING)) != 0)
+        wt_table_severity(limits, 0) != WT_WARNING)
         return;
     const char *const text = wt_table_text(limits, 0, LIMITS_LIMIT);
     size_t i = 0;
-    while (i < *n && strcmp(groups[i].entry.text, text) != 0)
+    while (i < *n && !wt_text_repeats(text, groups[i].entry.text))
         i++;
     if (i == *n)
         groups[(*n)++] = (log_group){{WT_WARNING, .file = "", .place = "", .text = text}, 0, 1, 1};

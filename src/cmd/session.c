@@ -140,7 +140,6 @@ wt_status cmd_write_record(cmd_session *s, wt_table_sink sink, void *user)
 /* Prints the call that follows, with the name of the result, which must be HDF5. */
 static void print_next_call(const cmd_session *s)
 {
-    static const char result[] = " RESULT";
     const char *const output = s->common.output, *text = s->next;
     char *whole = NULL;
     size_t size = 0;
@@ -149,9 +148,9 @@ static void print_next_call(const cmd_session *s)
     FILE *const out = open_memstream(&whole, &size);
     if (out == NULL)
         cmd_exit_without_memory(sizeof whole);
-    const bool unwritten = output == NULL && strstr(text, result) != NULL;
+    const bool unwritten = output == NULL && strchr(text, CMD_NEXT_RESULT) != NULL;
     fputs(unwritten ? "repeat with -o RESULT.h5, then weartrack " : "weartrack ", out);
-    for (const char *at; (at = strstr(text, result)) != NULL; text = at + strlen(result)) {
+    for (const char *at; (at = strchr(text, CMD_NEXT_RESULT)) != NULL; text = at + 1) {
         fwrite(text, 1, (size_t)(at - text), out);
         cmd_print_argument(out, output != NULL ? output : "RESULT.h5");
     }

@@ -186,9 +186,8 @@ static void print_reasons(const short_table *t)
             for (size_t j = 0; j < i && !repeated; j++) {
                 const wt_result_row before = wt_result_rows_get(t->rows, j);
                 for (size_t m = 0; m < WT_RESULT_ROW_REASONS; m++)
-                    repeated = repeated || before.reasons[m].text == row.reasons[k].text ||
-                               (before.reasons[m].text != NULL &&
-                                strcmp(before.reasons[m].text, row.reasons[k].text) == 0);
+                    repeated =
+                        repeated || wt_text_repeats(row.reasons[k].text, before.reasons[m].text);
             }
             if (repeated)
                 continue;

@@ -19,12 +19,9 @@ wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
 size_t cmd_count_remarks(const wt_result *tables)
 {
     const wt_table *notes = wt_result_find(tables, "notes");
-    const long severity = notes != NULL ? wt_table_find(notes, "severity") : -1;
     size_t n = 0;
-    if (severity < 0 || wt_table_column_kind(notes, (size_t)severity) != WT_COLUMN_TEXT)
-        return 0;
-    for (size_t row = 0; row < wt_table_n_rows(notes); row++)
-        n += strcmp(wt_table_text(notes, row, (size_t)severity), wt_severity_name(WT_NOTE)) != 0;
+    for (size_t row = 0; notes != NULL && row < wt_table_n_rows(notes); row++)
+        n += wt_table_severity(notes, row) != WT_NOTE;
     return n;
 }
 

@@ -108,8 +108,11 @@ static wt_status prepare_sweep(const wt_master_job *job, const wt_job *work, wt_
         status = flow_parse_shift_law(job->shift_law, law, err);
     if (status == WT_OK && law->kind != WT_LAW_NONE && job->shifts != NULL)
         status = wt_fail(err, WT_E_ARG, "shifts are given by a law and by a table; give one");
-    if (status == WT_OK)
+    if (status == WT_OK) {
         status = flow_set_stated_shifts(law, job->shifts, job->fit.vertical, sweep, work->log, err);
+        if (status != WT_OK && job->shifts != NULL)
+            wt_error_file(err, job->shifts_file);
+    }
     if (status == WT_OK && job->n_hand_shifts > 0 &&
         job->fit.reference_at == WT_REFERENCE_TAN_DELTA_PEAK) {
         status = wt_fail(err, WT_E_ARG,

@@ -184,12 +184,7 @@ static wt_status copy_table_errors(const wt_table *table, const wt_table *places
 static wt_status read_spectrum_errors(const flow_file *file, const wt_job *work,
                                       wt_surface *surface, wt_error *err)
 {
-    static const char *const own[] = {"weartrack-stream", "weartrack-hdf5"};
-    bool is_weartrack_file = false;
-    for (size_t i = 0; i < COUNT_OF(own); i++)
-        is_weartrack_file =
-            is_weartrack_file || (file->format != NULL && strcmp(file->format->id, own[i]) == 0);
-    if (!is_weartrack_file)
+    if (!wt_format_is_own(file->format))
         return WT_OK;
     wt_result *tables = NULL;
     bool copied = false;

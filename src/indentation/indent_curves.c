@@ -67,7 +67,7 @@ static wt_status flush_failures(indent_task *task, wt_error *err)
 static wt_status record_curve_failure(indent_task *task, size_t curve, const wt_error *failure,
                                       wt_error *err)
 {
-    if (task->n_equal > 0 && strcmp(failure->message, task->failure.message) == 0) {
+    if (task->n_equal > 0 && wt_text_repeats(failure->message, task->failure.message)) {
         task->n_equal++;
         return WT_OK;
     }

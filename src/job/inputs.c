@@ -213,6 +213,14 @@ wt_status wt_notes_table(const wt_log *log, const char *folder, wt_table **table
     return table_end(&t, table);
 }
 
+wt_severity wt_table_severity(const wt_table *table, size_t row)
+{
+    const long column = wt_table_find(table, "severity");
+    if (column < 0 || wt_table_column_kind(table, (size_t)column) != WT_COLUMN_TEXT)
+        return WT_NOTE;
+    return (wt_severity)closed_list_find(&severity_list, wt_table_text(table, row, (size_t)column));
+}
+
 TABLE_ROW(data_quality, DATA_QUALITY, const char *file, *action; double n_values;
           wt_log_entry entry;)
 

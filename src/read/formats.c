@@ -27,6 +27,11 @@ static void add_reader(wt_formats *f, const file_reader *reader)
     f->readers[f->n++] = *reader;
 }
 
+bool wt_format_is_own(const wt_format_info *format)
+{
+    return format != NULL && strncmp(format->id, "weartrack-", strlen("weartrack-")) == 0;
+}
+
 const file_reader *formats_find_reader(const wt_formats *formats, const char *id)
 {
     for (size_t i = 0; i < formats->n; i++)

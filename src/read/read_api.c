@@ -71,7 +71,7 @@ static wt_status apply_spectrum_convention(const read_request *r, const char *na
 {
     if (r->options.spectrum_convention == WT_CONVENTION_WEARTRACK)
         return WT_OK;
-    if (strncmp(r->reader->info.id, "weartrack-", strlen("weartrack-")) == 0) {
+    if (wt_format_is_own(&r->reader->info)) {
         wt_fail(err, WT_E_ARG, "the spectrum is one of this program");
         wt_error_advice(err, "leave spectrum-convention out: it is for files of other programs");
         return WT_E_ARG;

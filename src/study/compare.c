@@ -219,7 +219,7 @@ static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job
         t.status = dma_rows(&t, p, g, job->rubber, given[g], work, statement[g], &lacks, err);
     }
     char both[512];
-    const bool differ = statement[0][0] != '\0' && strcmp(statement[0], statement[1]) != 0;
+    const bool differ = statement[0][0] != '\0' && !wt_text_repeats(statement[1], statement[0]);
     clocale_print(both, sizeof both, "%s%s%s", statement[0],
                   differ && statement[1][0] != '\0' ? "; " : "",
                   differ || statement[0][0] == '\0' ? statement[1] : "");

@@ -1,40 +1,78 @@
 # Code depends on types, never on text that the program itself wrote, so that a better sentence does not
 # change the behaviour. Text of users, files and libraries may be compared, and so may identifiers of one
-# word (units, names of groups, tables and options).
+# word (units, names of groups, tables, formats and options). wt_text_repeats is for text that is shown
+# once.
 # Run: cmake -DSOURCE=<project folder> [-DPLANTED=ON] -P typed.cmake
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 
 # A call with its arguments, which may contain calls.
-set(call "(strn?cmp|strstr|strn?casecmp|starts_with)\\(([^()]|\\([^()]*\\))*\\)")
-# A literal of two words or an option; a member or column with a sentence.
+set(call "(strn?cmp|strstr|strn?casecmp|memcmp|memmem|starts_with)\\(([^()]|\\([^()]*\\))*\\)")
+# A literal of two words or an option; a member, column or part of an error with a sentence.
 set(prose "\"[^\"]* [^\"]*\"|\"--[a-z]*\"")
 set(sentences "[>.](message|advice|reason|remedy|note|sentence|caption|title|statement|because|why)[,)]")
-set(columns "_text\\([^)]*_(REASON|WHY|NOTE|SENTENCE|REMEDY|SETTLED_BY|CAPTION)\\)")
+set(errors "(err|error|failure|why)(->|[.])(place|expected|found|options)[,)]")
+set(columns "_text\\([^)]*_(MESSAGE|REASON|WHY|NOTE|SENTENCE|REMEDY|SETTLED_BY|CAPTION)\\)")
 
-# Text from other sources, and messages that are printed once if they are equal.
+# Columns and keys whose texts are a closed list, and the lists: their enum is compared.
+file(GLOB_RECURSE tables ${SOURCE}/src/*tables*.h)
+set(enums "")
+foreach(file IN LISTS tables)
+  file(READ ${file} text)
+  string(REGEX MATCHALL "X\\([A-Z_0-9]+,[^()]*(\\([^()]*\\)[^()]*)*ENUM\\(" rows "${text}")
+  foreach(row IN LISTS rows)
+    string(REGEX MATCH "^X\\(([A-Z_0-9]+)" unused "${row}")
+    list(APPEND enums ${CMAKE_MATCH_1})
+  endforeach()
+endforeach()
+file(READ ${SOURCE}/src/core/table/registry.h text)
+string(REGEX MATCHALL "X\\([a-z_]+, [a-zA-Z_]+, [A-Z_]+\\)" rows "${text}")
+set(lists "")
+foreach(row IN LISTS rows)
+  string(REGEX MATCH "^X\\(([a-z_]+)" unused "${row}")
+  list(APPEND lists ${CMAKE_MATCH_1})
+endforeach()
+list(LENGTH enums n_enums)
+list(LENGTH lists n_lists)
+if(n_enums LESS 40 OR n_lists LESS 25)
+  message(SEND_ERROR "only ${n_enums} columns and ${n_lists} closed lists found")
+endif()
+list(JOIN enums "|" enums)
+list(JOIN lists "|" lists)
+set(enums "[^A-Z_](${enums})\\)")
+set(lists "[^a-z_](${lists})_text\\(|wt_(status_text|(${lists})_name)\\(")
+
+# Text from other sources.
 set(allowed
   "read/"                                          # foreign files
   "case/case_parse.c: .*c->message"                # messages of libxml2
   "case/case_parse.c: .* Expected is"
   "case/case_parse.c: .*FILL IN"                   # mark in a case file
   "core/base/unit.c: .*xc2.xb0 C"                   # spelling of a unit
+  "core/table/table.c: .*_mark"                    # parts of an estimate in a file
+  "core/table/result.c: .*former"                  # files of former versions
+  "report/figure_files.c: memmem.*attribute"       # drawings of gnuplot
   "cmd/new_case.c: .*name=.\"generator"            # mark of a page in a folder
-  "cmd/(info|options|main).c: .*\"--"                   # the command line
-  "core/table/schema.c: .*\": \""                 # separates a verdict from its reason
-  "indentation/indent_curves.c: .*failure->message")
+  "cmd/(info|options|main).c: .*\"--")             # the command line
 
 set(found "")
 set(n 0)
 function(look file text)
   string(REPLACE ";" "," text "${text}")
   string(REGEX REPLACE "[][]" "|" text "${text}")
+  # constants of two words
+  string(REGEX MATCHALL "static const char (\\*const )?[a-z_]+(\\|[^=|]*\\|)? = \"[^\"]* [^\"]*\"" constants "${text}")
+  set(named "")
+  foreach(constant IN LISTS constants)
+    string(REGEX MATCH "([a-z_]+)(\\|[^=|]*\\|)? = " unused "${constant}")
+    string(APPEND named "|[ (]${CMAKE_MATCH_1}[,)]")
+  endforeach()
   string(REGEX MATCHALL "${call}" calls "${text}")
   foreach(compared IN LISTS calls)
     math(EXPR n "${n} + 1")
     set(known FALSE)
     string(REGEX REPLACE "\"-?[^\" -][^\" ]*\"|\"\"" "WORD" compared "${compared}")
-    if(compared MATCHES "${prose}|${sentences}|${columns}")
+    if(compared MATCHES "${prose}|${sentences}|${errors}|${columns}|${enums}|${lists}${named}")
       foreach(pattern IN LISTS allowed)
         if("${file}: ${compared}" MATCHES "^${pattern}")
           set(known TRUE)
@@ -55,9 +93,15 @@ foreach(file IN LISTS files)
   look(${file} "${text}")
 endforeach()
 if(PLANTED)
-  look(study/planted.c "    if (strncmp(verdict, \"cannot say: \", 12) == 0)\n        x();\n")
-  look(report/planted.c "    if (strcmp(c->reason, other) == 0)\n        x();\n")
-  look(case/planted.c "    if (strstr(err->advice, \"--\") != NULL)\n        x();\n")
+  look(planted/1.c "    if (strncmp(verdict, \"cannot say: \", 12) == 0)\n        x();\n")
+  look(planted/2.c "    if (strcmp(c->reason, other) == 0)\n        x();\n")
+  look(planted/3.c "    if (strstr(err->advice, \"--\") != NULL)\n        x();\n")
+  look(planted/4.c "    if (strcmp(s->err.place, \"shifts\") == 0)\n        x();\n")
+  look(planted/5.c "    if (strcmp(wt_table_text(t, 0, LIMITS_SEVERITY), word) == 0)\n        x();\n")
+  look(planted/6.c "    if (strcmp(text, wt_severity_name(WT_NOTE)) == 0)\n        x();\n")
+  look(planted/7.c "    if (strcmp(text, stated_verdict_text(VERDICT_YES)) == 0)\n        x();\n")
+  look(planted/8.c "    static const char such[] = \"such as \";\n    if (strstr(text, such) != NULL)\n        x();\n")
+  look(planted/9.c "    if (strcmp(wt_table_text(t, row, FAILURES_MESSAGE), text) == 0)\n        x();\n")
 endif()
 if(n LESS 300)
   message(SEND_ERROR "only ${n} comparisons seen")

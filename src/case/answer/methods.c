@@ -345,7 +345,7 @@ static const char *schema_suffix(const table_schema *schema, const wt_table *tab
 static bool has_sentence(const wt_table *table, const char *text)
 {
     for (size_t row = 0; table != NULL && row < wt_table_n_rows(table); row++)
-        if (strcmp(wt_table_text(table, row, METHODS_TEXT), text) == 0)
+        if (wt_text_repeats(text, wt_table_text(table, row, METHODS_TEXT)))
             return true;
     return false;
 }

@@ -159,7 +159,7 @@ static bool is_failure_listed(const run_execution *d, const wt_error *failure)
     char message[2048];
     wt_error_format(failure, message, sizeof message);
     for (size_t row = 0; row < wt_table_n_rows(d->failures); row++)
-        if (strcmp(wt_table_text(d->failures, row, FAILURES_MESSAGE), message) == 0)
+        if (wt_text_repeats(message, wt_table_text(d->failures, row, FAILURES_MESSAGE)))
             return true;
     return false;
 }

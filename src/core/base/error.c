@@ -90,6 +90,11 @@ DEFINE_ERROR_SETTER(advice)
 DEFINE_ERROR_SETTER(options)
 #undef DEFINE_ERROR_SETTER
 
+bool wt_text_repeats(const char *text, const char *before)
+{
+    return before != NULL && strcmp(text, before) == 0;
+}
+
 size_t wt_error_format(const wt_error *err, char *buffer, size_t size)
 {
     char file[sizeof err->file];

@@ -19,8 +19,10 @@ void schema_name(const char *name, const char *suffix, char full[SCHEMA_NAME_SIZ
 
 size_t length_without_reason(const char *cell)
 {
-    const char *const reason = strstr(cell, ": ");
-    return reason != NULL ? (size_t)(reason - cell) : strlen(cell);
+    size_t n = 0;
+    while (cell[n] != '\0' && (cell[n] != ':' || cell[n + 1] != ' '))
+        n++;
+    return n;
 }
 
 /* True if a text of a list may end before this character. */
