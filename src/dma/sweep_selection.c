@@ -243,24 +243,24 @@ static size_t compact_points(const exclusion_range *c, sweep_points p)
  * removed: their numbers. */
 static void remove_sweeps(wt_sweep *sweep, const bool *drop, size_t removed[2])
 {
-    wt_sweep gone = {.isotherms = wt_alloc(sweep->n_isotherms, sizeof *sweep->isotherms),
-                     .ramps = wt_alloc(sweep->n_ramps, sizeof *sweep->ramps)};
+    wt_sweep excluded = {.isotherms = wt_alloc(sweep->n_isotherms, sizeof *sweep->isotherms),
+                         .ramps = wt_alloc(sweep->n_ramps, sizeof *sweep->ramps)};
     size_t isotherms = 0, ramps = 0;
     for (size_t i = 0; i < sweep->n_isotherms; i++)
         if (*drop++)
-            gone.isotherms[gone.n_isotherms++] = sweep->isotherms[i];
+            excluded.isotherms[excluded.n_isotherms++] = sweep->isotherms[i];
         else
             sweep->isotherms[isotherms++] = sweep->isotherms[i];
     for (size_t i = 0; i < sweep->n_ramps; i++)
         if (*drop++)
-            gone.ramps[gone.n_ramps++] = sweep->ramps[i];
+            excluded.ramps[excluded.n_ramps++] = sweep->ramps[i];
         else
             sweep->ramps[ramps++] = sweep->ramps[i];
     sweep->n_isotherms = isotherms;
     sweep->n_ramps = ramps;
-    removed[0] = gone.n_isotherms;
-    removed[1] = gone.n_ramps;
-    wt_sweep_clear(&gone);
+    removed[0] = excluded.n_isotherms;
+    removed[1] = excluded.n_ramps;
+    wt_sweep_clear(&excluded);
 }
 
 /* Removes the excluded points and marks what is excluded as a whole. Returns the number of single

@@ -414,12 +414,12 @@ static void report_choices(const indent_summary *summary, table_writer *rows)
 /* Tests the mean residual of the accepted curves. */
 static void test_mean_residual(const indent_summary *summary, table_writer *rows)
 {
-    const wt_pooled_misfit pool = wt_pooled_misfit_compute(
+    const wt_pooled_misfit pooled = wt_pooled_misfit_compute(
         (const double(*)[WT_MISFIT_TERMS])summary->misfits, summary->n_misfits);
-    if (isnan(pool.p_value))
+    if (isnan(pooled.p_value))
         return;
-    indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT, "%.3g", pool.misfit);
-    indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT_CHANCE, "%.3g", pool.p_value);
+    indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT, "%.3g", pooled.misfit);
+    indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT_CHANCE, "%.3g", pooled.p_value);
 }
 
 /* Smallest plausible indentation over the radius of a sphere. Below it only asperities touch and an

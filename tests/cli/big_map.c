@@ -251,7 +251,7 @@ static void run(const char *program, const trial *t, size_t n, double peaks[MOST
         compare_bytes(t->files[i]);
 }
 
-static void tell(const char *const *call)
+static void print_call(const char *const *call)
 {
     for (; *call != NULL; call++)
         if (strcmp(*call, "-q") == 0 || strcmp(*call, "--no-provenance") == 0)
@@ -272,7 +272,7 @@ static size_t count_above(const trial *t, size_t only, const double *small, cons
                                    ? large[i]
                                    : large[i] + (large[i] - small[i]) * (double)(ASKED - t->large) /
                                                     (double)(t->large - t->small);
-        tell(t->calls[i]);
+        print_call(t->calls[i]);
         (void)printf("%.1f MB, of %zu curves %.0f MB\n", large[i], only > 0 ? only : (size_t)ASKED,
                      at_most);
         n += !(at_most < MOST_MB);

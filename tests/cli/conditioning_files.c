@@ -245,19 +245,19 @@ static void write_curve(const char *name, const char *head)
 {
     enum { POINTS = 500 };
     FILE *const out = begin(name, 9);
-    const double stiffness = 4.0 / 3 * 25e3 / 0.75 * sqrt(4e-6), lever = 0.12;
+    const double stiffness = 4.0 / 3 * 25e3 / 0.75 * sqrt(4e-6), cantilever = 0.12;
     fprintf(out, "%sheight [m]\tdeflection [m]\n", head);
     for (int i = 0; i < POINTS; i++) {
         const double z = 5e-6 * (POINTS - 1 - i) / (POINTS - 1), way = 1.5e-6 - z;
         double low = 0, high = way > 0 ? way : 0; /* indentation d with F(d) = k (way - d) */
         for (int step = 0; step < 60; step++) {
             const double d = (low + high) / 2;
-            if (stiffness * pow(d, 1.5) > lever * (way - d))
+            if (stiffness * pow(d, 1.5) > cantilever * (way - d))
                 high = d;
             else
                 low = d;
         }
-        fprintf(out, "%.6e\t%.5e\n", z, stiffness * pow(low, 1.5) / lever + 2e-11 * normal());
+        fprintf(out, "%.6e\t%.5e\n", z, stiffness * pow(low, 1.5) / cantilever + 2e-11 * normal());
     }
     fclose(out);
 }

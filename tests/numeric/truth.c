@@ -3,7 +3,7 @@
 #define FRICTION_TRUTH_QUAD
 #include "numeric/friction_truth.h"
 
-static void say(const char *name, real value)
+static void print_value(const char *name, real value)
 {
     char text[64];
     quadmath_snprintf(text, sizeof text, "%.20Qg", value);
@@ -49,10 +49,10 @@ int main(int argc, char **argv)
         if (case_find(&c, true, "refused") == NULL) {
             case_to_scene(&c, &made);
             const truth t = truth_of(&made.s);
-            say("stress_variance", t.variance);
-            say("area_ratio", area(t.variance));
-            say("one_minus_area", FN(erfc)(1 / (2 * FN(sqrt)(t.variance))));
-            say("hysteresis", t.hysteresis);
+            print_value("stress_variance", t.variance);
+            print_value("area_ratio", area(t.variance));
+            print_value("one_minus_area", FN(erfc)(1 / (2 * FN(sqrt)(t.variance))));
+            print_value("hysteresis", t.hysteresis);
         }
         printf("\n");
         fflush(stdout);

@@ -37,14 +37,15 @@ static const afm_sample *make_sample(spots *to, int i, const afm_sample *common,
     if (here->calibration == CALIBRATION_DRAWN && i > 0)
         return to->sample[0];
     if (here->calibration == CALIBRATION_DRAWN) {
-        const double lever = 1 + 0.1 * random_normal(random),
+        const double cantilever = 1 + 0.1 * random_normal(random),
                      sensitivity = 1 + 0.03 * random_normal(random);
-        here->spring_constant = lever * (here->spring_constant > 0 ? here->spring_constant : 0.5);
+        here->spring_constant =
+            cantilever * (here->spring_constant > 0 ? here->spring_constant : 0.5);
         here->angle_factor = 1 + random_normal(random) / 35;
         here->radius_factor = 1 + 0.1 * random_normal(random);
         to->own[i] = afm_sample_make(here);
         if (to->own[i] != NULL)
-            afm_sample_as_stated(to->own[i], lever, sensitivity);
+            afm_sample_as_stated(to->own[i], cantilever, sensitivity);
     } else if (here->spots > 0) {
         here->modulus =
             (here->modulus > 0 ? here->modulus : 5e6) * exp(here->spots * random_normal(random));
@@ -157,7 +158,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     const afm_sample *sample = prepared;
     const char *made = trial_file(t, "indentation.tsv");
     const char *spectrum = s->dma > 0 ? trial_file(t, "spectrum.tsv") : NULL;
-    char told[128], lever[32];
+    char told[128], cantilever[32];
     snprintf(told, sizeof told, "%s", tip[s->tip]);
     if (s->radius_stated > 0) /* at a depth of 50 nm */
         snprintf(told, sizeof told, "pyramid:half-angle=35deg+-%.9g%%,radius=50nm+-%.9g%%",
@@ -195,8 +196,9 @@ static void observe(int scene, const void *prepared, random_source *random, tria
         if (s->unbonded)
             arguments[n++] = "--unbonded";
         if (s->calibration == CALIBRATION_EXACT) {
-            snprintf(lever, sizeof lever, "%.9gN/m+-0.01%%", sample->spring_constant);
-            const char *const exact[] = {"--spring-constant", lever, "--sensitivity-error", "1e-4"};
+            snprintf(cantilever, sizeof cantilever, "%.9gN/m+-0.01%%", sample->spring_constant);
+            const char *const exact[] = {"--spring-constant", cantilever, "--sensitivity-error",
+                                         "1e-4"};
             for (size_t i = 0; i < sizeof exact / sizeof exact[0]; i++)
                 arguments[n++] = exact[i];
         }

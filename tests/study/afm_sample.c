@@ -244,12 +244,12 @@ afm_sample *afm_sample_make(const afm_scene *s)
     return to;
 }
 
-void afm_sample_as_stated(afm_sample *sample, double lever, double sensitivity)
+void afm_sample_as_stated(afm_sample *sample, double cantilever, double sensitivity)
 {
     for (int i = 0; i < AFM_SAMPLES; i++)
-        sample->force[i] /= lever * sensitivity;
-    sample->largest /= lever * sensitivity;
-    sample->spring_constant /= lever;
+        sample->force[i] /= cantilever * sensitivity;
+    sample->largest /= cantilever * sensitivity;
+    sample->spring_constant /= cantilever;
 }
 
 double afm_apparent(const afm_scene *s, const afm_sample *sample, double share)

@@ -23,7 +23,7 @@ afm_tip afm_true_tip(const afm_scene *s);
 afm_sample *afm_sample_make(const afm_scene *s);
 /* Curve as a file states it if spring constant and sensitivity are these multiples of the stated
  * ones. */
-void afm_sample_as_stated(afm_sample *sample, double lever, double sensitivity);
+void afm_sample_as_stated(afm_sample *sample, double cantilever, double sensitivity);
 /* Modulus from the force at a share of the largest depth with the stated tip; |E*| with loss. */
 double afm_apparent(const afm_scene *s, const afm_sample *sample, double share);
 enum { AFM_DEPTHS = 5 };

@@ -219,7 +219,7 @@ static void check_tally(void)
 static void check_pool(void)
 {
     facts s = find_scene("D1")->facts;
-    pool honest = {.verdicts = 0}, proud = {.verdicts = 0};
+    pooled_tally honest = {.verdicts = 0}, proud = {.verdicts = 0};
     random_source random = random_for(5, "pool", 0);
     s.intervals_promised = s.verdict_promised = true;
     for (int i = 0; i < 100; i++) {

@@ -23,7 +23,7 @@ static const double indented_at = 20, slid_at = 30; /* [degC]; the first is the 
 
 /* ---- force curves ---------------------------------------------------------------------------- */
 
-static const double lever = 0.3, depth = 70e-9, poisson = 0.5, curve_noise = 0.005;
+static const double cantilever = 0.3, depth = 70e-9, poisson = 0.5, curve_noise = 0.005;
 static const double loading[STUDY_RATES] = {0.7, 0.07, 0.007}; /* [s]: 0.1, 1 and 10 um/s */
 /* Ratio of the moduli of the second and the first compound. */
 static const double stiffer[COMPOUNDS] = {1, 1.5};
@@ -115,12 +115,12 @@ static void write_curve(const afm_sample *from, double factor, double true_lever
 {
     const afm_scene scene = {.noise = curve_noise};
     afm_sample here = *from;
-    here.spring_constant = lever;
-    here.largest = from->largest * factor * lever / true_lever;
+    here.spring_constant = cantilever;
+    here.largest = from->largest * factor * cantilever / true_lever;
     for (int i = 0; i < AFM_SAMPLES; i++) {
         const double force = from->force[i] * factor;
         here.base[i] = from->base[i] + force / true_lever;
-        here.force[i] = force * lever / true_lever;
+        here.force[i] = force * cantilever / true_lever;
     }
     afm_sample_write(&here, &scene, random, number, file);
 }
@@ -225,7 +225,7 @@ study_truth study_draw(const collection_scene *s, const study_prepared *p, rando
 {
     enum { INTERVALS = 60 };
     study_truth t = {.shear_stress = random_about(shear_stress, of_shear, random),
-                     .lever = random_about(lever, of_lever, random)};
+                     .cantilever = random_about(cantilever, of_lever, random)};
     double pressed[SEVERITIES];
     for (int k = 0; k < SEVERITIES; k++) {
         t.wear_rate[k] = random_about(wear_rate[k], of_wear, random);
@@ -345,7 +345,7 @@ static int write_zone(const study_case *s, const study_compound_truth *compound,
 {
     const double ratio = strcmp(zone, "bulk") == 0 ? 1 : s->ratio;
     int bad = 0;
-    fprintf(out, "<%s spring-constant=\"%gN/m +- %g%%\">\n", zone, lever, 100 * of_lever);
+    fprintf(out, "<%s spring-constant=\"%gN/m +- %g%%\">\n", zone, cantilever, 100 * of_lever);
     for (int i = 0; i < s->spots && !bad; i++) {
         char name[32];
         snprintf(name, sizeof name, "%s-%s%d.tsv", of, zone, i + 1);
@@ -409,8 +409,9 @@ int study_write_case(const collection_scene *s, const study_prepared *p, const s
         "<indentation><tip>pyramid:half-angle=35deg,radius=20nm</tip><temperature>%gdegC"
         "</temperature>\n",
         study_compound[c], study_severity[k], study_compound[c], study_severity[k], indented_at);
-    int bad = write_zone(here, &p->compound[c], of, "bulk", truth->lever, random, t, out) != 0 ||
-              write_zone(here, &p->compound[c], of, "track", truth->lever, random, t, out) != 0;
+    int bad =
+        write_zone(here, &p->compound[c], of, "bulk", truth->cantilever, random, t, out) != 0 ||
+        write_zone(here, &p->compound[c], of, "track", truth->cantilever, random, t, out) != 0;
     fprintf(out, "</indentation>\n");
     write_sections(s, truth, files, c, k, random, record, out);
     bad = ferror(out) != 0 || bad;

@@ -33,7 +33,7 @@ study_prepared *study_prepare(void);
 
 /* Truth of one study, and the derived values of each case. */
 typedef struct study_truth {
-    double shear_stress, lever, wear_rate[SEVERITIES], critical_energy[COMPOUNDS];
+    double shear_stress, cantilever, wear_rate[SEVERITIES], critical_energy[COMPOUNDS];
     contact_truth contact[COMPOUNDS][SEVERITIES]; /* without the layer */
     double with_layer[COMPOUNDS][SEVERITIES][STUDY_VELOCITIES];
     growth_truth growth[COMPOUNDS][SEVERITIES]; /* growth of a layer, if there is a running-in */

@@ -18,7 +18,7 @@ static const char *const zones[2] = {"bulk", "track"};
 /* Ratios of true and stated values. */
 typedef struct calibration {
     double stated; /* spring constant [N/m] */
-    double lever, sensitivity, angle, radius;
+    double cantilever, sensitivity, angle, radius;
 } calibration;
 
 static calibration draw_calibration(const lever_scene *s, int zone, random_source *random)
@@ -26,7 +26,7 @@ static calibration draw_calibration(const lever_scene *s, int zone, random_sourc
     calibration c = {.stated = s->spring_constant > 0 ? s->spring_constant : usual_lever};
     if (s->two && zone > 0)
         c.stated *= second_lever;
-    c.lever = 1 + s->lever * random_normal(random);
+    c.cantilever = 1 + s->cantilever * random_normal(random);
     c.sensitivity = 1 + s->sensitivity * random_normal(random);
     c.angle = 1 + s->angle * random_normal(random);
     c.radius = 1 + s->radius * random_normal(random);
@@ -43,7 +43,7 @@ static afm_sample *make_sample(const lever_scene *s, int zone, const calibration
     *here = (afm_scene){.noise = s->noise > 0 ? s->noise : 0.005,
                         .modulus = bulk_modulus * (zone > 0 ? ratio : 1) *
                                    exp(scatter * random_normal(random)),
-                        .spring_constant = c->stated * c->lever,
+                        .spring_constant = c->stated * c->cantilever,
                         .radius_factor = c->radius * (zone > 0 && s->worn > 0 ? s->worn : 1),
                         .angle_factor = c->angle,
                         .pull = zone > 0 ? s->pull : 0,
@@ -51,7 +51,7 @@ static afm_sample *make_sample(const lever_scene *s, int zone, const calibration
                         .depth = s->depth[zone]};
     afm_sample *sample = afm_sample_make(here);
     if (sample != NULL)
-        afm_sample_as_stated(sample, c->lever, c->sensitivity);
+        afm_sample_as_stated(sample, c->cantilever, c->sensitivity);
     return sample;
 }
 
@@ -77,14 +77,14 @@ static int write_zone(const lever_scene *s, int zone, const calibration *c, rand
 static bool run_indent(const lever_scene *s, int zone, const calibration *c,
                        const char *const *paths, const char *made, trial *t)
 {
-    char tip[128], lever[64], sensitivity[32];
+    char tip[128], cantilever[64], sensitivity[32];
     const char *arguments[SPOTS + 20] = {
-        "indent",    "--tip", tip,  "--spring-constant", lever, "--group",
+        "indent",    "--tip", tip,  "--spring-constant", cantilever, "--group",
         zones[zone], "-o",    made, "--no-provenance"};
     int n = 10;
     snprintf(tip, sizeof tip, "pyramid:half-angle=%.9gdeg+-%.9g%%,radius=%.9gm+-%.9g%%", half_angle,
              100 * s->angle, radius, 100 * s->radius);
-    snprintf(lever, sizeof lever, "%.9gN/m+-%.9g%%", c->stated, 100 * s->lever);
+    snprintf(cantilever, sizeof cantilever, "%.9gN/m+-%.9g%%", c->stated, 100 * s->cantilever);
     if (s->sensitivity > 0) {
         snprintf(sensitivity, sizeof sensitivity, "%.9g", s->sensitivity);
         arguments[n++] = "--sensitivity-error";
@@ -159,7 +159,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
         }
         if (!run_indent(s, zone, &c, paths, made[zone], t))
             return;
-        if (s->lever > 0 || s->sensitivity > 0 || s->angle > 0) /* otherwise there is none */
+        if (s->cantilever > 0 || s->sensitivity > 0 || s->angle > 0) /* otherwise there is none */
             read_budget(s, zone, made[zone], t);
     }
     const char *const arguments[] = {"compare", made[0],           made[1], "-o",

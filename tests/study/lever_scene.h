@@ -9,13 +9,13 @@
  * once for each of two cantilevers. */
 typedef struct lever_scene {
     facts facts;
-    double lever, sensitivity, angle, radius; /* stated relative errors */
-    double ratio;                             /* modulus ratio; 0: 1.4 */
-    double spring_constant;                   /* 0: 0.5 N/m */
-    double depth[2];                          /* bulk and track [m]; 0: 70 nm */
-    double scatter;                           /* scatter between positions; 0: 0.04 */
-    double noise;                             /* relative to the largest force; 0: 0.005 */
-    bool two;                                 /* two cantilevers */
+    double cantilever, sensitivity, angle, radius; /* stated relative errors */
+    double ratio;                                  /* modulus ratio; 0: 1.4 */
+    double spring_constant;                        /* 0: 0.5 N/m */
+    double depth[2];                               /* bulk and track [m]; 0: 70 nm */
+    double scatter;                                /* scatter between positions; 0: 0.04 */
+    double noise;                                  /* relative to the largest force; 0: 0.005 */
+    bool two;                                      /* two cantilevers */
     double worn;        /* tip radius ratio of track and bulk, not stated; 0: 1 */
     double pull, reach; /* in the track only, as in afm_scene */
 } lever_scene;

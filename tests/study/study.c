@@ -148,7 +148,7 @@ static int print(const work *w)
 {
     const int draws = w->options->draws;
     int complaints = 0;
-    pool together = {.verdicts = 0};
+    pooled_tally together = {.verdicts = 0};
     printf("scene\tquantity\tdraws\tstated\tcoverage\tbinomial_error\thalf_width\ttrue_rms\t"
            "half_over_1.96_rms\trms_over_stated\tgiven_coverage\tgiven_half_width\tpromised\n");
     for (int i = 0; i < w->n_jobs; i++)

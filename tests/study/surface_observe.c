@@ -67,8 +67,8 @@ static int write_scan(const surface_scene *s, const synthetic_surface *surface,
         for (size_t i = 0; i < nx; i++) {
             const double x = (double)i / (double)nx - 0.5, y = (double)j / (double)ny - 0.5;
             const double height = z[(j + 7) * surface->n + i + 3] + form * (3 * x * x + x - 2 * y);
-            const bool gone = s->missing > 0 && random_uniform(random) < s->missing;
-            const float value = gone ? (float)NAN : (float)height;
+            const bool removed = s->missing > 0 && random_uniform(random) < s->missing;
+            const float value = removed ? (float)NAN : (float)height;
             (void)fwrite(&value, sizeof value, 1, out);
         }
     free(z);

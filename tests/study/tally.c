@@ -156,7 +156,7 @@ int tally_complaints(const facts *s, const draw *draws, int n, FILE *words)
     return complaints;
 }
 
-void tally_add(const facts *s, const draw *draws, int n, pool *to)
+void tally_add(const facts *s, const draw *draws, int n, pooled_tally *to)
 {
     for (quantity q = 0; q < Q_COUNT && s->intervals_promised; q++) {
         const tally t = tally_make(draws, n, q);
@@ -169,7 +169,7 @@ void tally_add(const facts *s, const draw *draws, int n, pool *to)
     }
 }
 
-int tally_pool_complaints(const pool *p, FILE *words)
+int tally_pool_complaints(const pooled_tally *p, FILE *words)
 {
     static const char where[] = "promised scenes together:";
     int complaints = 0;

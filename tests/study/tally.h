@@ -32,15 +32,15 @@ typedef struct verdict_tally {
 verdict_tally tally_verdicts(const facts *s, const draw *draws, int n);
 
 /* Intervals and verdicts of all promised scenes together, so that few draws per scene suffice. */
-typedef struct pool {
+typedef struct pooled_tally {
     int draws[Q_COUNT], covered[Q_COUNT];
     int verdicts, right;
-} pool;
-void tally_add(const facts *s, const draw *draws, int n, pool *to);
+} pooled_tally;
+void tally_add(const facts *s, const draw *draws, int n, pooled_tally *to);
 
 /* Number of deviations that chance cannot explain, in a promised scene or in all together. `words`
  * receives the text, if there is space. */
 int tally_complaints(const facts *s, const draw *draws, int n, FILE *words);
-int tally_pool_complaints(const pool *p, FILE *words);
+int tally_pool_complaints(const pooled_tally *p, FILE *words);
 
 #endif

@@ -13,7 +13,7 @@ static const double curve_scatter = 0.04, bulk_modulus = 8e6, middle_rate = 0.6;
 static const double warmer = 10, warmer_error = 1, warm_slope = -.012, warm_slope_error = .002;
 static const double unsaid = 17, wlf_c1 = 6.5, wlf_c2 = 110; /* [K], 20 degC */
 /* calibrated spring constants of separate cantilevers [N/m] */
-static const double lever[2] = {.3, .36};
+static const double cantilever[2] = {.3, .36};
 static const double sensitivity_gain[2] = {1.3, 1.2};
 static const char *const zones[2] = {"bulk", "track"};
 
@@ -120,7 +120,7 @@ static int write_zone(const track_scene *s, const sample *drawn, int zone, const
     FILE *file = fopen(path, "w");
     if (file == NULL)
         return -1;
-    const double k = lever[s->levers_separate ? zone : 0];
+    const double k = cantilever[s->levers_separate ? zone : 0];
     fprintf(file, "## table: indentation/%s\n## title: Indentation of every curve, %s\n",
             zones[zone], zones[zone]);
     fprintf(file,

@@ -109,16 +109,16 @@ static void test_measured(void **state)
     /* the two samples are different materials, so the limitations state the origin of the result */
     const wt_table *limits = wt_result_find(result, "limits"),
                    *notes = wt_result_find(result, "notes");
-    bool spots = false, strain = false, lever = false, lacks = false;
+    bool spots = false, strain = false, cantilever = false, lacks = false;
     for (size_t i = 0; i < wt_table_n_rows(limits); i++) {
         const char *sentence = text_cell(limits, i, "limit");
         spots = spots || strstr(sentence, "counts as one spot") != NULL;
-        lever = lever || strstr(sentence, "with two cantilevers") != NULL;
+        cantilever = cantilever || strstr(sentence, "with two cantilevers") != NULL;
         lacks = lacks || strstr(sentence, "specific wear rate, critical energy") != NULL;
     }
     for (size_t i = 0; i < wt_table_n_rows(notes); i++)
         strain = strain || strstr(text_cell(notes, i, "text"), "strain amplitudes") != NULL;
-    assert_true(spots && strain && lever && lacks);
+    assert_true(spots && strain && cantilever && lacks);
     wt_result_free(result);
 }
 

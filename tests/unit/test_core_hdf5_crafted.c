@@ -104,7 +104,7 @@ static void try(void *user, const char *what, const uint8_t *bytes, size_t size)
         fail_msg("%s: %.0f s", what, taken);
 }
 
-static void say(const char *name, const tally *t)
+static void print_tally(const char *name, const tally *t)
 {
     print_message("%s: %zu read, %zu refused, of which %zu crashed HDF5 and %zu hung\n", name,
                   t->read, t->refused, t->crashed, t->slow);
@@ -122,7 +122,7 @@ static void damaged_results(void **state)
     try(&t, "as it is", bytes, size);
     assert_int_equal(t.read, 1);
     assert_true(hdf5_damage(bytes, size, DAMAGED, try, &t) == DAMAGED);
-    say("results", &t);
+    print_tally("results", &t);
     assert_true(t.crashed > 0 && t.slow == 0); /* otherwise this test shows nothing */
     free(bytes);
     free(good);
@@ -272,7 +272,7 @@ static void special_files(void **state)
         try(&t, what, bytes, size);
         free(bytes);
     }
-    say("special files", &t);
+    print_tally("special files", &t);
     wt_result_free(result);
 }
 
@@ -368,7 +368,7 @@ static void all_layouts(void **state)
         try_walk(&t, "as it is", bytes, size);
         assert_int_equal(t.read, 1);
         assert_true(hdf5_damage(bytes, size, DAMAGED_LAYOUT, try_walk, &t) == DAMAGED_LAYOUT);
-        say(i == 0 ? "first layout" : "last layout", &t);
+        print_tally(i == 0 ? "first layout" : "last layout", &t);
         free(bytes);
     }
 }

@@ -60,7 +60,7 @@ typedef struct teller {
     bool overlapped;
 } teller;
 
-static bool tell(void *user, const char *what, size_t done, size_t total)
+static bool report_progress(void *user, const char *what, size_t done, size_t total)
 {
     teller *const t = user;
     if (atomic_fetch_add(&t->inside, 1) != 0)
@@ -79,7 +79,7 @@ static void progress(void **state)
     for (unsigned threads = 1; threads <= MAX_THREADS; threads++) {
         teller t = {0};
         atomic_int runs = 0;
-        const wt_progress p = {tell, &t};
+        const wt_progress p = {report_progress, &t};
         assert_int_equal(wt_parallel_for(N, threads, nothing, &runs, &p, "items"), WT_OK);
         assert_int_equal(t.calls, N);
         assert_false(t.overlapped);
@@ -92,7 +92,7 @@ static void cancelled(void **state)
     for (unsigned threads = 1; threads <= MAX_THREADS; threads++) {
         teller t = {.stop_at = 10};
         atomic_int runs = 0;
-        const wt_progress p = {tell, &t};
+        const wt_progress p = {report_progress, &t};
         assert_int_equal(wt_parallel_for(N, threads, nothing, &runs, &p, "items"), WT_E_CANCELLED);
         assert_int_equal(t.calls, 10);
         /* Started items are finished, and no new one starts. */

@@ -168,12 +168,12 @@ static void curve_in_balance(void **state)
         {.shape = WT_TIP_PARABOLOID, .radius = 1e-6},
         {.shape = WT_TIP_SPHERE, .radius = 5e-6},
         {.shape = WT_TIP_CONE, .half_angle = 0.5}};
-    const double work[] = {0.0, 1e-5, 1e-3, 0.05, 0.5}, lever[] = {0.05, 1.0, 40.0};
+    const double work[] = {0.0, 1e-5, 1e-3, 0.05, 0.5}, cantilever[] = {0.05, 1.0, 40.0};
     static double position[N], bare[N];
     for (size_t t = 0; t < sizeof tips / sizeof tips[0]; t++) {
         wt_contact_table *table = table_of(&tips[t]);
         for (size_t c = 0; c < 15; c++) {
-            const double k = lever[c % 3];
+            const double k = cantilever[c % 3];
             const adhesion law = {table, 5e6, work[c / 3]};
             const double release = adhesion_release(&law, k);
             const adhesive_contact end = adhesion_contact_value(&law, release);

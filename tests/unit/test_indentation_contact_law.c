@@ -23,7 +23,7 @@ static wt_tip pyramid(unsigned sides, double degrees, double radius, double tran
 }
 
 /* The smooth cap: b = R m cot(theta). */
-static wt_tip smooth(unsigned sides, double degrees, double radius)
+static wt_tip rounded(unsigned sides, double degrees, double radius)
 {
     double m = sides == 0 ? 1.0 : sides / M_PI * sin(M_PI / sides);
     return pyramid(sides, degrees, radius, radius * m / tan(degrees * degree));
@@ -230,7 +230,7 @@ static void continuous_at_the_switch(void **state)
 {
     (void)state;
     const wt_tip tips[] = {pyramid(4, 20, 20e-9, -1.0), pyramid(3, 35, 7e-9, 3e-9),
-                           smooth(4, 35, 20e-9), smooth(0, 60, 20e-9)};
+                           rounded(4, 35, 20e-9), rounded(0, 60, 20e-9)};
     for (size_t i = 0; i < sizeof tips / sizeof tips[0]; i++) {
         double b = tips[i].transition_radius, at = b * b / tips[i].radius;
         double below, below_slope, above, above_slope;
@@ -247,7 +247,7 @@ static void slope_is_the_derivative(void **state)
 {
     (void)state;
     const wt_tip tips[] = {pyramid(4, 20, 20e-9, -1.0), pyramid(0, 50, 7e-9, 3e-9),
-                           smooth(4, 35, 20e-9)};
+                           rounded(4, 35, 20e-9)};
     for (size_t i = 0; i < sizeof tips / sizeof tips[0]; i++) {
         for (double delta = 1e-10; delta < 1e-5; delta *= 2.385) {
             double h = 1e-4 * delta, g[4], slope, unused;
@@ -288,8 +288,8 @@ static void table_agrees_with_function(void **state)
                            pyramid(3, 50, 150e-9, -1.0),
                            pyramid(4, 35, 10e-9, 1e-13),
                            pyramid(0, 17.5, 5e-9, 2e-9),
-                           smooth(4, 35, 20e-9),
-                           smooth(3, 30, 1e-6),
+                           rounded(4, 35, 20e-9),
+                           rounded(3, 30, 1e-6),
                            {.shape = WT_TIP_PARABOLOID, .radius = 5e-6},
                            {.shape = WT_TIP_SPHERE, .radius = 5e-6},
                            {.shape = WT_TIP_SPHERE, .radius = 20e-9},
@@ -343,8 +343,8 @@ static void impossible_tips_are_refused(void **state)
     }
     /* Just inside the limits, and the smooth cap itself. */
     const wt_tip good[] = {pyramid(4, 64.1, 20e-9, -1.0), pyramid(3, 55.7, 20e-9, -1.0),
-                           pyramid(6, 72.6, 20e-9, -1.0), smooth(4, 35, 20e-9),
-                           smooth(3, 41, 13e-9)};
+                           pyramid(6, 72.6, 20e-9, -1.0), rounded(4, 35, 20e-9),
+                           rounded(3, 41, 13e-9)};
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++)
         assert_int_equal(wt_tip_check(&good[i], NULL), WT_OK);
     wt_contact_table *table = NULL;

@@ -522,9 +522,9 @@ static void curves_together(void **state)
             for (size_t j = 0; j < WT_MISFIT_TERMS; j++)
                 misfit[i][j] = fit.misfit[j];
         }
-        const wt_pooled_misfit pool =
+        const wt_pooled_misfit pooled =
             wt_pooled_misfit_compute((const double(*)[WT_MISFIT_TERMS])misfit, 30);
-        assert_true(wrong ? pool.p_value < 1e-3 : pool.p_value > 0.01);
+        assert_true(wrong ? pooled.p_value < 1e-3 : pooled.p_value > 0.01);
         assert_true(
             isnan(wt_pooled_misfit_compute((const double(*)[WT_MISFIT_TERMS])misfit, 11).p_value));
     }
@@ -596,11 +596,11 @@ static void loss_of_the_sample(void **state)
     t.travel = 900e-9;
     t.contact_point = 296.37e-9;
     const double z = t.travel - t.contact_point, top = curve_contact_force(&t, z);
-    double work = 0.0, lever = 0.5 * top * top / t.spring_constant;
+    double work = 0.0, cantilever = 0.5 * top * top / t.spring_constant;
     for (int i = 0; i < 1000; i++)
         work += curve_contact_force(&t, z * (i + 0.5) / 1000) * z / 1000;
-    assert_true((work - lever) / work < 0.25);
-    assert_near(loss_of(&t, 0.97, 0), 0.03 * work / (work - lever), 0.05);
+    assert_true((work - cantilever) / work < 0.25);
+    assert_near(loss_of(&t, 0.97, 0), 0.03 * work / (work - cantilever), 0.05);
     assert_true(isnan(loss_of(&t, 0.7, 0)));
     /* the sample does not return more than it received */
     assert_true(isnan(loss_of(&t, 1.3, 0)));

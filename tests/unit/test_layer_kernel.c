@@ -396,11 +396,11 @@ static void time_to_a_thickness(void **state)
 {
     (void)state;
     const double share = 0.9;
-    rig one = rig_mild(), several = rig_several();
+    rig one = rig_mild(), repeated = rig_several();
     const wt_layer_steady_state b = balance_of(&one);
     const double settle = 1 / (2e6 * b.wear_rate), power = pow(b.ratio, share - 1);
     for (int incubation = 0; incubation < 2; incubation++) {
-        one.parameters.incubation = several.parameters.incubation = incubation;
+        one.parameters.incubation = repeated.parameters.incubation = incubation;
         wt_estimate goal = b.thickness, time;
         goal.value *= share;
         assert_int_equal(wt_layer_growth_time(&one.source, &one.parameters, goal, &time, NULL),
@@ -411,16 +411,16 @@ static void time_to_a_thickness(void **state)
         assert_near_abs(time.value, exact, time.numerical_error);
         assert_true(time.numerical_error < 1e-11 * time.value);
         for (int profile = 0; profile < 2; profile++) {
-            several.source.profile = profile ? WT_PROFILE_INCOMPRESSIBLE : WT_PROFILE_PERSSON;
-            goal = balance_of(&several).thickness;
+            repeated.source.profile = profile ? WT_PROFILE_INCOMPRESSIBLE : WT_PROFILE_PERSSON;
+            goal = balance_of(&repeated).thickness;
             goal.value *= share;
             assert_int_equal(
-                wt_layer_growth_time(&several.source, &several.parameters, goal, &time, NULL),
+                wt_layer_growth_time(&repeated.source, &repeated.parameters, goal, &time, NULL),
                 WT_OK);
-            assert_near(point_at(&several, time.value).thickness.value, goal.value, 1e-9);
+            assert_near(point_at(&repeated, time.value).thickness.value, goal.value, 1e-9);
             goal.numerical_error = 0.01 * goal.value; /* its uncertainty is propagated */
             assert_int_equal(
-                wt_layer_growth_time(&several.source, &several.parameters, goal, &time, NULL),
+                wt_layer_growth_time(&repeated.source, &repeated.parameters, goal, &time, NULL),
                 WT_OK);
             assert_true(time.numerical_error > 0.01 * time.value);
         }
@@ -430,7 +430,7 @@ static void time_to_a_thickness(void **state)
         assert_true(isnan(time.value));
     }
     rig_free(&one);
-    rig_free(&several);
+    rig_free(&repeated);
 }
 
 /* ---- laws ------------------------------------------------------------------------------------ */

@@ -25,7 +25,7 @@ static bool is(const case_line *line, const char *key)
 static void check_tip(const numeric_case *c, const case_line *line)
 {
     const double *v = line->value, nu = number(c, "poisson_ratio"),
-                 modulus = number(c, "modulus") / (1 - nu * nu), lever = 0.1;
+                 modulus = number(c, "modulus") / (1 - nu * nu), cantilever = 0.1;
     wt_tip tip = {.shape = WT_TIP_BLUNTED_PYRAMID,
                   .sides = (unsigned)number(c, "sides"),
                   .half_angle = number(c, "half_angle_degrees") * M_PI / 180,
@@ -51,7 +51,7 @@ static void check_tip(const numeric_case *c, const case_line *line)
         assert_near(slope, 2 * v[0], DIGITS);
         if (line->n > 3) {
             assert_near(modulus * slope, v[3], DIGITS);
-            assert_near(modulus * g / lever, v[4], DIGITS);
+            assert_near(modulus * g / cantilever, v[4], DIGITS);
         }
     } else
         fail_msg("%s: what is %s?", c->name, line->key);

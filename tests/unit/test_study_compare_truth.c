@@ -628,10 +628,10 @@ static void test_shared_tip(void **state)
                 RATIO * BULK * cell(budget, 7, "relative_error"), 1e-6);
 }
 
-static void set_assumed(wt_table *table, double lever, double radius, double gain)
+static void set_assumed(wt_table *table, double cantilever, double radius, double gain)
 {
     const wt_estimate values[] = {
-        {lever, 0, 0, "1"}, {1, 0, 0, "1"}, {radius, 0, 0, "1"}, {gain, 0, 0, "1"}};
+        {cantilever, 0, 0, "1"}, {1, 0, 0, "1"}, {radius, 0, 0, "1"}, {gain, 0, 0, "1"}};
     static const char *const keys[] = {"spring_constant_error_assumed", "spring_constant_gain",
                                        "radius_error_assumed", "radius_gain"};
     for (size_t i = 0; i < 4; i++)
@@ -695,8 +695,8 @@ static void test_half_angle(void **state)
 
 static void set_lever(wt_table *table, double value, double error)
 {
-    const wt_estimate lever = {value, error, 0, "N/m"};
-    assert_int_equal(wt_table_set_estimate(table, "spring_constant", lever, NULL), WT_OK);
+    const wt_estimate cantilever = {value, error, 0, "N/m"};
+    assert_int_equal(wt_table_set_estimate(table, "spring_constant", cantilever, NULL), WT_OK);
 }
 
 /* Two cantilevers of 0.5 +- 0.05 and 2 +- 0.06 N/m: 10 % and 3 %, for any option for those without

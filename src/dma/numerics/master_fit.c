@@ -323,7 +323,7 @@ static bool try_line_spectrum(const master_work *work)
     for (size_t i = 0; i < s->n_curves; i++)
         b[i] = spectrum_b(s, i);
     spectrum_set_prior(&lines, &held);
-    lines.smooth = lines_smooth;
+    lines.smoothness = lines_smooth;
     for (int q = 0; q < MODULI; q++) {
         memcpy(lines.weight[q], s->weight[q], s->n * sizeof *s->weight[q]);
         lines.noise[q] = s->noise[q];
@@ -348,7 +348,7 @@ static bool try_line_spectrum(const master_work *work)
 static bool needs_line_spectrum(master_work *work)
 {
     (void)store_fitted_shifts(work);
-    return work->s->smooth > sharp_curvature || try_line_spectrum(work);
+    return work->s->smoothness > sharp_curvature || try_line_spectrum(work);
 }
 
 static wt_status refine_line_spectrum(master_work *work, wt_error *err)
@@ -358,7 +358,7 @@ static wt_status refine_line_spectrum(master_work *work, wt_error *err)
     work->lines = true;
     work->terms_per_decade = sharp_terms;
     const wt_status status = new_spectrum(work, err);
-    work->s->smooth = lines_smooth;
+    work->s->smoothness = lines_smooth;
     return status == WT_OK ? fit_robust(work, err) : status;
 }
 

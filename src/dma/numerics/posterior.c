@@ -69,7 +69,7 @@ void posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
     posterior_cell *c = &p->cells[p->n_cells++];
     *c = (posterior_cell){.value = arena_numbers(memory, s->n_unknowns),
                           .noise = {s->noise[STORAGE], s->noise[LOSS]},
-                          .smoothness = s->smooth,
+                          .smoothness = s->smoothness,
                           .geometry = v->geometry,
                           .departure = v->departure,
                           .log_weight = log_weight,
@@ -86,8 +86,8 @@ void posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
     memcpy(c->block, s->covariance.diagonal, BLOCK_DIAGONAL * n * sizeof *c->block);
     if (kind == WT_VERTICAL_TIED) { /* no components without a departure of the material */
         c->n_smooth = s->prior->n_smooth;
-        c->smooth = arena_matrix(memory, n, s->prior->smooth->size2);
-        gsl_matrix_memcpy(c->smooth, s->prior->smooth);
+        c->smooth_part = arena_matrix(memory, n, s->prior->smooth_part->size2);
+        gsl_matrix_memcpy(c->smooth_part, s->prior->smooth_part);
     }
 }
 
@@ -97,7 +97,7 @@ void posterior_restore(wt_posterior *p, const posterior_cell *cell)
     memcpy(s->value, cell->value, s->n_unknowns * sizeof *cell->value);
     for (int q = 0; q < MODULI; q++)
         s->noise[q] = cell->noise[q];
-    s->smooth = cell->smoothness;
+    s->smoothness = cell->smoothness;
 }
 
 static void weigh_cells(wt_posterior *p)
@@ -143,12 +143,13 @@ void posterior_smooth_b(const wt_posterior *p, const posterior_cell *cell, const
     double at[SPECTRUM_MAX_SMOOTH] = {0.0};
     for (size_t k = 0; k < n; k++)
         for (size_t j = 0; j < cell->n_smooth; j++)
-            at[j] += gsl_matrix_get(cell->smooth, k, j) * precision *
+            at[j] += gsl_matrix_get(cell->smooth_part, k, j) * precision *
                      (posterior_vertical_shift(p, value, k) - p->mean_b[k]);
     for (size_t i = 0; i < n; i++) {
-        double sum = cell->smooth != NULL ? p->mean_b[i] : posterior_vertical_shift(p, value, i);
+        double sum =
+            cell->smooth_part != NULL ? p->mean_b[i] : posterior_vertical_shift(p, value, i);
         for (size_t j = 0; j < cell->n_smooth; j++)
-            sum += gsl_matrix_get(cell->smooth, i, j) * at[j];
+            sum += gsl_matrix_get(cell->smooth_part, i, j) * at[j];
         log_b[i] = (isnan(p->frame.given_b[i]) ? sum : p->frame.given_b[i]) / M_LN10;
     }
 }

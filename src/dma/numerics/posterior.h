@@ -26,13 +26,13 @@ enum { POSTERIOR_CELLS = 12 };
 
 /* One fit of the spectrum for one width of the vertical shift. */
 typedef struct posterior_cell {
-    double *value;          /* [n_unknowns] */
-    bordered_matrix factor; /* of the inverse of the covariance; empty: negligible weight */
-    gsl_matrix *through;    /* [border * n_curves] the covariance of two log a is the product of
-                               their columns */
-    double *block;          /* [BLOCK_DIAGONAL n_curves] covariance of a and b of each curve */
-    gsl_matrix *smooth;     /* [n_curves * components] of the smooth part of b at the isotherms;
-                               NULL: b without smoothing */
+    double *value;           /* [n_unknowns] */
+    bordered_matrix factor;  /* of the inverse of the covariance; empty: negligible weight */
+    gsl_matrix *through;     /* [border * n_curves] the covariance of two log a is the product of
+                                their columns */
+    double *block;           /* [BLOCK_DIAGONAL n_curves] covariance of a and b of each curve */
+    gsl_matrix *smooth_part; /* [n_curves * components] of the smooth part of b at the isotherms;
+                           NULL: b without smoothing */
     size_t n_smooth;
     double noise[MODULI], smoothness;
     double geometry, departure; /* widths of the vertical shift */

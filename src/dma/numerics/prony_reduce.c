@@ -71,7 +71,7 @@ typedef struct reducer {
     double long_term;           /* used if it is not fitted */
     size_t most, initial_terms; /* maximum and initial number of terms in the search */
     size_t terms; /* present number; unknown[2 i] is ln tau, [2 i + 1] ln E; last ln E_inf */
-    double *unknown, *trial, *best;
+    double *unknown, *candidate, *best;
     double *row[MODULI];
     double objective;
     gsl_matrix *normal, *factor;
@@ -185,9 +185,9 @@ static void fit_unknowns(reducer *r, int steps)
             after = HUGE_VAL;
             if (solve_damped(r, damping)) {
                 for (size_t u = 0; u < n; u++)
-                    r->trial[u] = r->unknown[u] + gsl_vector_get(r->move, u);
-                clamp_times(r, r->trial);
-                after = weighted_squares(r, r->trial, false);
+                    r->candidate[u] = r->unknown[u] + gsl_vector_get(r->move, u);
+                clamp_times(r, r->candidate);
+                after = weighted_squares(r, r->candidate, false);
             }
             if (after < before)
                 break;
@@ -195,7 +195,7 @@ static void fit_unknowns(reducer *r, int steps)
         }
         if (!(after < before))
             break;
-        memcpy(r->unknown, r->trial, n * sizeof *r->trial);
+        memcpy(r->unknown, r->candidate, n * sizeof *r->candidate);
         damping /= 10;
         if (before - after < least_gain * before)
             break;
@@ -381,7 +381,7 @@ static wt_status prepare_reduction(reducer *r, const wt_reduction *options, wt_e
         r->row[q] = arena_numbers(&r->memory, n);
     }
     r->unknown = arena_numbers(&r->memory, n);
-    r->trial = arena_numbers(&r->memory, n);
+    r->candidate = arena_numbers(&r->memory, n);
     r->best = arena_numbers(&r->memory, n);
     r->normal = arena_matrix(&r->memory, n, n);
     r->factor = arena_matrix(&r->memory, n, n);

@@ -14,13 +14,13 @@
  * precision of each shift, S their smooth part. Without P the shifts are free except for fixed
  * ones. */
 typedef struct spectrum_prior {
-    bool held;          /* the vertical shifts are fixed at `mean` */
-    const double *mean; /* [n_curves] */
-    double *precision;  /* [n_curves] P, or NULL: free, with the anchor fixed */
-    gsl_matrix *smooth; /* [n_curves * n_smooth] S */
-    size_t n_smooth;    /* 0: no smooth part */
-    double *at;         /* [n_smooth] scratch */
-    double log_det;     /* ln determinant of the covariance */
+    bool held;               /* the vertical shifts are fixed at `mean` */
+    const double *mean;      /* [n_curves] */
+    double *precision;       /* [n_curves] P, or NULL: free, with the anchor fixed */
+    gsl_matrix *smooth_part; /* [n_curves * n_smooth] S */
+    size_t n_smooth;         /* 0: no smooth part */
+    double *at;              /* [n_smooth] scratch */
+    double log_det;          /* ln determinant of the covariance */
 } spectrum_prior;
 
 /* Maximum number of smooth components (spectrum_prior.c). It is exact to rounding over a range
@@ -89,7 +89,7 @@ typedef struct spectrum {
     double *bend;                     /* [n_terms] weight of a second difference */
     size_t bend_first, bend_end;      /* range of the second differences with the measured prior */
     spectrum_extrapolation beyond[2]; /* priors on the fast and the slow side */
-    double smooth;                    /* standard deviation of the second differences */
+    double smoothness;                /* standard deviation of the second differences */
     double rho;                       /* correlation of neighbouring points */
 
     bool settled;       /* the last fit converged */
@@ -123,7 +123,7 @@ typedef struct spectrum {
     double *copy;                    /* [n] scratch */
     double *previous_weight[MODULI]; /* [n] previous weights */
     gsl_vector *direction;
-    double *trial;
+    double *candidate;
     double *kept_value; /* [n_unknowns] a fit to return to */
     double kept_noise[MODULI], kept_smooth, kept_rho;
 } spectrum;

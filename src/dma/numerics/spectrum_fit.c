@@ -51,12 +51,12 @@ static bool factor_damped(spectrum *s, double damping)
         *gsl_matrix_ptr(s->factor.border, i, i) *= 1.0 + damping;
     for (size_t i = 0; i < s->n_curves; i++) {
         double *diagonal = s->factor.diagonal + BLOCK_DIAGONAL * i;
-        double smooth = 0.0;
+        double smooth_sum = 0.0;
         for (size_t j = 0; j < s->prior->n_smooth; j++)
-            smooth +=
+            smooth_sum +=
                 pow(gsl_matrix_get(s->precision.side, BLOCK_SIDE * i + 1, s->n_linear + j), 2);
         diagonal[0] += s->column_a[i] < 0 ? 0.0 : damping * diagonal[0];
-        diagonal[2] += s->column_b[i] < 0 ? 0.0 : damping * (diagonal[2] - smooth);
+        diagonal[2] += s->column_b[i] < 0 ? 0.0 : damping * (diagonal[2] - smooth_sum);
     }
     return bordered_factor(&s->factor);
 }
@@ -140,9 +140,9 @@ static double line_search(spectrum *s)
         slope += s->gradient->data[u] * s->direction->data[u];
     for (int i = 0; i < MAX_TRIALS; i++) {
         for (size_t u = 0; u < s->n_unknowns; u++)
-            s->trial[u] = s->value[u] + share * gsl_vector_get(s->direction, u);
-        spectrum_evaluate(s, s->trial, true); /* most trials are accepted */
-        gain = s->objective - spectrum_objective(s, s->trial);
+            s->candidate[u] = s->value[u] + share * gsl_vector_get(s->direction, u);
+        spectrum_evaluate(s, s->candidate, true); /* most trials are accepted */
+        gain = s->objective - spectrum_objective(s, s->candidate);
         const double best = share * slope / (2.0 * share * slope - gain); /* in steps */
         if (gain >= 0.0 && (slope > far || best > shortest))
             break;
@@ -164,7 +164,7 @@ static wt_status damped_step(spectrum *s, double *damping, double *gain, wt_erro
         spectrum_solve(s, s->gradient->data, s->direction->data);
         const double gained = line_search(s);
         if (gained >= 0.0) {
-            memcpy(s->value, s->trial, s->n_unknowns * sizeof *s->value);
+            memcpy(s->value, s->candidate, s->n_unknowns * sizeof *s->value);
             *gain = gained;
             *damping = *damping > 1e-6 ? *damping / 10.0 : 0.0;
             return WT_OK;
@@ -232,7 +232,7 @@ void spectrum_keep(spectrum *s)
 {
     memcpy(s->kept_value, s->value, s->n_unknowns * sizeof *s->value);
     memcpy(s->kept_noise, s->noise, sizeof s->noise);
-    s->kept_smooth = s->smooth;
+    s->kept_smooth = s->smoothness;
     s->kept_rho = s->rho;
 }
 
@@ -240,7 +240,7 @@ void spectrum_return(spectrum *s)
 {
     memcpy(s->value, s->kept_value, s->n_unknowns * sizeof *s->value);
     memcpy(s->noise, s->kept_noise, sizeof s->noise);
-    s->smooth = s->kept_smooth;
+    s->smoothness = s->kept_smooth;
     s->rho = s->kept_rho;
 }
 
@@ -272,10 +272,10 @@ wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
             if (change >= settled)
                 assemble_objective(s);
         }
-        const bool trial = mode == SPECTRUM_TRIAL;
-        const double enough = trial ? fmax(least, trial_gain * s->objective) : least;
+        const bool is_trial = mode == SPECTRUM_TRIAL;
+        const double enough = is_trial ? fmax(least, trial_gain * s->objective) : least;
         done = (gain < enough || final) && change < settled &&
-               has_converged(s, trial ? fmax(least, trial_left * s->objective) : least);
+               has_converged(s, is_trial ? fmax(least, trial_left * s->objective) : least);
     }
     s->settled = done;
     if (status == WT_OK)

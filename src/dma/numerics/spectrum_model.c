@@ -79,8 +79,8 @@ static void allocate_spectrum(spectrum *s)
 {
     arena *m = &s->memory;
     const size_t most = s->n_linear + 2 * s->n_curves;
-    const size_t smooth = s->n_curves < SPECTRUM_MAX_SMOOTH ? s->n_curves : SPECTRUM_MAX_SMOOTH;
-    const size_t border = s->n_linear + smooth;
+    const size_t n_smooth = s->n_curves < SPECTRUM_MAX_SMOOTH ? s->n_curves : SPECTRUM_MAX_SMOOTH;
+    const size_t border = s->n_linear + n_smooth;
     s->first = arena_alloc(m, s->n_curves + 1, sizeof *s->first);
     s->column_a = arena_alloc(m, s->n_curves, sizeof *s->column_a);
     s->column_b = arena_alloc(m, s->n_curves, sizeof *s->column_b);
@@ -106,7 +106,7 @@ static void allocate_spectrum(spectrum *s)
     s->term = arena_numbers(m, s->n_linear);
     s->time = arena_numbers(m, s->n_terms);
     s->value = arena_numbers(m, most);
-    s->trial = arena_numbers(m, most);
+    s->candidate = arena_numbers(m, most);
     s->kept_value = arena_numbers(m, most);
     s->precision = bordered_new(m, border, s->n_curves);
     s->covariance = bordered_new(m, border, s->n_curves);
@@ -218,7 +218,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     s->n_linear = s->n_terms + (liquid ? 0 : 1);
     s->log_tau = -(high + fast) * M_LN10;
     allocate_spectrum(s);
-    double *start = s->trial; /* a, then b */
+    double *start = s->candidate; /* a, then b */
     size_t curve = 0, k = 0;
     for (size_t i = 0; i < set->n; i++) {
         const shift_curve *c = &set->curves[i];
@@ -243,7 +243,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     }
     s->first[curve] = k;
     set_start_terms(s, start, start + s->n_curves);
-    s->smooth = 0.3;
+    s->smoothness = 0.3;
     for (size_t j = 0; j < s->n_terms; j++) {
         s->bend[j] = 1.0;
         s->time[j] = exp((double)j * s->step);
@@ -292,7 +292,7 @@ void spectrum_terms(const spectrum *s, const double *value, double *term)
 
 void spectrum_set_prior(spectrum *s, const spectrum_prior *prior)
 {
-    double *shift = s->trial; /* a, b of all curves */
+    double *shift = s->candidate; /* a, b of all curves */
     for (size_t i = 0; i < s->n_curves; i++) {
         shift[2 * i] = spectrum_a(s, i);
         shift[2 * i + 1] = spectrum_b(s, i);

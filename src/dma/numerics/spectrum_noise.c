@@ -319,15 +319,15 @@ double spectrum_noise_update(spectrum *s, double share, double enough)
         change = fmax(change, fabs(log(next[q] / s->noise[q])));
     }
     const double rank = (double)(s->bend_end - s->bend_first);
-    const double used = rank - spectrum_roughness_trace(s) / (s->smooth * s->smooth);
+    const double used = rank - spectrum_roughness_trace(s) / (s->smoothness * s->smoothness);
     const double rough = spectrum_roughness(s, s->value);
-    const double move = log(fmax(sqrt(rough / fmax(used, 1e-3)), least_smooth) / s->smooth);
+    const double move = log(fmax(sqrt(rough / fmax(used, 1e-3)), least_smooth) / s->smoothness);
     change = fmax(change, 0.1 * fabs(move));
     if (change < enough)
         return change; /* the unknowns can settle */
     for (int q = 0; q < MODULI; q++)
         s->noise[q] = share < 1.0 ? s->noise[q] * pow(next[q] / s->noise[q], share) : next[q];
-    s->smooth = fmax(s->smooth * exp(share * move), least_smooth);
+    s->smoothness = fmax(s->smoothness * exp(share * move), least_smooth);
     return change;
 }
 
@@ -347,7 +347,7 @@ void spectrum_criterion(spectrum *s)
 static double curvature_information(const spectrum *s, size_t j, double *square)
 {
     static const double weight[3] = {1.0, -2.0, 1.0}; /* second difference */
-    const double unit = s->smooth * s->smooth;
+    const double unit = s->smoothness * s->smoothness;
     const double bend = s->value[j] - 2.0 * s->value[j + 1] + s->value[j + 2];
     double variance = 0.0;
     for (size_t i = 0; i < 3; i++)

@@ -39,7 +39,7 @@ void vertical_alloc(arena *memory, size_t n, vertical *v)
 {
     const size_t most = n < SPECTRUM_MAX_SMOOTH ? n : SPECTRUM_MAX_SMOOTH;
     v->prior_storage.precision = arena_numbers(memory, n);
-    v->prior_storage.smooth = arena_matrix(memory, n, most);
+    v->prior_storage.smooth_part = arena_matrix(memory, n, most);
     v->left = arena_numbers(memory, n);
     v->root = arena_matrix(memory, most, most);
     v->prior_storage.at = arena_numbers(memory, most);
@@ -48,14 +48,14 @@ void vertical_alloc(arena *memory, size_t n, vertical *v)
 /* Factors the covariance of the departure by pivoted Cholesky down to rounding. Returns the
  * number of components. */
 static size_t factor_departure(const vertical *v, const double *temperature, size_t n,
-                               gsl_matrix *smooth)
+                               gsl_matrix *smooth_part)
 {
     const double departure = v->departure * M_LN10;
     double *left = v->left;
     size_t m = 0;
     for (size_t i = 0; i < n; i++)
         left[i] = vertical_departure_covariance(v, temperature[i], temperature[i]);
-    for (; departure > 0.0 && m < smooth->size2; m++) {
+    for (; departure > 0.0 && m < smooth_part->size2; m++) {
         size_t pivot = 0;
         for (size_t i = 1; i < n; i++)
             pivot = left[i] > left[pivot] ? i : pivot;
@@ -65,23 +65,23 @@ static size_t factor_departure(const vertical *v, const double *temperature, siz
         for (size_t i = 0; i < n; i++) {
             double with = vertical_departure_covariance(v, temperature[i], temperature[pivot]);
             for (size_t j = 0; j < m; j++)
-                with -= gsl_matrix_get(smooth, i, j) * gsl_matrix_get(smooth, pivot, j);
-            gsl_matrix_set(smooth, i, m, with / root);
+                with -= gsl_matrix_get(smooth_part, i, j) * gsl_matrix_get(smooth_part, pivot, j);
+            gsl_matrix_set(smooth_part, i, m, with / root);
         }
         for (size_t i = 0; i < n; i++)
-            left[i] -= pow(gsl_matrix_get(smooth, i, m), 2);
+            left[i] -= pow(gsl_matrix_get(smooth_part, i, m), 2);
         left[pivot] = 0.0;
     }
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < m; j++)
-            *gsl_matrix_ptr(smooth, i, j) *= departure;
+            *gsl_matrix_ptr(smooth_part, i, j) *= departure;
     return m;
 }
 
 /* Converts the factor F of the departure to S = F R^-T, where R is the factor of 1 + F' P F.
  * *log_det: ln of its determinant. */
 static bool departure_to_smooth(const vertical *v, size_t n, double clamped, size_t m,
-                                gsl_matrix *smooth, double *log_det)
+                                gsl_matrix *smooth_part, double *log_det)
 {
     double *root = v->root->data;
     const size_t stride = v->root->tda;
@@ -89,14 +89,14 @@ static bool departure_to_smooth(const vertical *v, size_t n, double clamped, siz
         for (size_t k = 0; k <= j; k++) {
             double sum = 0.0;
             for (size_t i = 0; i < n; i++)
-                sum += gsl_matrix_get(smooth, i, j) * gsl_matrix_get(smooth, i, k);
+                sum += gsl_matrix_get(smooth_part, i, j) * gsl_matrix_get(smooth_part, i, k);
             root[j * stride + k] = clamped * sum + (j == k ? 1.0 : 0.0);
         }
     if (!cholesky_factor(root, stride, m, 0.0))
         return false;
     for (size_t i = 0; i < n; i++)
-        cholesky_forward(root, stride, m, gsl_matrix_ptr(smooth, i, 0),
-                         gsl_matrix_ptr(smooth, i, 0));
+        cholesky_forward(root, stride, m, gsl_matrix_ptr(smooth_part, i, 0),
+                         gsl_matrix_ptr(smooth_part, i, 0));
     *log_det = 0.0;
     for (size_t j = 0; j < m; j++)
         *log_det += 2.0 * log(root[j * stride + j]);
@@ -121,8 +121,8 @@ wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temp
         prior->precision = NULL;
     if (kind != WT_VERTICAL_TIED)
         return WT_OK;
-    const size_t m = prior->n_smooth = factor_departure(v, temperature, n, prior->smooth);
-    if (!departure_to_smooth(v, n, clamped, m, prior->smooth, &prior->log_det))
+    const size_t m = prior->n_smooth = factor_departure(v, temperature, n, prior->smooth_part);
+    if (!departure_to_smooth(v, n, clamped, m, prior->smooth_part, &prior->log_det))
         return wt_fail(err, WT_E_INTERNAL, "the prior of the vertical shifts is not positive");
     prior->log_det += 2.0 * (double)n * log(geometry);
     return WT_OK;
@@ -147,7 +147,7 @@ static curvature_prior find_curvature_prior(const spectrum *s, size_t j)
     const spectrum_extrapolation *b = &s->beyond[j < s->bend_first ? 0 : 1];
     if (is_extrapolated(s, j))
         return (curvature_prior){b->weight, b->mean, b->precision};
-    return (curvature_prior){plain, 0.0, s->bend[j] / (s->smooth * s->smooth)};
+    return (curvature_prior){plain, 0.0, s->bend[j] / (s->smoothness * s->smoothness)};
 }
 
 static double curvature_residual(const curvature_prior *law, const double *value)
@@ -202,7 +202,7 @@ static void project_smooth_part(const spectrum *s, const double *value)
     for (size_t i = 0; i < s->n_curves; i++) {
         const double off = p->precision[i] * vertical_residual(s, value, i);
         for (size_t j = 0; j < p->n_smooth; j++)
-            p->at[j] += gsl_matrix_get(p->smooth, i, j) * off;
+            p->at[j] += gsl_matrix_get(p->smooth_part, i, j) * off;
     }
 }
 
@@ -212,7 +212,7 @@ static double unsmooth_residual(const spectrum *s, const double *value, size_t c
     const spectrum_prior *p = s->prior;
     double off = vertical_residual(s, value, curve);
     for (size_t j = 0; j < p->n_smooth; j++)
-        off -= gsl_matrix_get(p->smooth, curve, j) * p->at[j];
+        off -= gsl_matrix_get(p->smooth_part, curve, j) * p->at[j];
     return off;
 }
 
@@ -275,7 +275,7 @@ static void add_vertical_prior(spectrum *s)
         s->precision.diagonal[BLOCK_DIAGONAL * i + 2] += w;
         for (size_t j = 0; j < p->n_smooth; j++)
             gsl_matrix_set(s->precision.side, BLOCK_SIDE * i + 1, s->n_linear + j,
-                           -w * gsl_matrix_get(p->smooth, i, j));
+                           -w * gsl_matrix_get(p->smooth_part, i, j));
     }
     for (size_t j = 0; j < p->n_smooth; j++)
         gsl_matrix_set(s->precision.border, s->n_linear + j, s->n_linear + j, 1.0);
@@ -337,5 +337,5 @@ void spectrum_assemble(spectrum *s)
 
 double spectrum_prior_log_det(const spectrum *s)
 {
-    return 2.0 * (double)(s->bend_end - s->bend_first) * log(s->smooth) + s->prior->log_det;
+    return 2.0 * (double)(s->bend_end - s->bend_first) * log(s->smoothness) + s->prior->log_det;
 }

@@ -95,10 +95,10 @@ static double relative_rounding(const wt_friction_workspace *ws)
 static void choose_subinterval_width(wt_friction_workspace *ws)
 {
     const wt_layer_state *layer = &ws->options.layer;
-    const bool smooth = ws->material->law->angular != NULL && ws->softening == NULL;
+    const bool is_smooth = ws->material->law->angular != NULL && ws->softening == NULL;
     const bool bulk = !(layer->thickness > 0) || (layer->modulus_ratio == 1 && ws->layer == NULL);
     subinterval_plan_init(
-        &ws->plan, ws->roughness, smooth && bulk ? smooth_width : SUBINTERVAL_WIDTH,
+        &ws->plan, ws->roughness, is_smooth && bulk ? smooth_width : SUBINTERVAL_WIDTH,
         friction_core_levels(ws->options.tolerance), NULL, NULL, 0, 0, ws->softening, &ws->memory);
 }
 

@@ -212,20 +212,20 @@ double layered_scale(double x, double ratio)
         return 1;
     if (x > 400) /* exp(-2 x) is 0 in double precision */
         return ratio;
-    const double contrast = fabs(ratio - 1) / (ratio + 1);
+    const double mismatch = fabs(ratio - 1) / (ratio + 1);
     const double rest = 2 * fmin(1, ratio) / (ratio + 1); /* 1 - |N| */
     const double e = exp(-2 * x);
     double numerator, denominator;
     if (ratio < 1) { /* N < 0 */
-        numerator = rest * (1 + contrast * e * e) + 2 * contrast * sinh_excess(2 * x);
-        denominator = (1 + contrast * e) * (1 + contrast * e) + 4 * contrast * x * x * e;
+        numerator = rest * (1 + mismatch * e * e) + 2 * mismatch * sinh_excess(2 * x);
+        denominator = (1 + mismatch * e) * (1 + mismatch * e) + 4 * mismatch * x * x * e;
     } else {
-        const double m = sqrt(contrast);
+        const double m = sqrt(mismatch);
         const double rest_m = rest / (1 + m);
         const double low = rest_m * (1 + m * e) + 2 * m * sinh_excess(x);
-        const double high = rest - contrast * expm1(-2 * x) + 2 * x * m * exp(-x);
+        const double high = rest - mismatch * expm1(-2 * x) + 2 * x * m * exp(-x);
         numerator =
-            (1 + contrast) * rest - contrast * contrast * expm1(-4 * x) + 4 * contrast * x * e;
+            (1 + mismatch) * rest - mismatch * mismatch * expm1(-4 * x) + 4 * mismatch * x * e;
         denominator = low * high;
     }
     return ratio * denominator / numerator;

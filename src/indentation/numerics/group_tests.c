@@ -33,9 +33,9 @@ enum { W = CURVE_WAVES, LEAST_CURVES = 2 * W };
 wt_pooled_misfit wt_pooled_misfit_compute(const double (*misfit)[WT_MISFIT_TERMS], size_t n)
 {
     double mean[W] = {0.0}, scatter[W * W] = {0.0}, solved[W], amplitude = 0.0, t = 0.0;
-    wt_pooled_misfit pool = {.n = n, .misfit = (double)NAN, .p_value = (double)NAN};
+    wt_pooled_misfit pooled = {.n = n, .misfit = (double)NAN, .p_value = (double)NAN};
     if (n < LEAST_CURVES)
-        return pool;
+        return pooled;
     gsl_quiet();
     for (size_t i = 0; i < n; i++)
         for (size_t a = 0; a < W; a++)
@@ -53,13 +53,14 @@ wt_pooled_misfit wt_pooled_misfit_compute(const double (*misfit)[WT_MISFIT_TERMS
     }
     if (gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS ||
         gsl_linalg_cholesky_svx(&matrix.matrix, &x.vector) != GSL_SUCCESS)
-        return pool;
+        return pooled;
     for (size_t a = 0; a < W; a++)
         t += mean[a] * solved[a];
     const double curves = (double)n;
-    pool.misfit = sqrt(amplitude);
-    pool.p_value = gsl_cdf_fdist_Q(curves * t * (curves - W) / (W * (curves - 1.0)), W, curves - W);
-    return pool;
+    pooled.misfit = sqrt(amplitude);
+    pooled.p_value =
+        gsl_cdf_fdist_Q(curves * t * (curves - W) / (W * (curves - 1.0)), W, curves - W);
+    return pooled;
 }
 
 /* ---- two groups ------------------------------------------------------------------------------ */
@@ -77,11 +78,11 @@ static const double test_power = 0.8;
 static const double single_unit_scatter = 2;
 
 /* Standard error of one unit against several, whose scatter is the only one available. */
-static t_error single_unit_error(moments several, t_error shift, double known)
+static t_error single_unit_error(moments repeated, t_error shift, double known)
 {
     const t_error mean_error = {
-        sqrt(several.variance * (1 / several.n + single_unit_scatter * single_unit_scatter)),
-        several.n - 1};
+        sqrt(repeated.variance * (1 / repeated.n + single_unit_scatter * single_unit_scatter)),
+        repeated.n - 1};
     const t_error parts[] = {mean_error, shift, {sqrt(known), (double)INFINITY}};
     return t_error_sum(parts, COUNT_OF(parts));
 }

@@ -220,7 +220,7 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
         bool moved = false;
         for (double damping = 0.0; !moved;
              damping = damping > 0.0 ? 10.0 * damping : fmax(kept_damping, least_damping)) {
-            double step[1][N], trial[N];
+            double step[1][N], candidate[N];
             memcpy(step[0], e.jr, sizeof e.jr);
             bool solved = solve_normal_equations(&e, damping, step, 1);
             if (damping == 0.0) {
@@ -232,18 +232,18 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
                     return false;
             }
             for (size_t a = 0; a < N; a++)
-                trial[a] = p[a] + step[0][a];
+                candidate[a] = p[a] + step[0][a];
             const curve_wave trial_wave = step_wave(m, wave, &wave_only, step[0], damping);
             const double before = *cost;
             const bool is_near_minimum = expected < fmax(1e-9 * before, 1e-14 * m->ff);
             const bool is_too_long = damping == 0.0 && kept_damping > 0.0 && !is_near_minimum;
-            if (solved && !is_too_long && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0 &&
+            if (solved && !is_too_long && candidate[CURVE_E] > 0.0 && candidate[CURVE_W] >= 0.0 &&
                 (!m->wave || trial_wave.p[WAVE_NUMBER] > 0.0)) {
-                double trial_cost = evaluate_cost(m, trial, &trial_wave);
+                double trial_cost = evaluate_cost(m, candidate, &trial_wave);
                 /* Near the minimum the decrease is below the rounding error of the cost. */
                 if (trial_cost < before || (damping == 0.0 && is_near_minimum)) {
                     *cost = trial_cost;
-                    memcpy(p, trial, sizeof trial);
+                    memcpy(p, candidate, sizeof candidate);
                     *wave = trial_wave;
                     moved = true;
                     if (damping <= kept_damping) /* accepted at the first attempt */

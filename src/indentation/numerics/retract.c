@@ -267,14 +267,14 @@ static double middle_value(double a, double b, double c)
 /* Returns the largest pull of n smoothed forces above the baseline if it is significant and ends
  * abruptly in `ends`; else 0. `width` is the width of the smoothing. The forces at the far end are
  * free of the sample and have the standard deviation `noise`. */
-WIDE_REGISTERS static double find_sudden_pull(const double *smooth, const double *ends, size_t n,
+WIDE_REGISTERS static double find_sudden_pull(const double *smoothed, const double *ends, size_t n,
                                               size_t width, size_t n_free, double noise)
 {
     const size_t back = n_free < n ? n_free : n;
-    const double elsewhere = fmax(0.0, -curve_find_span(smooth + n - back, back).low),
-                 pull = fmax(0.0, -curve_find_span(smooth, n).low);
+    const double elsewhere = fmax(0.0, -curve_find_span(smoothed + n - back, back).low),
+                 pull = fmax(0.0, -curve_find_span(smoothed, n).low);
     size_t deepest = 0;
-    while (pull > 0.0 && -smooth[deepest] < pull)
+    while (pull > 0.0 && -smoothed[deepest] < pull)
         deepest++;
     bool is_sudden = false;
     const size_t last = deepest + width + (size_t)(pull_off_share * (double)n);
@@ -297,11 +297,11 @@ static double robust_scatter(const double *x, size_t n, double *scratch_values)
  * used, up to the length of a pull-off, because single samples do not show a weak one. Adjacent
  * means share three quarters of their samples. */
 WIDE_REGISTERS static double find_pull_off(const double *above, size_t n, size_t n_free,
-                                           double *restrict smooth, double *scratch_values)
+                                           double *restrict smoothed, double *scratch_values)
 {
     for (size_t i = 1; i + 1 < n; i++)
-        smooth[i - 1] = middle_value(above[i - 1], above[i], above[i + 1]);
-    double pull = find_sudden_pull(smooth, above + 1, n - 2, 3, n_free,
+        smoothed[i - 1] = middle_value(above[i - 1], above[i], above[i + 1]);
+    double pull = find_sudden_pull(smoothed, above + 1, n - 2, 3, n_free,
                                    robust_scatter(above + n - n_free, n_free, scratch_values));
     for (double part = 0.25; part <= 1.0 && !(pull > 0.0); part *= 2.0) {
         const size_t width = (size_t)(part * pull_off_share * (double)n);
@@ -311,9 +311,9 @@ WIDE_REGISTERS static double find_pull_off(const double *above, size_t n, size_t
         const size_t step = width / OVERLAP, means = (n - width) / step + 1,
                      free = (n_free - width) / step + 1, from = (n - width) % step;
         for (size_t i = 0; i < means; i++)
-            smooth[i] = curve_sum(above + from + i * step, width) / (double)width;
-        pull = find_sudden_pull(smooth, smooth, means, OVERLAP, free,
-                                robust_scatter(smooth + means - free, free, scratch_values));
+            smoothed[i] = curve_sum(above + from + i * step, width) / (double)width;
+        pull = find_sudden_pull(smoothed, smoothed, means, OVERLAP, free,
+                                robust_scatter(smoothed + means - free, free, scratch_values));
     }
     return pull;
 }

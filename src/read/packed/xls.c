@@ -61,7 +61,7 @@ typedef struct xls_book {
     size_t length;
     unsigned version, codepage;
     iconv_t narrow, wide;
-    char *pool; /* UTF-8 */
+    char *texts; /* UTF-8 */
     size_t pool_length, pool_reserved;
     xls_text *shared; /* [n_shared] */
     size_t n_shared;
@@ -151,7 +151,7 @@ static void reserve_pool(xls_book *book, size_t n)
     if (book->pool_reserved - book->pool_length >= n)
         return;
     book->pool_reserved = 2 * (book->pool_reserved + n);
-    book->pool = wt_realloc(book->pool, book->pool_reserved, 1);
+    book->texts = wt_realloc(book->texts, book->pool_reserved, 1);
 }
 
 /* Converts a text to UTF-8 in the pool; an invalid sequence becomes U+FFFD. */
@@ -163,13 +163,13 @@ static void pool_add(xls_book *book, iconv_t converter, const unsigned char *byt
     reserve_pool(book, 4 * n + 4);
     (void)iconv(converter, NULL, NULL, NULL, NULL);
     while (left > 0) {
-        char *out = book->pool + book->pool_length;
+        char *out = book->texts + book->pool_length;
         size_t space = book->pool_reserved - book->pool_length;
         const bool done = iconv(converter, &in, &left, &out, &space) != (size_t)-1;
         book->pool_length = book->pool_reserved - space;
         if (done || space < 4)
             break;
-        memcpy(book->pool + book->pool_length, replacement, 3);
+        memcpy(book->texts + book->pool_length, replacement, 3);
         book->pool_length += 3;
         const size_t unit = converter == book->wide && left >= 2 ? 2 : 1;
         in += unit;
@@ -366,7 +366,7 @@ static bool write_cell(const xls_book *book, const xls_cell *cell, sheet_text *t
     char number[40];
     if (cell->is_text)
         return cell->text.length == 0 ||
-               sheet_add_cell(text, cell->row, cell->column, book->pool + cell->text.at,
+               sheet_add_cell(text, cell->row, cell->column, book->texts + cell->text.at,
                               cell->text.length);
     int n = clocale_print(number, sizeof number, "%.15g", cell->number);
     if (strtod(number, NULL) < cell->number || strtod(number, NULL) > cell->number)
@@ -432,7 +432,7 @@ static wt_status add_sheet(xls_book *book, biff_record *r, size_t max_length, wo
     wt_status status = read_counted_text(book, r, 1, &name, err);
     if (status != WT_OK || kind != 0)
         return status;
-    char *copy = wt_strndup(name.length > 0 ? book->pool + name.at : "", name.length);
+    char *copy = wt_strndup(name.length > 0 ? book->texts + name.at : "", name.length);
     sheet_text text = {.max_length = workbook_text_limit(made, max_length)};
     status = read_sheet_cells(book, place, err);
     if (status == WT_OK)
@@ -536,7 +536,7 @@ wt_status xls_read(wt_input *input, workbook *made, wt_error *err)
     close_converter(book.wide);
     free(book.cells);
     free(book.shared);
-    free(book.pool);
+    free(book.texts);
     free(book.stream);
     if (status != WT_OK)
         workbook_clear(made);
