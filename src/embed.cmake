@@ -4,7 +4,7 @@
 #   wt_embed(TARGET OUTPUT FILE...)
 #
 # adds to TARGET a C source, made at build time, with the files in the order given:
-#   extern const embedded_text OUTPUT[];   (core/system/file_signatures.h; ends with a NULL name)
+#   extern const embedded_text OUTPUT[];   (core/system/temporary.h; ends with a NULL name)
 # and OUTPUT.h that declares it, to be included by its path below the build tree's src/.
 # As a script (cmake -DOUTPUT=... -DNAME=... -DFILES=a|b -P embed.cmake) it writes that source.
 #
@@ -26,7 +26,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
     math(EXPR index "${index} + 1")
   endforeach()
   file(WRITE "${OUTPUT}.c.new"
-    "#include \"core/system/file_signatures.h\"\n\nextern const embedded_text ${NAME}[];\n\n${arrays}\n"
+    "#include \"core/system/temporary.h\"\n\nextern const embedded_text ${NAME}[];\n\n${arrays}\n"
     "const embedded_text ${NAME}[] = {\n${rows}    {0, 0, 0}};\n")
   file(RENAME "${OUTPUT}.c.new" "${OUTPUT}.c")
   return()
@@ -48,7 +48,7 @@ function(wt_embed target output)
     DEPENDS ${files} "${EMBED_SCRIPT}"
     COMMENT "Embedding ${output}" VERBATIM)
   file(CONFIGURE OUTPUT "${made}.h" @ONLY CONTENT
-    "#include \"core/system/file_signatures.h\"\n\nextern const embedded_text @output@[];\n")
+    "#include \"core/system/temporary.h\"\n\nextern const embedded_text @output@[];\n")
   # The command belongs to this folder, the target may not.
   add_custom_target(${output}_source DEPENDS "${made}.c")
   add_dependencies(${target} ${output}_source)

@@ -42,6 +42,8 @@ WT_API wt_status wt_roughness_table(const double *q, const double *c, size_t n,
 WT_API void wt_roughness_free(wt_roughness *roughness);
 WT_API double wt_roughness_rms_height(const wt_roughness *roughness); /* [m] */
 WT_API double wt_roughness_rms_slope(const wt_roughness *roughness);  /* 1 */
+/* Returns int_q0^q k^m C dk for m = 1 or 3 and q from q0 to q1 [rad/m]. */
+WT_API double wt_roughness_moment(const wt_roughness *roughness, int m, double q);
 
 /* Returns the wavenumber [rad/m] at which the rms slope, from q0 on, reaches `slope`; NaN if it
  * does not. */

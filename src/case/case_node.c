@@ -4,8 +4,8 @@
 #include "case/case_node.h"
 #include "core/base/memory.h"
 #include "core/base/param.h"
+#include "core/base/shared_params.h"
 #include "indentation/indent.h"
-#include "read/read_params.h"
 
 #include <math.h>
 #include <string.h>

@@ -207,7 +207,7 @@ void cmd_print_argument(FILE *out, const char *word);
 /* ---- messages ----------------------------------------------------------------------------- */
 
 /* Switches messages to one JSON object per line with an event: message, note, warning, loss, error,
- * failed, progress or end (log.c). */
+ * failed, progress or end (messages.c). */
 void cmd_log_json(const char *name);
 bool cmd_log_is_json(void);
 /* A member of such an object: a text, or a number if the text is NULL. */

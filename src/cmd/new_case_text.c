@@ -1,6 +1,6 @@
 /* Writes the text of a new case. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/new_case.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 
 #include <string.h>
 

@@ -13,7 +13,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/finite_elements.h"
 
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 
 #include <math.h>
 

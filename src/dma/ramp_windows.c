@@ -4,7 +4,7 @@
 #include "dma/master.h"
 
 #include "core/base/array.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "dma/sweep_input.h"
 
 #include <math.h>

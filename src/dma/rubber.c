@@ -4,7 +4,7 @@
 #include "job/cost.h"
 #include "job/random_draws.h"
 
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 
 #include <math.h>
 #include <stdlib.h>

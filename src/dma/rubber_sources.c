@@ -5,8 +5,8 @@
 #include "dma/rubber.h"
 
 #include "core/base/array.h"
-#include "core/base/clocale.h"
 #include "core/base/number.h"
+#include "core/base/text.h"
 #include "core/table/registry.h"
 #include "dma/law_parse.h"
 #include "dma/sweep_input.h"

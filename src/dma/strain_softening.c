@@ -3,8 +3,8 @@
 #include "dma/rubber.h"
 
 #include "core/base/array.h"
-#include "core/base/clocale.h"
 #include "core/base/number.h"
+#include "core/base/text.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "dma/sweep_input.h"

@@ -1,7 +1,7 @@
 /* The friction job: hysteresis, contact area and total friction at every velocity, with and without
  * the modified layer, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/table/table_rows.h"
 #include "dma/rubber.h"
 #include "friction/replicates.h"

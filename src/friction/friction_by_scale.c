@@ -1,8 +1,8 @@
 /* Contact area and friction by length scale: against the magnification, and by decades of the
  * wavenumber.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/clocale.h"
 #include "core/base/number.h"
+#include "core/base/text.h"
 #include "core/table/table_rows.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"

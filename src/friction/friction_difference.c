@@ -1,7 +1,7 @@
 /* Friction with and without an effect at one list of velocities: strain softening, flash
  * temperature, transversely isotropic rubber.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/table/table_rows.h"
 #include "dma/rubber.h"
 #include "friction/sliding_contact.h"

@@ -1,9 +1,9 @@
 /* Material, roughness and load of one replicate of a sliding contact.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/sliding_contact.h"
-#include "core/base/clocale.h"
 #include "core/base/number.h"
 #include "core/base/shared_params.h"
+#include "core/base/text.h"
 #include "core/math/students_t.h"
 #include "core/table/registry.h"
 #include "dma/rubber.h"

@@ -4,7 +4,7 @@
  * error has an assumed one, because no residual and no scatter shows it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/calibration_errors.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/data/force_curve.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"

@@ -5,7 +5,7 @@
 
 #include "core/base/array.h"
 #include "core/base/number.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 #include "indentation/law/tip.h"
 #include "indentation/numerics/curve.h"
 #include "job/conditioning.h"

@@ -3,8 +3,8 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
-#include "core/base/clocale.h"
 #include "core/base/number.h"
+#include "core/base/text.h"
 #include "core/math/root.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"

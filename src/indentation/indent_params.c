@@ -1,11 +1,11 @@
 /* The parameters of the indentation job. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/param.h"
+#include "core/base/shared_params.h"
 #include "indentation/curve_selection.h"
 #include "indentation/indent.h"
 #include "indentation/law/tip.h"
 #include "indentation/numerics/curve.h"
-#include "read/read_params.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -5,7 +5,7 @@
 
 #include "core/base/array.h"
 #include "core/base/param.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 #include "core/table/table_rows.h"
 #include "indentation/indent.h"
 

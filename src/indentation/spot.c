@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "core/base/array.h"
-#include "core/base/clocale.h"
 #include "core/base/number.h"
 #include "core/base/param.h"
+#include "core/base/text.h"
 #include "core/table/table_rows.h"
 #include "indentation/numerics/height_image.h"
 #include "job/cost.h"

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/conditioning.h"
 #include "core/base/array.h"
-#include "core/math/splitmix64.h"
+#include "core/math/special.h"
 #include "job/inputs.h"
 
 #include <math.h>

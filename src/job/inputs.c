@@ -2,10 +2,12 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/inputs.h"
 #include "core/base/array.h"
-#include "core/math/splitmix64.h"
+#include "core/base/memory.h"
+#include "core/math/special.h"
 #include "core/system/temporary.h"
 #include "core/table/table_rows.h"
 #include "job/cost.h"
+#include "weartrack/read.h"
 
 #include <fcntl.h>
 #include <stdlib.h>
@@ -191,59 +193,45 @@ wt_table *wt_failures_new(void)
     return table_end(&t, &table) == WT_OK ? table : NULL;
 }
 
-/* Returns `path` without the prefix `folder`. */
-static const char *relative_path(const char *folder, const char *path)
+/* Returns the instrument that an opened file states and the title of its format; NULL for a job
+ * without provenance. The caller frees the text. */
+static char *flow_instrument(const wt_job *work, wt_input *input, const wt_format_info *format,
+                             const wt_read_options *read)
+{
+    wt_read_options options = *read;
+    options.format = format->id;
+    if (work->provenance == NULL)
+        return NULL;
+    const char *const title = format->title;
+    const char *instrument = "";
+    wt_table *metadata = NULL;
+    table_view t = {0};
+    /* A description of heights decodes all of them, and such files state no instrument. */
+    const bool may_state = (format->kinds & ~(WT_KIND_IMAGE | WT_KIND_SPECTRUM)) != 0;
+    if (may_state &&
+        wt_input_describe(work->formats, input, &options, NULL, &metadata, NULL) == WT_OK &&
+        table_bind(metadata, &facts_schema, "", &t, NULL) == WT_OK)
+        for (size_t i = 0; i < t.n_rows && instrument[0] == '\0'; i++)
+            if (facts_get(&t, i, FACTS_KIND) == FACT_INSTRUMENT)
+                instrument = facts_text(&t, i, FACTS_VALUE);
+    char *text = NULL;
+    size_t length = 0;
+    FILE *const out = text_stream_open(&text, &length);
+    if (instrument[0] != '\0')
+        (void)fprintf(out, "%s, file format \"%s\"", instrument, title);
+    else
+        (void)fprintf(out, "a file of the format \"%s\"", title);
+    text_stream_close(out);
+    wt_table_free(metadata);
+    return text;
+}
+
+const char *flow_relative_path(const char *folder, const char *path)
 {
     size_t length = folder == NULL ? 0 : strlen(folder);
     if (length == 0 || strncmp(path, folder, length) != 0 || path[length] != '/')
         return path;
     return path + length + strspn(path + length, "/");
-}
-
-TABLE_ROW(notes, NOTES, const char *severity, *file; wt_log_entry entry;)
-
-wt_status wt_notes_table(const wt_log *log, const char *folder, wt_table **table, wt_error *err)
-{
-    table_writer t = table_begin(&notes_schema, err);
-    for (size_t i = 0; i < wt_log_count(log); i++) {
-        wt_log_entry entry = wt_log_get(log, i);
-        TABLE_ADD(notes, &t, wt_severity_name(entry.severity), relative_path(folder, entry.file),
-                  entry);
-    }
-    return table_end(&t, table);
-}
-
-wt_severity wt_table_severity(const wt_table *table, size_t row)
-{
-    const long column = wt_table_find(table, "severity");
-    if (column < 0 || wt_table_column_kind(table, (size_t)column) != WT_COLUMN_TEXT)
-        return WT_NOTE;
-    return (wt_severity)closed_list_find(&severity_list, wt_table_text(table, row, (size_t)column));
-}
-
-TABLE_ROW(data_quality, DATA_QUALITY, const char *file, *action; double n_values;
-          wt_log_entry entry;)
-
-wt_status wt_data_quality_table(const wt_log *log, const char *folder, wt_table **table,
-                                wt_error *err)
-{
-    *table = NULL;
-    table_writer t = table_begin(&data_quality_schema, err);
-    size_t n = 0;
-    for (size_t i = 0; i < wt_log_count(log); i++) {
-        const wt_log_entry entry = wt_log_get(log, i);
-        if (entry.action == WT_ACTION_NONE)
-            continue;
-        n++;
-        TABLE_ADD(data_quality, &t, relative_path(folder, entry.file), action_text(entry.action),
-                  entry.n_values > 0 ? (double)entry.n_values : (double)NAN, entry);
-    }
-    const wt_status status = table_end(&t, table);
-    if (n == 0) {
-        wt_table_free(*table);
-        *table = NULL;
-    }
-    return status;
 }
 
 bool flow_may_continue(const wt_job *work, wt_status status)
@@ -304,7 +292,7 @@ static size_t path_depth(const char *path)
 static void files_add(flow_files *files, char *path, const char *pattern, const wt_file_set *set)
 {
     files->file = array_grow(files->file, files->n, sizeof *files->file);
-    const char *name = relative_path(set->folder, path);
+    const char *name = flow_relative_path(set->folder, path);
     files->file[files->n] = (flow_file){.path = path,
                                         .number = files->n,
                                         .name = name,

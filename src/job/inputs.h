@@ -78,11 +78,8 @@ wt_status flow_open_paired(const wt_job *work, flow_file *file, const char *role
 wt_status flow_record_input(const wt_job *work, wt_input *input, const flow_file *file,
                             const char *role, wt_error *err) WT_NODISCARD;
 
-/* Returns the instrument that an opened file states and the title of its format; NULL for a job
- * without provenance. The caller frees the text. */
-char *flow_instrument(const wt_job *work, wt_input *input, const wt_format_info *format,
-                      const wt_read_options *read);
-
+/* Returns `path` without the prefix `folder`. */
+const char *flow_relative_path(const char *folder, const char *path);
 /* Returns the read options of a file: those of its set, with the detected format. */
 wt_read_options flow_read_options(const flow_file *file);
 

@@ -3,7 +3,7 @@
 #include "job/random_draws.h"
 #include "weartrack/job.h"
 
-#include "core/math/splitmix64.h"
+#include "core/math/special.h"
 #include "core/math/students_t.h"
 
 #include <math.h>

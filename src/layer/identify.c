@@ -7,8 +7,8 @@
 #include "job/cost.h"
 #include "job/random_draws.h"
 
-#include "core/base/clocale.h"
 #include "core/base/number.h"
+#include "core/base/text.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "weartrack/layer.h"

@@ -1,9 +1,9 @@
 /* Layer job: energy density against depth, formation and wear, thickness at balance and against
  * time, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/clocale.h"
 #include "core/base/param.h"
 #include "core/base/shared_params.h"
+#include "core/base/text.h"
 #include "core/table/table_rows.h"
 #include "dma/rubber.h"
 #include "friction/sliding_contact.h"

@@ -6,7 +6,7 @@
 #include "core/data/force_curve.h"
 #include "core/table/registry.h"
 #include "read/bytes/samples.h"
-#include "read/metadata.h"
+#include "read/header_values.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #ifndef WT_READ_FORCE_ASSEMBLER_H
 #define WT_READ_FORCE_ASSEMBLER_H
 
-#include "read/metadata.h"
+#include "read/header_values.h"
 #include "weartrack/read.h"
 
 /* y = multiplier x + offset */

@@ -2,7 +2,7 @@
  * GPL-3.0-or-later */
 #include "read/images.h"
 #include "core/base/memory.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 #include "core/table/registry.h"
 #include "read/reader.h"
 

@@ -6,7 +6,7 @@
 #define WT_READ_IMAGES_H
 
 #include "read/bytes/samples.h"
-#include "read/metadata.h"
+#include "read/header_values.h"
 #include "weartrack/read.h"
 
 typedef struct image_list {

@@ -3,8 +3,8 @@
 #include "core/table/registry.h"
 #include "read/force_assembler.h"
 #include "read/formats.h"
+#include "read/header_values.h"
 #include "read/images.h"
-#include "read/metadata.h"
 
 #include <math.h>
 #include <string.h>

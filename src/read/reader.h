@@ -4,7 +4,7 @@
 #ifndef WT_READ_READER_H
 #define WT_READ_READER_H
 
-#include "read/metadata.h"
+#include "read/header_values.h"
 #include "weartrack/read.h"
 
 #include <string.h>

@@ -2,8 +2,8 @@
  * GPL-3.0-or-later
  */
 #include "core/base/memory.h"
+#include "core/base/shared_params.h"
 #include "read/formats.h"
-#include "read/read_params.h"
 #include "read/reader.h"
 
 #include <math.h>

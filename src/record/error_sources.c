@@ -3,7 +3,7 @@
 #include "record/validation.h"
 
 #include "core/base/array.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/table/table_rows.h"
 #include "record/numerics/agreement.h"
 

@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/measured_friction.h"
 #include "core/base/array.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "friction/sliding_contact.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Comparison of one prediction with the record, and its verdict.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/math/cholesky.h"
 #include "core/math/students_t.h"
 #include "record/validation.h"

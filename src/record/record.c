@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/record.h"
 #include "core/base/array.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/table/table_rows.h"
 #include "job/conditioning.h"
 #include "job/cost.h"

@@ -1,8 +1,8 @@
 /* Validation job: measured over predicted friction, and the required inputs.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/validation.h"
-#include "core/base/clocale.h"
 #include "core/base/param.h"
+#include "core/base/text.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "friction/sliding_contact.h"

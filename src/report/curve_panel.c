@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/curve_panel.h"
 
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 #include "report/report_files.h"
 
 #include <math.h>

@@ -2,8 +2,8 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/display_units.h"
-#include "core/base/clocale.h"
 #include "core/base/number.h"
+#include "core/base/text.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -64,10 +64,6 @@ void page_rows(page_writer *page);
 void page_section_rows(page_writer *page, page_section section);
 void page_results(page_writer *page);     /* result tables */
 void page_indentation(page_writer *page); /* conditions of indentation, rejected curves */
-void page_failures(page_writer *page);    /* failed files and stages */
-void page_inputs(page_writer *page);      /* inputs, notes */
-void page_cost(page_writer *page);
-void page_record(page_writer *page); /* case file, provenance */
 
 /* Writes a number in large type, or smaller without an interval, and bars of its interval and range
  * on one axis, where a line marks the neutral value unless it is NaN. `unit` replaces the unit of

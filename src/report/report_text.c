@@ -4,7 +4,7 @@
 #include "report/report_text.h"
 #include "core/base/array.h"
 #include "core/base/memory.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 #include "report/report_tables.h"
 
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* Collection of the results of cases by sample and condition, and their force against indentation.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/collect.h"
 #include "core/base/shared_params.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
+#include "study/compare.h"
 
 #include <math.h>
 #include <stdio.h>

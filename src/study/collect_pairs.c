@@ -1,10 +1,10 @@
 /* Differences between the modulus ratios of cases of one sample or condition, at the rates that
  * both have. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
-#include "study/collect.h"
+#include "study/compare.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,9 +3,9 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/compare.h"
-#include "core/base/clocale.h"
 #include "core/base/param.h"
 #include "core/base/shared_params.h"
+#include "core/base/text.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "dma/rubber.h"

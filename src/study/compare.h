@@ -4,10 +4,10 @@
 #ifndef WT_STUDY_COMPARE_H
 #define WT_STUDY_COMPARE_H
 
-#include "weartrack/study.h"
-
 #include "core/base/array.h"
 #include "core/table/registry.h"
+#include "core/table/result_value.h"
+#include "weartrack/study.h"
 
 extern const char *const compare_group_name[2];
 
@@ -129,7 +129,6 @@ typedef struct ratio_choices {
     double low, high;
     const char *widest, *remedy;
 } ratio_choices;
-ratio_choices compare_ratio_choices(const compare_pair *p, double ratio);
 
 /* Verdict on the difference between track and bulk, and how to decide it. */
 typedef struct compare_verdict {
@@ -157,5 +156,17 @@ wt_status compare_fitted_ratio(const wt_compare_job *job, const wt_job *work,
 
 wt_status compare_tabulate(compare_pair *p, const wt_compare_job *job, const wt_job *work,
                            wt_table **table, wt_error *err) WT_NODISCARD;
+
+/* Results of one case; the texts are borrowed from its result. */
+typedef struct collected_case {
+    const char *sample, *condition, *file;
+    const wt_result *result;
+    result_value_tables tables;
+    wt_log_ratio ratio; /* of the moduli; NaN if unknown */
+} collected_case;
+
+/* Creates the table "ratio_pairs"; NULL if no two cases share a sample or a condition. */
+wt_status collect_pairs(const collected_case *cases, size_t n, double margin, wt_table **table,
+                        wt_error *err) WT_NODISCARD;
 
 #endif

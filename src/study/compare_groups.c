@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/number.h"
-#include "core/math/splitmix64.h"
+#include "core/math/special.h"
 #include "core/table/registry.h"
 #include "indentation/indent.h"
 #include "study/compare.h"

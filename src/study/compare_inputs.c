@@ -5,7 +5,7 @@
 #include "indentation/law/tip.h"
 #include "study/compare.h"
 
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/math/students_t.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
 #include "weartrack/study.h"
 
 #include "core/base/array.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/table/table_rows.h"
 
 #include <math.h>

@@ -1,14 +1,13 @@
 /* Thickness of the layer that the curves of bulk and track allow, compared with that of the theory
  * or a stated one. The result includes the modulus against depth of bulk, track and such layers.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/clocale.h"
 #include "core/base/number.h"
+#include "core/base/text.h"
 #include "core/math/root.h"
 #include "core/math/students_t.h"
 #include "core/table/result_value.h"
 #include "core/table/table_rows.h"
 #include "indentation/indent.h"
-#include "indentation/law/contact_law.h"
 #include "indentation/law/tip.h"
 #include "study/compare.h"
 #include "weartrack/indentation.h"

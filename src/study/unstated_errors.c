@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/compare.h"
 
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/math/root.h"
 
 #include <math.h>

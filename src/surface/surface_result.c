@@ -3,9 +3,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/surface.h"
 
-#include "core/base/clocale.h"
 #include "core/base/number.h"
 #include "core/base/param.h"
+#include "core/base/text.h"
 #include "core/math/students_t.h"
 #include "core/table/registry.h"
 #include "surface/numerics/surface_analysis.h"

@@ -1,8 +1,8 @@
 /* Tables of measured surfaces. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/surface.h"
 
-#include "core/base/clocale.h"
 #include "core/base/param.h"
+#include "core/base/text.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "surface/numerics/surface_analysis.h"

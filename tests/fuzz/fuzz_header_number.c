@@ -1,7 +1,7 @@
 /* Fuzz target: any text as a value of a header. The number is finite and lies in the text, and
  * the warning is terminated.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "read/header_number.h"
+#include "read/header_values.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* Patterns, output files, digests, provenance. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
-#include "core/math/splitmix64.h"
+#include "core/math/special.h"
 #include "core/system/temporary.h"
 
 #include <dirent.h>

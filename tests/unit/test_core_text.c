@@ -1,7 +1,7 @@
 /* Errors, the parse log, numbers, paths. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 #include "core/base/spell_suggest.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 #include "weartrack/core.h"
 
 #include <float.h>

@@ -4,7 +4,7 @@
 #include "fitted_curve.h"
 
 #include "indentation/curve_tables.h"
-#include "indentation/law/contact_law.h"
+#include "indentation/law/tip.h"
 
 #include <stdio.h>
 #include <string.h>

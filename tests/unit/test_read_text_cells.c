@@ -4,7 +4,7 @@
 #include "reader_fixture.h"
 #include "table_cells.h"
 
-#include "read/header_number.h"
+#include "read/header_values.h"
 #include "read/text/text.h"
 
 #include <math.h>

@@ -2,8 +2,8 @@
  * GPL-3.0-or-later */
 #include "case/answer/format_number.h"
 
-#include "core/base/clocale.h"
 #include "core/base/number.h"
+#include "core/base/text.h"
 #include "weartrack/indentation.h"
 
 #include <math.h>

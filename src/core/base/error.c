@@ -1,6 +1,5 @@
 /* Implements the status codes and the error object. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/clocale.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 
 #include <stdarg.h>
 #include <string.h>

@@ -1,9 +1,8 @@
 /* Log of notes and warnings. Each text is stored once for a file, with a count.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
-#include "core/base/clocale.h"
 #include "core/base/memory.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 
 #include <search.h>
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 /* Parses and formats numbers independently of the locale. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "core/base/number.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,9 +1,9 @@
 /* Parses, checks and formats the parameters of an option structure. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "core/base/param.h"
-#include "core/base/clocale.h"
 #include "core/base/quantity.h"
 #include "core/base/spell_suggest.h"
+#include "core/base/text.h"
 
 #include <stdalign.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Parses quantities: an estimate with its stated error, or a list of values.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/clocale.h"
 #include "core/base/quantity.h"
+#include "core/base/text.h"
 
 #include <math.h>
 #include <stdlib.h>

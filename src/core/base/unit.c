@@ -1,11 +1,10 @@
 /* Converts units of files and of the command line to SI with UDUNITS-2. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "core/base/array.h"
-#include "core/base/clocale.h"
 #include "core/base/memory.h"
 #include "core/base/number.h"
 #include "core/base/quantity.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 
 #include <errno.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* DMA sweeps: memory, sorting, removal of duplicates and selection of a sample.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/data/sweep_points.h"
 
 #include <math.h>

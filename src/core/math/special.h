@@ -1,9 +1,10 @@
-/* Special functions, Chebyshev polynomials and a quadrature rule. Internal to the library.
+/* Special functions, Chebyshev polynomials, a quadrature rule and a hash. Internal to the library.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_SPECIAL_H
 #define WT_CORE_MATH_SPECIAL_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* Smallest number of points. Akima's curve does not oscillate next to a step. */
 enum { AKIMA_POINTS_MIN = 5 };
@@ -38,5 +39,15 @@ double chebyshev_tail(const double *coefficient, const double *value, size_t deg
  * z. The powers are summed twice as fast; their rounding error is about the sum of their
  * magnitudes. Returns the error due to rounding and truncation. */
 double chebyshev_to_monomials(double *coefficient, size_t *degree, double allowed);
+
+/* Hash of 64 bits for seeds (Steele, Lea, Flood, OOPSLA 2014). Neighbouring seeds and indices
+ * become unrelated. */
+static inline uint64_t splitmix64(uint64_t x)
+{
+    x += UINT64_C(0x9e3779b97f4a7c15);
+    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return x ^ (x >> 31);
+}
 
 #endif

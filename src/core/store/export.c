@@ -1,6 +1,6 @@
 /* Exports a table for other programs: text with separators, or JSON. A missing number is an empty
  * cell, or null. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 #include "core/table/registry.h"
 #include "core/table/table.h"
 

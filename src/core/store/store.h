@@ -4,7 +4,7 @@
 #define WT_CORE_STORE_STORE_H
 
 #include "core/store/hdf5_sandbox.h"
-#include "core/system/file_signatures.h"
+#include "core/system/temporary.h"
 #include "core/table/table.h"
 
 /* Version of the layout, in the root attribute "weartrack_format". Layout 3 differs from 5 by names

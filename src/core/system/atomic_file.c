@@ -1,6 +1,5 @@
 /* Output files that appear only when they are complete. SPDX-License-Identifier:
  * GPL-3.0-or-later */
-#include "core/system/file_signatures.h"
 #include "core/system/temporary.h"
 
 #include <errno.h>

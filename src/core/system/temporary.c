@@ -15,7 +15,7 @@
 /* The interface of OpenSSL 1.1 needs no memory and cannot fail. */
 #define OPENSSL_API_COMPAT 0x10100000L
 
-#include "core/math/splitmix64.h"
+#include "core/math/special.h"
 #include "core/system/temporary.h"
 
 #include <openssl/md5.h>

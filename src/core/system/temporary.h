@@ -1,10 +1,13 @@
-/* Temporary files and folders with the name ".weartrack-PROCESS-RANDOM". They are in the folder of
+/* Temporary files and folders, the signature of files of this program, and embedded files.
+ * Temporary files have the name ".weartrack-PROCESS-RANDOM". They are in the folder of
  * the final output, so that the next run can remove those of a killed run. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #ifndef WT_CORE_SYSTEM_TEMPORARY_H
 #define WT_CORE_SYSTEM_TEMPORARY_H
 
 #include "weartrack/core.h"
+
+#include <stddef.h>
 
 /* Returns the folder for files that are not part of an output: TMPDIR or /tmp; borrowed. */
 const char *temporary_directory(void);
@@ -34,5 +37,15 @@ wt_status digest_stream(digest_source *source, void *user, size_t length, char h
                         uint64_t *fingerprint, wt_error *err) WT_NODISCARD;
 /* Computes the MD5, which some file formats store to detect changes. */
 void digest_md5(const void *bytes, size_t length, char hex[33]);
+
+/* First attribute of the root of an HDF5 file of this program, within its first bytes. */
+#define STORE_FORMAT_ATTRIBUTE "weartrack_format"
+#define STORE_HEADER_SIZE ((size_t)4096) /* number of bytes that contain the attribute */
+
+typedef struct embedded_text {
+    const char *name; /* file name without its folder; NULL ends the list */
+    const char *text; /* followed by a terminating zero that `length` does not count */
+    size_t length;
+} embedded_text;
 
 #endif

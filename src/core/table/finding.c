@@ -1,6 +1,6 @@
 /* Computes the findings from the result values. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/finding.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/table/result_rows_parts.h"
 
 #include <ctype.h>

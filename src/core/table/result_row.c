@@ -1,7 +1,7 @@
 /* Collects the rows of a result. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/result_row.h"
 
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/table/finding.h"
 #include "core/table/result_rows_parts.h"
 

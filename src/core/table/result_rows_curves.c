@@ -1,6 +1,6 @@
 /* Rows of a result: force curves, their calibration and their comparison. SPDX-License-Identifier:
  * GPL-3.0-or-later */
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/table/result_rows_parts.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Adds rows to those of a result. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/result_rows_parts.h"
 #include "core/base/array.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/math/students_t.h"
 #include "core/table/result_row.h"
 #include "core/table/result_value.h"

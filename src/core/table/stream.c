@@ -2,7 +2,7 @@
  * edited by hand or by another program. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/number.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 #include "core/table/table.h"
 
 #include <errno.h>

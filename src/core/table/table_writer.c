@@ -1,6 +1,6 @@
 /* Writes tables according to their schemas. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/table_writer.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 
 #include <math.h>
 

@@ -7,7 +7,7 @@
 #include "dma/law/material.h"
 
 #include "core/base/array.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 
 #include <float.h>
 #include <stdlib.h>

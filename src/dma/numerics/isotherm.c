@@ -4,7 +4,7 @@
 #include "dma/numerics/isotherm.h"
 
 #include "core/base/array.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>

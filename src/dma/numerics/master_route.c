@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
-#include "core/base/clocale.h"
 #include "core/base/param.h"
+#include "core/base/text.h"
 #include "core/math/root.h"
 
 #include <math.h>

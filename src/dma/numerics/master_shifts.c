@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "core/math/students_t.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 
 #include "core/math/arena_gsl.h"
 #include "core/math/cholesky.h"
-#include "core/math/splitmix64.h"
+#include "core/math/special.h"
 #include "core/math/students_t.h"
 
 #include <gsl/gsl_blas.h>

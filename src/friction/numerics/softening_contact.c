@@ -8,7 +8,7 @@
 
 #include "core/base/param.h"
 #include "core/math/root.h"
-#include "surface/law/roughness.h"
+#include "weartrack/surface.h"
 
 #include <math.h>
 
@@ -69,7 +69,7 @@ static const double rounding_counts = 0.1;
 
 double softening_strain(const strain_law *s, double q)
 {
-    return s->factor * sqrt(2 * M_PI * roughness_moment(s->roughness, 3, q));
+    return s->factor * sqrt(2 * M_PI * wt_roughness_moment(s->roughness, 3, q));
 }
 
 /* Strain at q = q0 e^t. Near q0 a rounded q loses digits of t; the square of the strain is

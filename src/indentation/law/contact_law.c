@@ -16,7 +16,6 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "indentation/law/contact_law.h"
 #include "indentation/law/tip.h"
 
 #include <float.h>

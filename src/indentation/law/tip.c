@@ -5,9 +5,9 @@
  */
 #include "indentation/law/tip.h"
 
-#include "core/base/clocale.h"
 #include "core/base/quantity.h"
 #include "core/base/spell_suggest.h"
+#include "core/base/text.h"
 
 #include <float.h>
 #include <math.h>

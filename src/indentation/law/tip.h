@@ -63,4 +63,16 @@ bool tips_differ(const wt_tip *a, const wt_tip *b);
  * paraboloid and 0 for other tips. */
 double contact_switch_depth(const wt_tip *tip);
 
+/* ---- layer on a half-space ------------------------------------------------------------------- */
+
+/* Layer (E1, thickness h) bonded to a half-space (E2), both incompressible, under a rigid tip
+ * without friction. Range of the ratio of moduli within which the law is accurate to 2 %. */
+#define THIN_LAYER_MIN_RATIO 0.3
+#define THIN_LAYER_MAX_RATIO 3.0
+
+/* Apparent modulus of a homogeneous model over E1. ratio = E1/E2; x = contact radius of the
+ * homogeneous half-space at that depth over h. The error is below 2 % where thin_layer_is_valid. */
+double thin_layer_apparent_modulus(double ratio, double x);
+bool thin_layer_is_valid(double ratio, double x);
+
 #endif

@@ -4,8 +4,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "core/base/array.h"
-#include "core/base/clocale.h"
 #include "core/base/param.h"
+#include "core/base/text.h"
 #include "weartrack/indentation.h"
 
 #include <math.h>

@@ -4,8 +4,8 @@
  */
 #include "indentation/numerics/curve_fitting.h"
 
-#include "core/base/clocale.h"
 #include "core/base/number.h"
+#include "core/base/text.h"
 #include "core/math/students_t.h"
 #include "indentation/law/tip.h"
 

@@ -11,7 +11,7 @@
 #include "indentation/numerics/depth_pool.h"
 #include "core/math/special.h"
 #include "core/math/students_t.h"
-#include "indentation/law/contact_law.h"
+#include "indentation/law/tip.h"
 #include "indentation/numerics/curve.h"
 
 #include <gsl/gsl_blas.h>

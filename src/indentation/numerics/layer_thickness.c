@@ -12,7 +12,6 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "core/base/array.h"
-#include "indentation/law/contact_law.h"
 #include "indentation/law/tip.h"
 #include "indentation/numerics/depth_pool.h"
 #include "weartrack/indentation.h"

@@ -13,7 +13,6 @@
  */
 #include "core/base/array.h"
 #include "core/math/students_t.h"
-#include "indentation/law/contact_law.h"
 #include "indentation/law/tip.h"
 #include "indentation/numerics/depth_pool.h"
 

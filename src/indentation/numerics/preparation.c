@@ -6,7 +6,7 @@
 #include "indentation/numerics/curve.h"
 
 #include "core/base/array.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>

@@ -5,7 +5,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/bytes/zip.h"
 #include "core/base/memory.h"
-#include "core/math/splitmix64.h"
+#include "core/math/special.h"
 #include "read/bytes/bytes.h"
 
 #include <libdeflate.h>

@@ -7,7 +7,7 @@
 #define WT_READ_DESCRIPTION_H
 
 #include "core/base/array.h"
-#include "core/system/file_signatures.h"
+#include "core/system/temporary.h"
 #include "read/reader.h"
 
 #include <regex.h>

@@ -3,7 +3,7 @@
 #include "read/gwyddion/gwyddion.h"
 #include "core/base/array.h"
 #include "core/base/memory.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 #include "core/system/subprocess.h"
 #include "core/system/temporary.h"
 #include "read/bytes/bytes.h"

@@ -5,8 +5,8 @@
 #include "read/ibw/ibw.h"
 
 #include "core/table/registry.h"
+#include "read/header_values.h"
 #include "read/images.h"
-#include "read/metadata.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,9 +2,9 @@
 #include "read/ibw/ibw.h"
 
 #include "core/base/array.h"
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 #include "read/bytes/bytes.h"
-#include "read/header_number.h"
+#include "read/header_values.h"
 
 #include <math.h>
 #include <stdlib.h>

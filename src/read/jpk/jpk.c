@@ -3,7 +3,7 @@
 #include "read/jpk/jpk.h"
 #include "core/table/registry.h"
 #include "read/bytes/samples.h"
-#include "read/metadata.h"
+#include "read/header_values.h"
 
 #include <math.h>
 #include <stdlib.h>

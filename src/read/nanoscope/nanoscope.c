@@ -4,8 +4,8 @@
 #include "core/base/number.h"
 #include "core/table/registry.h"
 #include "read/bytes/bytes.h"
+#include "read/header_values.h"
 #include "read/images.h"
-#include "read/metadata.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Parses the text at the beginning of a NanoScope file. SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/header_number.h"
+#include "read/header_values.h"
 #include "read/nanoscope/nanoscope.h"
 
 #include <ctype.h>

@@ -4,7 +4,7 @@
 #include "core/base/number.h"
 #include "core/table/registry.h"
 #include "read/bytes/samples.h"
-#include "read/metadata.h"
+#include "read/header_values.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/number.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 #include "read/nid/nid.h"
 
 #include <math.h>

@@ -5,8 +5,8 @@
  * Values are read as stored; a formula has the value that was saved with it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
-#include "core/base/clocale.h"
 #include "core/base/memory.h"
+#include "core/base/text.h"
 #include "read/bytes/bytes.h"
 #include "read/packed/packed.h"
 

@@ -10,8 +10,8 @@
 #include "read/bytes/bytes.h"
 #include "read/bytes/samples.h"
 #include "read/force_assembler.h"
+#include "read/header_values.h"
 #include "read/images.h"
-#include "read/metadata.h"
 #include "read/reader.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 
 #include "core/base/array.h"
 #include "core/base/number.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 
 #include <math.h>
 #include <stdlib.h>

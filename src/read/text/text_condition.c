@@ -5,8 +5,8 @@
 #include "read/text/text_condition.h"
 
 #include "core/base/array.h"
-#include "core/base/clocale.h"
-#include "read/header_number.h"
+#include "core/base/text.h"
+#include "read/header_values.h"
 
 #include <ctype.h>
 #include <math.h>

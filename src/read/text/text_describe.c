@@ -1,13 +1,13 @@
 /* Describes a text export for `info`. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 
-#include "core/base/clocale.h"
 #include "core/base/number.h"
+#include "core/base/text.h"
 #include "read/force_assembler.h"
 
 #include "core/table/registry.h"
+#include "read/header_values.h"
 #include "read/images.h"
-#include "read/metadata.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -29,7 +29,7 @@ typedef struct text_source {
     size_t index;
 } text_source;
 
-static double header_number(const text_table *t, header_value value)
+static double stated_value(const text_table *t, header_value value)
 {
     return t->header.value[value];
 }
@@ -84,7 +84,7 @@ static double segment_duration(const text_table *t, wt_segment_kind kind, row_sp
 {
     const double n = (double)(rows.end - rows.first);
     const text_column *time = text_table_column(t, WT_Q_TIME, (int)kind);
-    const double stated = header_number(t, HEADER_DURATION);
+    const double stated = stated_value(t, HEADER_DURATION);
     if (!isnan(stated) || time == NULL || n < 2)
         return stated;
     return (text_table_value(t, rows.end - 1, time) - text_table_value(t, rows.first, time)) * n /
@@ -101,12 +101,12 @@ static wt_status add_segment(text_source *s, wt_force_curve *curve, wt_segment_k
         .kind = kind,
         .index = curve->n_segments,
         .place = place,
-        .velocity = header_number(t, HEADER_VELOCITY),
-        .setpoint = header_number(t, HEADER_SETPOINT),
+        .velocity = stated_value(t, HEADER_VELOCITY),
+        .setpoint = stated_value(t, HEADER_SETPOINT),
         .setpoint_quantity = WT_Q_FORCE,
         .cantilever = {.spring_constant =
-                           force_positive_or_nan(header_number(t, HEADER_SPRING_CONSTANT)),
-                       .sensitivity = force_positive_or_nan(header_number(t, HEADER_SENSITIVITY))}};
+                           force_positive_or_nan(stated_value(t, HEADER_SPRING_CONSTANT)),
+                       .sensitivity = force_positive_or_nan(stated_value(t, HEADER_SENSITIVITY))}};
     if (!force_is_segment_requested(&s->base, kind))
         return WT_OK;
     add_signals(s, t, kind, &metadata);
@@ -210,8 +210,8 @@ static wt_status text_force_next(wt_force_source *source, wt_force_curve *curve,
         return status;
     const text_table *t = &file->tables[s->next.table];
     const size_t block = t->blocks[s->next.first];
-    curve->x = header_number(t, HEADER_POSITION_X);
-    curve->y = header_number(t, HEADER_POSITION_Y);
+    curve->x = stated_value(t, HEADER_POSITION_X);
+    curve->y = stated_value(t, HEADER_POSITION_Y);
     while (s->next.table < file->n_tables) {
         t = &file->tables[s->next.table];
         row_span rows = s->next;

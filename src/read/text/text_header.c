@@ -4,8 +4,8 @@
  */
 #include "read/text/text_scanner.h"
 
-#include "core/base/utf8.h"
-#include "read/header_number.h"
+#include "core/base/text.h"
+#include "read/header_values.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "read/text/text.h"
 
 #include "core/base/memory.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -4,7 +4,7 @@
  */
 #include "read/text/text_sweep.h"
 
-#include "core/base/clocale.h"
+#include "core/base/text.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
  * The layout is that of the schema of the vendor and of the example of its own reader.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/memory.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 #include "core/system/sandbox.h"
 #include "read/bytes/input.h"
 #include "read/text/text.h"

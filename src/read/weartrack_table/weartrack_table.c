@@ -5,7 +5,7 @@
 #include "core/store/store.h"
 #include "core/table/registry.h"
 #include "read/bytes/input.h"
-#include "read/metadata.h"
+#include "read/header_values.h"
 #include "read/text/text.h"
 
 #include <stdlib.h>

@@ -5,7 +5,7 @@
  * lower right corner and have no unit: their range is the "Z Amplitude" of the header.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
-#include "core/base/utf8.h"
+#include "core/base/text.h"
 #include "read/bytes/samples.h"
 #include "read/description/description.h"
 #include "read/images.h"

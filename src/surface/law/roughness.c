@@ -1,6 +1,6 @@
 /* Roughness laws: moments, piecewise power laws (self-affine with a roll-off, log-log tables).
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "surface/law/roughness.h"
+#include "weartrack/surface.h"
 
 #include "core/base/param.h"
 #include "core/math/special.h"
@@ -193,7 +193,7 @@ static double segment_moment(const wt_roughness *roughness, int m, double from, 
     return sum;
 }
 
-double roughness_moment(const wt_roughness *roughness, int m, double q)
+double wt_roughness_moment(const wt_roughness *roughness, int m, double q)
 {
     if (roughness->law->moment != NULL)
         return roughness->law->moment(roughness, m, q);
@@ -211,10 +211,10 @@ double roughness_moment(const wt_roughness *roughness, int m, double q)
 
 double wt_roughness_rms_height(const wt_roughness *roughness)
 {
-    return sqrt(2 * M_PI * roughness_moment(roughness, 1, roughness->q1));
+    return sqrt(2 * M_PI * wt_roughness_moment(roughness, 1, roughness->q1));
 }
 
 double wt_roughness_rms_slope(const wt_roughness *roughness)
 {
-    return sqrt(2 * M_PI * roughness_moment(roughness, 3, roughness->q1));
+    return sqrt(2 * M_PI * wt_roughness_moment(roughness, 3, roughness->q1));
 }

@@ -7,7 +7,7 @@
 #include "core/math/root.h"
 #include "core/math/special.h"
 #include "core/math/students_t.h"
-#include "surface/law/roughness.h"
+#include "weartrack/surface.h"
 
 #include <float.h>
 #include <gsl/gsl_cdf.h>
@@ -299,7 +299,7 @@ typedef struct slope_search {
 static double slope_excess(double ln_q, void *user)
 {
     const slope_search *const s = user;
-    return 2 * M_PI * roughness_moment(s->roughness, 3, exp(ln_q)) - s->square;
+    return 2 * M_PI * wt_roughness_moment(s->roughness, 3, exp(ln_q)) - s->square;
 }
 
 double wt_roughness_slope_wavenumber(const wt_roughness *roughness, double slope)

@@ -1,10 +1,24 @@
-/* Checks, truncates and sanitizes UTF-8 text. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_CORE_BASE_UTF8_H
-#define WT_CORE_BASE_UTF8_H
+/* Text in the C locale, so that printf and strtod use a decimal point in any program, and checks of
+ * UTF-8. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CORE_BASE_TEXT_H
+#define WT_CORE_BASE_TEXT_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include "weartrack/core.h"
+
+#include <locale.h>
+#include <stdarg.h>
 #include <stdio.h>
+
+/* Switches the locale of the calling thread. Returns the argument for clocale_leave. Calls nest. */
+locale_t clocale_enter(void);
+void clocale_leave(locale_t previous);
+
+/* snprintf and vsnprintf in the C locale, for every text with a decimal fraction. */
+int clocale_print(char *buffer, size_t size, const char *format, ...) WT_PRINTF(3, 4);
+int clocale_vprint(char *buffer, size_t size, const char *format, va_list arguments)
+    WT_PRINTF(3, 0);
+/* Appends to a text; what does not fit is truncated. */
+void clocale_append(char *text, size_t size, const char *format, ...) WT_PRINTF(3, 4);
 
 /* Returns the length in bytes (1 to 4) of the well-formed character at `text`, 0 if there is none
  * within `length` bytes. Overlong forms and surrogates are not well-formed. */

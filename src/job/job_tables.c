@@ -1,7 +1,11 @@
-/* Reads tables of an earlier call as input. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tables of a job: those of an earlier call as input, and the notes of its log.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/job.h"
 
 #include "core/base/memory.h"
+#include "core/table/table_rows.h"
+#include "job/inputs.h"
+#include "weartrack/read.h"
 
 #include <string.h>
 
@@ -79,5 +83,55 @@ wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
                                   .format = store ? "weartrack-hdf5" : "weartrack-stream"},
             input, err);
     wt_input_close(input);
+    return status;
+}
+
+/* ---- notes of a log ---------------------------------------------------------------------------
+ */
+
+TABLE_ROW(notes, NOTES, const char *severity, *file; wt_log_entry entry;)
+
+wt_status wt_notes_table(const wt_log *log, const char *folder, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&notes_schema, err);
+    for (size_t i = 0; i < wt_log_count(log); i++) {
+        wt_log_entry entry = wt_log_get(log, i);
+        TABLE_ADD(notes, &t, wt_severity_name(entry.severity),
+                  flow_relative_path(folder, entry.file), entry);
+    }
+    return table_end(&t, table);
+}
+
+wt_severity wt_table_severity(const wt_table *table, size_t row)
+{
+    const long column = wt_table_find(table, "severity");
+    if (column < 0 || wt_table_column_kind(table, (size_t)column) != WT_COLUMN_TEXT)
+        return WT_NOTE;
+    return (wt_severity)closed_list_find(&severity_list, wt_table_text(table, row, (size_t)column));
+}
+
+TABLE_ROW(data_quality, DATA_QUALITY, const char *file, *action; double n_values;
+          wt_log_entry entry;)
+
+wt_status wt_data_quality_table(const wt_log *log, const char *folder, wt_table **table,
+                                wt_error *err)
+{
+    *table = NULL;
+    table_writer t = table_begin(&data_quality_schema, err);
+    size_t n = 0;
+    for (size_t i = 0; i < wt_log_count(log); i++) {
+        const wt_log_entry entry = wt_log_get(log, i);
+        if (entry.action == WT_ACTION_NONE)
+            continue;
+        n++;
+        TABLE_ADD(data_quality, &t, flow_relative_path(folder, entry.file),
+                  action_text(entry.action),
+                  entry.n_values > 0 ? (double)entry.n_values : (double)NAN, entry);
+    }
+    const wt_status status = table_end(&t, table);
+    if (n == 0) {
+        wt_table_free(*table);
+        *table = NULL;
+    }
     return status;
 }

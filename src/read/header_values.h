@@ -1,8 +1,10 @@
-/* Numbers in headers of files. A number that goes on behind its end ("1.234,5"), and two numbers
- * that differ, are named and not used. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_READ_HEADER_NUMBER_H
-#define WT_READ_HEADER_NUMBER_H
+/* Numbers in headers of files, and the table of metadata that a reader fills for `info`. A number
+ * that goes on behind its end ("1.234,5"), and two numbers that differ, are named and not used.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_READ_HEADER_VALUES_H
+#define WT_READ_HEADER_VALUES_H
 
+#include "core/table/table_writer.h"
 #include "weartrack/core.h"
 
 typedef enum header_number {
@@ -28,5 +30,15 @@ void header_number_warn(header_number found, const char *text, size_t length, co
                         const char *option, const char *file, const char *place, wt_log *log);
 /* Returns the option that states a value of the cantilever; NULL for another quantity. */
 const char *header_number_option(wt_quantity quantity);
+
+/* Table of metadata. The writer keeps the first failure. */
+/* Adds a row; the value is formatted as with printf. */
+void metadata_add(table_writer *metadata, const char *item, const char *unit, const char *source,
+                  const char *format, ...) WT_PRINTF(5, 6);
+/* Adds a row with the text of a key of the file, unless it is NULL or empty. */
+void metadata_add_text(table_writer *metadata, const char *item, const char *key, const char *text);
+/* Adds a row with a number; NaN is written as "unknown". */
+void metadata_add_number(table_writer *metadata, const char *item, double value, const char *unit,
+                         const char *source);
 
 #endif
