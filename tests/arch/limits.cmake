@@ -1,4 +1,5 @@
-# A named numerical constant has a comment with its reason in its line, above it, or above its group of
+# Files have up to 600 lines, headers 25 or more, and there are up to 360 sources: a smaller file joins its
+# neighbour. A named numerical constant has a comment with its reason in its line, above it, or above its group of
 # declarations. Readers assess the reason.
 # Run: cmake -DSOURCE=<project folder> -P limits.cmake
 # With -DPLANTED=ON a number without one is added, which must be found.
@@ -57,7 +58,27 @@ foreach(folder IN ITEMS core/math job indentation dma surface friction layer rec
     look(${file} "${text}")
   endforeach()
 endforeach()
+set(sizes "")
+set(n_sources 0)
+function(look_at_size name lines)
+  if(lines GREATER 600 OR (name MATCHES "[.]h$" AND lines LESS 25))
+    string(APPEND sizes "  ${name}: ${lines} lines\n")
+  endif()
+  set(sizes "${sizes}" PARENT_SCOPE)
+endfunction()
+file(GLOB_RECURSE files RELATIVE ${SOURCE}/src ${SOURCE}/src/*.c ${SOURCE}/src/*.h)
+foreach(file IN LISTS files)
+  file(READ ${SOURCE}/src/${file} text)
+  string(REGEX REPLACE "[^\n]" "" ends "${text}")
+  string(LENGTH "${ends}" lines)
+  look_at_size(${file} ${lines})
+  if(file MATCHES "[.]c$")
+    math(EXPR n_sources "${n_sources} + 1")
+  endif()
+endforeach()
 if(PLANTED)
+  look_at_size(planted.h 24)
+  look_at_size(planted_long.c 601)
   look(planted.c "int x;\n\nstatic const double magic = 0.37;\n")
 endif()
 if(n LESS 200)
@@ -65,4 +86,7 @@ if(n LESS 200)
 endif()
 if(NOT without STREQUAL "")
   message(SEND_ERROR "named numbers without a reason beside them:\n${without}")
+endif()
+if(NOT sizes STREQUAL "" OR n_sources GREATER 360)
+  message(SEND_ERROR "${n_sources} sources; too long or too small:\n${sizes}")
 endif()
