@@ -109,13 +109,6 @@ static size_t map_width(const table_view *t, size_t row, size_t end)
     return (end - row) % nx == 0 ? nx : 0;
 }
 
-/* Rounds a height to a thousandth of the largest one. A colour scale does not show more. */
-static double round_height(double height, double largest)
-{
-    const double step = largest > 0 ? pow(10, floor(log10(largest)) - 3) : 1;
-    return rint(height / step) * step; /* DATA_DIGITS of the data removes further decimals */
-}
-
 /* Loads a map as a matrix of heights, one row for each row of the map. It needs a third of the
  * space of three numbers for each point. */
 static void load_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
@@ -134,8 +127,11 @@ static void load_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
     char(*words)[NAME] = wt_alloc(nx, sizeof *words);
     const char **names = wt_alloc(nx + 1, sizeof *names), **units = wt_alloc(nx + 1, sizeof *units);
     const double largest = fmax(fabs(to->height.low), fabs(to->height.high));
+    /* A colour scale shows a thousandth of the largest height. DATA_DIGITS of the data removes
+     * further decimals. */
+    const double step = largest > 0 ? pow(10, floor(log10(largest)) - 3) : 1;
     for (size_t i = row; i < end; i++)
-        heights[i - row] = round_height(height_map_get(t, i, HEIGHT_MAP_HEIGHT), largest);
+        heights[i - row] = rint(height_map_get(t, i, HEIGHT_MAP_HEIGHT) / step) * step;
     for (size_t i = 0; i < nx; i++) {
         (void)snprintf(words[i], NAME, "h%zu", i + 1);
         names[i] = words[i];

@@ -319,7 +319,7 @@ static double newton_edge(const damage *d, double depth)
 /* Thickness for the profile `persson`: a single edge that only moves deeper. */
 static void persson_thickness(damage *d, double error, double earlier, wt_estimate *thickness)
 {
-    const bool none = damage_excess(0, d) < 0;
+    const bool none = !(earlier > 0) && damage_excess(0, d) < 0;
     if (d->rates->skip_numerical_errors)
         thickness->numerical_error = (double)NAN;
     if (none && d->rates->skip_numerical_errors)
