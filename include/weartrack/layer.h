@@ -52,8 +52,9 @@ typedef struct wt_layer_parameters {
     double start_thickness;    /* [m] */
     double duty;               /* share of the time in contact, (0, 1]; default 1 */
     bool incubation; /* damage transport (exact, with incubation) instead of the rate balance */
-    bool skip_numerical_errors; /* skips numerical errors that cost more than the number itself
-                                   (NaN); a thickness in time is then good to 1e-7 */
+    bool skip_numerical_errors; /* skips numerical errors that cost more than the number itself, and
+                                   the formation rate of a history (NaN); a thickness in time is
+                                   then good to 1e-7 */
     bool balance_only;          /* skips the incubation time of a steady state (NaN) */
 } wt_layer_parameters;
 WT_API wt_layer_parameters wt_layer_defaults(void);

@@ -107,32 +107,37 @@ static void write_margin(figure_drawing *d, const char *axis, double low, double
         text_format(&d->script, "set lmargin %d\n", width + LABEL_MARGIN);
 }
 
+linear_axis axis_choose_linear(const figure_drawing *d, const schema_field *column, value_span span)
+{
+    linear_axis a = {.unit = select_display_unit(column->quantity, schema_unit(column),
+                                                 fmax(fabs(span.low), fabs(span.high)) / 2)};
+    a.low = to_display_value(&a.unit, span.low), a.high = to_display_value(&a.unit, span.high);
+    const double size = fmax(fabs(a.high), fabs(a.low));
+    if (!(a.high - a.low > fmax(1e-12 * size, 1e-100))) { // a single value: a range around it
+        const double half = size > 1e-100 ? size / 2 : 1;
+        a.low -= half;
+        a.high += half;
+    }
+    a.step = column->quantity == WT_Q_ANGLE
+                 ? angle_tic_step(a.high - a.low)
+                 : tic_step(a.high - a.low, d->narrow ? FEW_PARTS : PARTS);
+    // If the data end at zero, the axis ends there, too.
+    const double margin = 0.04 * (a.high - a.low);
+    a.low = a.low == 0 ? 0 : a.low - margin;
+    a.high = a.high == 0 ? 0 : a.high + margin;
+    return a;
+}
+
 void axis_linear(figure_drawing *d, const char *axis, const char *label, const schema_field *column,
                  value_span span)
 {
-    const char *unit = schema_unit(column);
-    display_unit lab =
-        select_display_unit(column->quantity, unit, fmax(fabs(span.low), fabs(span.high)) / 2);
-    double low = to_display_value(&lab, span.low), high = to_display_value(&lab, span.high);
-    double size = fmax(fabs(high), fabs(low));
-    if (!(high - low > fmax(1e-12 * size, 1e-100))) { // a single value: a range around it
-        double half = size > 1e-100 ? size / 2 : 1;
-        low -= half;
-        high += half;
-    }
-    double step = column->quantity == WT_Q_ANGLE
-                      ? angle_tic_step(high - low)
-                      : tic_step(high - low, d->narrow ? FEW_PARTS : PARTS),
-           margin = 0.04 * (high - low);
-    // If the data end at zero, the axis ends there, too.
-    low = low == 0 ? 0 : low - margin;
-    high = high == 0 ? 0 : high + margin;
-    write_unit(d, axis, unit, &lab);
-    write_label(d, axis, label, &lab);
+    const linear_axis a = axis_choose_linear(d, column, span);
+    write_unit(d, axis, schema_unit(column), &a.unit);
+    write_label(d, axis, label, &a.unit);
     text_format(&d->script, "unset logscale %s\n", axis);
-    write_range(d, axis, low, high);
-    text_format(&d->script, "set %stics %s\nset format %s '%%g'\n", axis, LITERAL(step), axis);
-    write_margin(d, axis, low, high, step);
+    write_range(d, axis, a.low, a.high);
+    text_format(&d->script, "set %stics %s\nset format %s '%%g'\n", axis, LITERAL(a.step), axis);
+    write_margin(d, axis, a.low, a.high, a.step);
 }
 
 /* True for decades whose tic labels need a power of ten. */

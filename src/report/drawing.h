@@ -136,6 +136,13 @@ void span_add_column(value_span *span, const table_view *table, unsigned column,
 void span_add_section(value_span *span, const figure_drawing *d, int section, size_t place,
                       bool positive_only);
 
+/* Unit, range and step of the tics of a linear axis; the numbers are in the unit. */
+typedef struct linear_axis {
+    display_unit unit;
+    double low, high, step;
+} linear_axis;
+linear_axis axis_choose_linear(const figure_drawing *d, const schema_field *column,
+                               value_span span);
 /* Writes label, range and tics of axis "x", "y" or "cb" and defines its factor, such as x_unit =
  * 1e9 (and x_offset for temperatures). The span is in the SI unit of the column and not empty. The
  * unit is appended to `label`. */

@@ -364,6 +364,8 @@ static size_t append_shortened(text_buffer *page, const char *s, size_t n, bool 
     static const char default_attributes[] = " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"",
                       group[] = " fill=\"none\" color=\"black\" stroke=\"currentColor\"";
     unsigned colour[3];
+    if (strchr("<\t xr", *s) == NULL) /* none of what follows begins otherwise */
+        return 0;
     const size_t empty = empty_group_length(s, n), title = prefix_length(s, n, "<title>"),
                  description = prefix_length(s, n, "<desc>");
     if (empty > 0)
@@ -437,7 +439,8 @@ bool svg_append_inline(text_buffer *page, const char *svg, size_t length, const 
         }
         size_t word = 0;
         in_tag = *s == '<' || (in_tag && *s != '>'); // text between tags is not changed
-        for (size_t i = 0; in_tag && i < COUNT_OF(references) && word == 0; i++)
+        for (size_t i = 0;
+             in_tag && strchr(" hu", *s) != NULL && i < COUNT_OF(references) && word == 0; i++)
             word = prefix_length(s, left, references[i]);
         text_bytes(page, s, word > 0 ? word : 1);
         const bool is_symbol = prefix_length(s + word, left - word, "gp") > 0;

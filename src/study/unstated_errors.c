@@ -92,25 +92,40 @@ static double contact_force(const wt_tip *tip, double depth)
     return g;
 }
 
+/* Fit of a curve with a worn tip, and the effect on ln(modulus) that is looked for. */
+typedef struct wear_search {
+    const wt_tip *tip;
+    const pressed_curve *at;
+    double effect;
+    wt_tip_wear fit;
+    wt_status status;
+    wt_error *err;
+} wear_search;
+
+static double wear_excess(double radius, void *user)
+{
+    wear_search *s = user;
+    if (s->status == WT_OK)
+        s->status = wt_tip_wear_fit(s->tip, radius, s->at->depth, s->at->bending, &s->fit, s->err);
+    return s->fit.log_modulus - s->effect;
+}
+
+/* Share of the radius to which it is found: far more than the text shows. */
+static const double radius_share = 1e-7;
+
 /* Finds the radius that increases the modulus by exp(effect), and its lack of fit. Infinity if ten
  * times the largest worn radius does not suffice. */
 static wt_status required_radius(const wt_tip *tip, const pressed_curve *at, double effect,
                                  double *radius, double *misfit, wt_error *err)
 {
-    double low = tip->radius, high = 10 * worn_radius;
-    wt_tip_wear fit = {0};
-    wt_status status = wt_tip_wear_fit(tip, high, at->depth, at->bending, &fit, err);
-    *radius = (double)INFINITY;
-    *misfit = fit.misfit;
-    if (status != WT_OK || !(fit.log_modulus > effect))
-        return status;
-    for (int i = 0; status == WT_OK && i < 30; i++) { /* to 1e-9 of the bracket */
-        *radius = 0.5 * (low + high);
-        status = wt_tip_wear_fit(tip, *radius, at->depth, at->bending, &fit, err);
-        *(fit.log_modulus > effect ? &high : &low) = *radius;
-    }
-    *misfit = fit.misfit;
-    return status;
+    wear_search s = {.tip = tip, .at = at, .effect = effect, .err = err};
+    const double high = 10 * worn_radius;
+    wt_status status = WT_OK;
+    *radius = wear_excess(high, &s) > 0 ? tip->radius : (double)INFINITY;
+    if (s.status == WT_OK && *radius < high && wear_excess(*radius, &s) < 0)
+        status = root_find(wear_excess, &s, *radius, high, radius_share * *radius, radius, err);
+    *misfit = s.fit.misfit;
+    return s.status != WT_OK ? s.status : status;
 }
 
 /* p values of tip wear in each group, which only the lack of fit shows: relative to the other
@@ -166,9 +181,10 @@ static wt_status add_tip_cause(const compare_pair *p, const wt_compare_job *job,
         return WT_OK;
     wt_status status = required_radius(
         &tip, &at, within ? u->smallest_to_explain : fabs(u->log_ratio), &needed, &misfit, err);
-    if (status == WT_OK)
-        status = required_radius(&tip, &at, u->smallest_to_explain, &least, &ignored, err);
     if (status != WT_OK || isinf(needed))
+        return status;
+    status = required_radius(&tip, &at, u->smallest_to_explain, &least, &ignored, err);
+    if (status != WT_OK)
         return status;
     const double largest = largest_radius(d, job, &tip);
     const bool plausible = least <= largest && shows_wear(d, job, misfit, chance[worn]);

@@ -83,12 +83,12 @@ static void draw_scale_bar(figure_drawing *d, double width)
     const double decade = pow(10, floor(log10(width / 3))), times = width / 3 / decade;
     const double bar = decade * (times >= 5 ? 5 : times >= 2 ? 2 : 1);
     text_format(&d->script,
-                "set arrow 1 from first 0, graph -0.06 to first %s*x_unit, graph -0.06 nohead lw 3 "
+                "set arrow 1 from first 0, graph -0.06 to first %s/step_x, graph -0.06 nohead lw 3 "
                 "front\nset label 1 ",
                 LITERAL(bar));
     text_quoted(&d->script, VALUE(WT_Q_LENGTH, NULL, bar));
     text_format(&d->script,
-                " at first %s*x_unit, graph -0.06 offset char 1,0 left noenhanced front\n",
+                " at first %s/step_x, graph -0.06 offset char 1,0 left noenhanced front\n",
                 LITERAL(bar));
 }
 
@@ -109,13 +109,6 @@ static size_t map_width(const table_view *t, size_t row, size_t end)
     return (end - row) % nx == 0 ? nx : 0;
 }
 
-/* Rounds a height to a thousandth of the largest one. A colour scale does not show more. */
-static double round_height(double height, double largest)
-{
-    const double step = largest > 0 ? pow(10, floor(log10(largest)) - 3) : 1;
-    return rint(height / step) * step; /* DATA_DIGITS of the data removes further decimals */
-}
-
 /* Loads a map as a matrix of heights, one row for each row of the map. It needs a third of the
  * space of three numbers for each point. */
 static void load_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
@@ -134,8 +127,11 @@ static void load_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
     char(*words)[NAME] = wt_alloc(nx, sizeof *words);
     const char **names = wt_alloc(nx + 1, sizeof *names), **units = wt_alloc(nx + 1, sizeof *units);
     const double largest = fmax(fabs(to->height.low), fabs(to->height.high));
+    /* A colour scale shows a thousandth of the largest height. DATA_DIGITS of the data removes
+     * further decimals. */
+    const double step = largest > 0 ? pow(10, floor(log10(largest)) - 3) : 1;
     for (size_t i = row; i < end; i++)
-        heights[i - row] = round_height(height_map_get(t, i, HEIGHT_MAP_HEIGHT), largest);
+        heights[i - row] = rint(height_map_get(t, i, HEIGHT_MAP_HEIGHT) / step) * step;
     for (size_t i = 0; i < nx; i++) {
         (void)snprintf(words[i], NAME, "h%zu", i + 1);
         names[i] = words[i];
@@ -144,7 +140,7 @@ static void load_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
     to->step_x = (to->x.high - to->x.low) / (double)(nx > 1 ? nx - 1 : 1);
     to->step_y =
         (to->y.high - to->y.low) / (double)((end - row) / nx > 1 ? (end - row) / nx - 1 : 1);
-    if (!span_is_empty(&to->height))
+    if (!span_is_empty(&to->height) && to->step_x > 0 && to->step_y > 0)
         to->section = drawing_number_section(d, to->name, names, units, heights, (end - row) / nx);
     free(heights);
     free(words);
@@ -155,23 +151,25 @@ static void load_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
 static void draw_height_map(figure_drawing *d, const drawn_scan *s)
 {
     const schema_field *field = height_map_schema.columns;
-    axis_linear(d, "x", "x", &field[HEIGHT_MAP_X], s->x);
-    axis_linear(d, "y", "y", &field[HEIGHT_MAP_Y], s->y);
     axis_linear(d, "cb", "Height", &field[HEIGHT_MAP_HEIGHT], s->height);
-    /* the bar replaces the tics */
+    /* The axes count columns, rows and metres: an expression for each point would take five times
+     * as long as the drawing. The tics have the unit, and the bar replaces those of a length. */
+    const linear_axis h = axis_choose_linear(d, &field[HEIGHT_MAP_HEIGHT], s->height);
     text_format(&d->script,
-                "set xrange [%s*x_unit:%s*x_unit]\nset yrange [%s*y_unit:%s*y_unit]\n"
-                "unset xtics\nunset ytics\nset xlabel ''\nset ylabel ''\n",
-                LITERAL(s->x.low), LITERAL(s->x.high), LITERAL(s->y.low), LITERAL(s->y.high));
-    text_format(&d->script, "step_x = %s; step_y = %s  # m, of the columns and rows of the data\n",
-                LITERAL(s->step_x), LITERAL(s->step_y));
+                "set cbrange [%s/cb_unit:%s/cb_unit]\nset cbtics ()\n"
+                "set for [i=%.0f:%.0f] cbtics add (sprintf('%%g', %s*i) %s*i/cb_unit)\n",
+                LITERAL(h.low), LITERAL(h.high), ceil(h.low / h.step), floor(h.high / h.step),
+                LITERAL(h.step), LITERAL(h.step));
+    text_format(&d->script,
+                "step_x = %s; step_y = %s  # m, of the columns and rows of the data\n"
+                "set size ratio -step_y/step_x\n"
+                "set xrange [0:%s/step_x]\nset yrange [0:%s/step_y]\n",
+                LITERAL(s->step_x), LITERAL(s->step_y), LITERAL(s->x.high - s->x.low),
+                LITERAL(s->y.high - s->y.low));
     draw_scale_bar(d, s->x.high - s->x.low);
     plot_heading(d, s->name);
-    plot_expression(
-        d,
-        "'%s.tsv' index %d matrix using (($1*step_x+%s)*x_unit):(($2*step_y+%s)*y_unit):"
-        "($3*cb_unit) with image notitle",
-        d->figure->name, s->section, LITERAL(s->x.low), LITERAL(s->y.low));
+    plot_expression(d, "'%s.tsv' index %d matrix using 1:2:3 with image notitle", d->figure->name,
+                    s->section);
     plot_end(d);
 }
 
@@ -182,7 +180,7 @@ static void draw_height_maps(figure_drawing *d)
     if (n == 0)
         return;
     begin_scan_panels(d, n, 1);
-    text_add(&d->script, "set size ratio -1\nset bmargin 2.2\nunset key\n");
+    text_add(&d->script, "set bmargin 2.2\nunset key\nunset xtics\nunset ytics\n");
     for (size_t i = 0; i < n; i++)
         draw_height_map(d, &scans[i]);
     text_add(&d->script, "unset multiplot\n");

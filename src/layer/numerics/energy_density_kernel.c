@@ -198,6 +198,7 @@ typedef struct batch {
 } batch;
 
 /* Fills a batch, beginning with a wavenumber. */
+WIDE_REGISTERS
 static void batch_fill(const wt_energy_source *source, size_t from, double q_min, batch *b)
 {
     double x[BATCH];
@@ -314,6 +315,17 @@ static double scaled_sum(const wt_energy_source *source, shape_fn *of, double de
             sum += b.power[i] * value[i];
     }
     return sum;
+}
+
+void energy_surface_terms(const wt_energy_source *source, double length, double *power)
+{
+    batch b = {.length = length};
+    for (size_t from = 0; from < source->n; from += BATCH) {
+        batch_fill(source, from, 0, &b);
+        (length > 0 ? integral_shape : energy_shape)(source, &b, power + from);
+        for (size_t i = 0; i < b.n; i++)
+            power[from + i] *= b.power[i];
+    }
 }
 
 /* Below this sum the powers are scaled by the slowest decay. It is far above 1e-308, where doubles

@@ -28,6 +28,9 @@ double energy_log_integral(const wt_energy_source *source, double depth, double 
 enum { ENERGY_PROFILE_VALUES = 4 };
 void energy_log_profiles(const wt_energy_source *source, double depth,
                          double logarithm[ENERGY_PROFILE_VALUES]);
+/* Computes for the profile `persson` the powers [n] of a source whose tail at z is int_z^(z+length)
+ * w, or w itself for length 0. */
+void energy_surface_terms(const wt_energy_source *source, double length, double *power);
 /* Returns the smallest and the largest wavenumber with power; false if there is none. */
 bool energy_wavenumber_range(const wt_energy_source *source, double *q_min, double *q_max);
 /* Returns true if w falls with depth for any set of wavenumbers. */

@@ -451,7 +451,9 @@ wt_status wt_layer_history(const wt_energy_source *source, const wt_layer_parame
     free(order);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         points[i].time = time[i];
-        points[i].formation_rate = layer_formation_rate(&rates, points[i].thickness.value);
+        points[i].formation_rate = rates.skip_numerical_errors
+                                       ? (double)NAN
+                                       : layer_formation_rate(&rates, points[i].thickness.value);
         points[i].wear_rate = rates.wear;
     }
     return status;

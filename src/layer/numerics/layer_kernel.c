@@ -11,6 +11,7 @@
 #include <float.h>
 #include <gsl/gsl_integration.h>
 #include <math.h>
+#include <stdlib.h>
 
 wt_layer_parameters wt_layer_defaults(void)
 {
@@ -291,44 +292,46 @@ static wt_status edge_error(damage *d, double edge, double most, double error, d
     return status;
 }
 
-/* A draw has many times, between which the edge moves little, and needs fewer digits. */
-static const double drawn_step = 0.02, drawn_tolerance = 1e-9;
+/* Relative length of the last Newton step. The error left is its square in a draw, which is far
+ * below 1e-7; other numbers have no digits beyond it. */
+static const double drawn_step = 1e-5, last_step = 2 * DBL_EPSILON;
 
-/* Thickness for a profile that falls with depth: a single edge that only moves deeper. */
-static wt_status monotonic_thickness(damage *d, double error, double earlier,
-                                     wt_estimate *thickness, wt_error *err)
+/* Returns the edge at or below `depth` for the profile `persson`. ln D is convex there, so that the
+ * steps of Newton's method rise to the edge and do not pass it. */
+static double newton_edge(const damage *d, double depth)
 {
-    const bool none = damage_excess(0, d) < 0;
+    wt_energy_source terms = *d->rates->source;
+    terms.power = wt_alloc(terms.n, sizeof *terms.power);
+    energy_surface_terms(d->rates->source, d->worn_depth, terms.power);
+    const double close = d->rates->skip_numerical_errors ? drawn_step : last_step;
+    double step = (double)INFINITY;
+    while (step > close * depth) {
+        double logarithm[ENERGY_PROFILE_VALUES]; /* of the tail, which is D, and of its slope */
+        energy_log_profiles(&terms, depth, logarithm);
+        step =
+            fmax(0, logarithm[0] + damage_scale(d) - d->level) * exp(logarithm[0] - logarithm[1]);
+        depth += step;
+    }
+    free(terms.power);
+    return depth;
+}
+
+/* Thickness for the profile `persson`: a single edge that only moves deeper. */
+static void persson_thickness(damage *d, double error, double earlier, wt_estimate *thickness)
+{
+    const bool none = !(earlier > 0) && damage_excess(0, d) < 0;
     if (d->rates->skip_numerical_errors)
         thickness->numerical_error = (double)NAN;
     if (none && d->rates->skip_numerical_errors)
-        return WT_OK;
+        return;
     if (none) /* a layer may exist within the error */
         d->level = -error;
     if (none && damage_excess(0, d) < 0)
-        return WT_OK;
-    const bool drawn = d->rates->skip_numerical_errors;
-    double edge = earlier,
-           step = earlier > 0 ? (drawn ? drawn_step : 0.1) * earlier : 1 / d->rates->q_max;
-    depth_interval s = {earlier, earlier};
-    do {
-        s.low = s.high;
-        s.high += step;
-        step *= 2;
-    } while (damage_excess(s.high, d) >= 0);
-    if (damage_excess(s.low, d) > 0) { /* otherwise the edge is there up to rounding */
-        const wt_status status = root_find(damage_excess, d, s.low, s.high,
-                                           drawn ? drawn_tolerance * s.high : 0, &edge, err);
-        if (status != WT_OK)
-            return status;
-    }
-    if (none) {
-        thickness->numerical_error = edge;
-        return WT_OK;
-    }
-    thickness->value = edge;
-    if (d->rates->skip_numerical_errors)
-        return WT_OK;
+        return;
+    const double edge = newton_edge(d, earlier);
+    *(none ? &thickness->numerical_error : &thickness->value) = edge;
+    if (none || d->rates->skip_numerical_errors)
+        return;
     const double lost = exp(energy_log_density(d->rates->source, edge)) -
                         exp(energy_log_density(d->rates->source, edge + d->worn_depth));
     const double reach =
@@ -336,7 +339,6 @@ static wt_status monotonic_thickness(damage *d, double error, double earlier,
     thickness->numerical_error = root_displacement(
         damage_excess, d, edge, error, fmax(2 * DBL_EPSILON * edge, isfinite(reach) ? reach : 0),
         error / d->rates->q_max);
-    return WT_OK;
 }
 
 wt_status layer_damage_depth(const layer_rates *rates, double time, double earlier,
@@ -348,8 +350,10 @@ wt_status layer_damage_depth(const layer_rates *rates, double time, double earli
         return WT_OK;
     const double error = damage_error(rates);
     damage_set_time(&d, time);
-    if (energy_is_monotonic(rates->source))
-        return monotonic_thickness(&d, error, earlier, thickness, err);
+    if (rates->source->profile == WT_PROFILE_PERSSON) {
+        persson_thickness(&d, error, earlier, thickness);
+        return WT_OK;
+    }
     d.level = -error;
     double end = fmax(energy_monotonic_depth(rates->source), 1 / rates->q_min);
     while (damage_excess(end, &d) >= 0)
