@@ -310,22 +310,7 @@ static wt_tip shifted_tip(const wt_tip *tip, wt_systematic_source source, double
     return shifted;
 }
 
-/* Creates the contact tables of the shifted tips. A step beyond 90 degrees is halved. */
-static wt_status create_shifted_tables(const wt_tip *tip, wt_systematic_source source,
-                                       calibration_errors *to, wt_error *err)
-{
-    wt_status status = WT_OK;
-    if (source == WT_SYSTEMATIC_HALF_ANGLE)
-        while (tip->half_angle * exp(to->step[source]) >= M_PI_2)
-            to->step[source] /= 2;
-    for (int side = 0; status == WT_OK && side < 2; side++) {
-        const wt_tip shifted = shifted_tip(tip, source, exp((2 * side - 1) * to->step[source]));
-        status = indent_contact_table(&shifted, &to->tip[source][side], err);
-    }
-    return status;
-}
-
-wt_status calibration_errors_begin(const wt_indent_job *job, calibration_errors *to, wt_error *err)
+void calibration_errors_begin(const wt_indent_job *job, calibration_errors *to)
 {
     const wt_tip *tip = &job->tip;
     const wt_estimate k = job->spring_constant, s = job->sensitivity;
@@ -353,11 +338,8 @@ wt_status calibration_errors_begin(const wt_indent_job *job, calibration_errors 
         to->step[WT_SYSTEMATIC_HALF_ANGLE] = 0;
     if (!(tip->radius > 0))
         to->step[WT_SYSTEMATIC_RADIUS] = 0;
-    wt_status status = WT_OK;
-    for (int i = WT_SYSTEMATIC_HALF_ANGLE; i <= WT_SYSTEMATIC_RADIUS; i++)
-        if (status == WT_OK && to->step[i] > 0)
-            status = create_shifted_tables(tip, (wt_systematic_source)i, to, err);
-    return status;
+    while (tip->half_angle * exp(to->step[WT_SYSTEMATIC_HALF_ANGLE]) >= M_PI_2)
+        to->step[WT_SYSTEMATIC_HALF_ANGLE] /= 2;
 }
 
 static void clear_common_curve(common_curve *curve)
@@ -425,6 +407,7 @@ void calibration_errors_store(calibration_errors *to, const wt_force_curve *curv
             return;
     }
     common_curve *stored = &to->curve[to->n++];
+    to->deepest = fmax(to->deepest, fit->max_indentation);
     *stored = (common_curve){.spring_constant = curve->cantilever.spring_constant,
                              .sensitivity_gain = fit->sensitivity_gain,
                              .contact = contact,
@@ -436,6 +419,26 @@ void calibration_errors_store(calibration_errors *to, const wt_force_curve *curv
 }
 
 /* ---- fits ------------------------------------------------------------------------------------ */
+
+/* A trial of a fit with a shifted source is not deeper than this, over the deepest indentation. A
+ * depth beyond the table costs time, but is no error. */
+static const double depth_reserve = 4;
+/* Least depth of a table [m], below the noise of an AFM. */
+static const double least_depth = 1e-11;
+
+/* Creates the contact tables of the shifted tips, for the depths of the stored curves. */
+static wt_status create_shifted_tables(calibration_errors *to, const wt_tip *tip, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (int i = WT_SYSTEMATIC_HALF_ANGLE; i <= WT_SYSTEMATIC_RADIUS; i++)
+        for (int side = 0; status == WT_OK && to->step[i] > 0 && side < 2; side++) {
+            const wt_tip shifted =
+                shifted_tip(tip, (wt_systematic_source)i, exp((2 * side - 1) * to->step[i]));
+            status = wt_contact_table_new(&shifted, least_depth, depth_reserve * to->deepest,
+                                          &to->tip[i][side], err);
+        }
+    return status;
+}
 
 typedef struct refit {
     calibration_errors *to;
@@ -514,21 +517,21 @@ static wt_status measure_source_gain(void *user, size_t item, unsigned worker)
     return WT_OK;
 }
 
-wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options *options,
-                                 unsigned threads, wt_indent_workspace *const *workspaces,
-                                 wt_error *err)
+wt_status calibration_errors_fit(calibration_errors *to, const wt_tip *tip,
+                                 const wt_indent_options *options, unsigned threads,
+                                 wt_indent_workspace *const *workspaces, wt_error *err)
 {
     const size_t n = to->n * WT_SYSTEMATIC_SOURCES;
     refit f = {.to = to, .options = options, .workspaces = workspaces};
-    if (n == 0)
-        return WT_OK;
+    wt_status status = n > 0 ? create_shifted_tables(to, tip, err) : WT_OK;
+    if (n == 0 || status != WT_OK)
+        return status;
     for (size_t i = 0; i < to->n; i++)
         if (f.capacity < to->curve[i].branch[0].n + to->curve[i].branch[1].n)
             f.capacity = to->curve[i].branch[0].n + to->curve[i].branch[1].n;
     f.scratch = wt_alloc(threads * f.capacity, sizeof *f.scratch);
     f.errors = wt_alloc(n, sizeof *f.errors);
-    const wt_status status =
-        wt_parallel_for(n, threads, measure_source_gain, &f, NULL, "fitting curves anew");
+    status = wt_parallel_for(n, threads, measure_source_gain, &f, NULL, "fitting curves anew");
     size_t first = 0;
     while (first < n && f.errors[first].status == WT_OK)
         first++;

@@ -38,19 +38,21 @@ typedef struct calibration_errors {
     wt_contact_table *tip[WT_SYSTEMATIC_SOURCES][2]; /* tables of the tips shifted down and up */
     common_curve curve[COMMON_CURVES];
     double gain[COMMON_CURVES][WT_SYSTEMATIC_SOURCES];
+    double deepest; /* largest indentation of the stored curves [m] */
     size_t n, n_offered, stride;
 } calibration_errors;
 
-wt_status calibration_errors_begin(const wt_indent_job *job, calibration_errors *to,
-                                   wt_error *err) WT_NODISCARD;
+void calibration_errors_begin(const wt_indent_job *job, calibration_errors *to);
 /* Stores a copy of every n-th accepted curve. `contact` is the table of its tip and must outlive
  * the errors. `has_file_tip` states that this tip differs from the tip of the job. */
 void calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
                               const wt_indent_fit *fit, const wt_contact_table *contact,
                               bool has_file_tip);
-/* Fits the stored curves. `workspaces` has one workspace for each thread. */
-wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options *options,
-                                 unsigned threads, wt_indent_workspace *const *workspaces,
+/* Fits the stored curves. `tip` is that of the job; `workspaces` has one workspace for each thread.
+ */
+wt_status calibration_errors_fit(calibration_errors *to, const wt_tip *tip,
+                                 const wt_indent_options *options, unsigned threads,
+                                 wt_indent_workspace *const *workspaces,
                                  wt_error *err) WT_NODISCARD;
 /* Sets the keys of the errors and of their effects. */
 void calibration_errors_set_keys(const calibration_errors *of, table_writer *rows);

@@ -196,10 +196,10 @@ static wt_status prepare_task(indent_task *task, wt_error *err)
         status = indent_contact_table(&task->job->tip, &task->contact, err);
     if (status == WT_OK)
         status = manual_overrides_read(task->job, task->work, &task->choices, err);
-    if (status == WT_OK && (task->work->left_out & WT_EXTRA_SYSTEMATIC_ERRORS) == 0)
-        status = calibration_errors_begin(task->job, &task->calibration, err);
     if (status != WT_OK)
         return status;
+    if ((task->work->left_out & WT_EXTRA_SYSTEMATIC_ERRORS) == 0)
+        calibration_errors_begin(task->job, &task->calibration);
     char title[96];
     snprintf(title, sizeof title, "%s, %s", indentation_schema.title, task->job->group);
     task->rows = table_begin_variant(
@@ -284,7 +284,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     }
     task.rows.err = err; /* the last row used the error of its file */
     if (status == WT_OK)
-        status = calibration_errors_fit(&task.calibration, &task.options, task.n_workers,
+        status = calibration_errors_fit(&task.calibration, &job->tip, &task.options, task.n_workers,
                                         task.scratch, err);
     if (status == WT_OK) {
         set_indentation_keys(&task, &files, &task.rows);

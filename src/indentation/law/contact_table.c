@@ -18,7 +18,7 @@
 enum {
     MANTISSA_BITS = 6,                  /* 64 pieces per octave */
     SHIFT = 52 - MANTISSA_BITS,         /* of an IEEE double */
-    OCTAVES_BELOW_SWITCH_DEPTH = 16,    /* the direct function serves smaller depths */
+    OCTAVES_BELOW_SWITCH_DEPTH = 16,    /* the direct function serves points nearer to it */
     MAX_PIECES = 2048 << MANTISSA_BITS, /* all exponents of a double */
 };
 
@@ -99,8 +99,8 @@ wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta
     size_t n = 0;
     if ((at > 0.0 || tip->shape == WT_TIP_SPHERE) && delta_max > at) {
         double lo = ldexp(at, -OCTAVES_BELOW_SWITCH_DEPTH), hi = delta_max - at;
-        if (delta_min - at > lo)
-            lo = delta_min - at;
+        if (delta_min > lo)
+            lo = delta_min;
         if (hi > lo) {
             first = piece_number(lo);
             n = (size_t)(piece_number(hi) - first) + 1;

@@ -58,10 +58,11 @@ double depth_log_modulus(const depth_modulus *l, double u)
            (u - 1.0) * (l->slope + (l->law == DEPTH_QUADRATIC ? l->bend * (u - 1.0) : 0.0));
 }
 
-/* Point with its bracket in the search for the equilibrium. */
+/* Point with its bracket in the search for the equilibrium, and its previous depth with the excess
+ * of the force there. */
 typedef struct balance_point {
     size_t to; /* index of the point */
-    double z, low, high;
+    double z, low, high, last, last_excess;
 } balance_point;
 
 /* Performs one step for n points at depths x. Returns the number of points that have not converged;
@@ -79,8 +80,12 @@ static size_t newton_step_points(const depth_mean *m, const depth_modulus *l, ba
             m->reduced * (l != NULL ? exp(depth_log_modulus(l, slope[j] / m->widest)) : 1.0);
         const double excess_force = m->k * (at.z - next) - e * g[j];
         *(excess_force > 0.0 ? &at.low : &at.high) = next;
-        const double step =
-            excess_force / (m->k + e * slope[j]); /* Newton's step with constant E */
+        /* Newton's step with constant E, then secants, as E depends on the depth. */
+        const double fall = next == at.last ? m->k + e * slope[j]
+                                            : (at.last_excess - excess_force) / (next - at.last);
+        const double step = excess_force / fall;
+        at.last = next;
+        at.last_excess = excess_force;
         const bool is_converged = fabs(step) < 1e-13 * at.z;
         if (!is_converged)
             next = next + step > at.low && next + step < at.high ? next + step
@@ -95,7 +100,7 @@ static size_t newton_step_points(const depth_mean *m, const depth_modulus *l, ba
 }
 
 /* Computes the equilibrium force at positions from the contact point. l is NULL for the modulus of
- * the fit. */
+ * the fit, whose forces are the start for the others. */
 static void balance_forces(const depth_mean *m, const depth_modulus *l,
                            const double z[DEPTH_POINTS], double force[DEPTH_POINTS])
 {
@@ -105,8 +110,10 @@ static void balance_forces(const depth_mean *m, const depth_modulus *l,
     for (size_t i = 0; i < DEPTH_POINTS; i++) {
         force[i] = 0.0;
         if (z[i] > 0.0) {
-            x[n] = 0.9 * z[i];
-            b[n++] = (balance_point){i, z[i], 0.0, z[i]};
+            const double start = z[i] - m->fitted[i] / m->k;
+            x[n] = l != NULL && start > 0.0 && start < z[i] ? start : 0.9 * z[i];
+            b[n] = (balance_point){.to = i, .z = z[i], .high = z[i], .last = x[n]};
+            n++;
         }
     }
     for (int i = 0; i < MAX_STEPS && n > 0; i++)

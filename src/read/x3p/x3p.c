@@ -416,11 +416,14 @@ static wt_status x3p_images(const file_reader *self, wt_input *input,
     return images_finish(&list, status, wt_input_name(input), log, images, n_images, err);
 }
 
-/* Entry names are not packed in the archive. Spreadsheets have none of these names. */
+/* Entry names are not packed in the archive. Spreadsheets have none of these names. A JPK file
+ * shows one of its own names at once, which spares the search of each force curve. */
 static recognition detect(const file_reader *self, file_peek *peek)
 {
+    static const char jpk_name[] = "header.properties";
     (void)self;
-    if (!PEEK_BEGINS(peek, "PK\3\4"))
+    if (!PEEK_BEGINS(peek, "PK\3\4") ||
+        memmem(peek->bytes, peek->length, jpk_name, sizeof jpk_name - 1) != NULL)
         return recognition_result(false, 0);
     return recognition_result(input_contains(peek->input, document_name) &&
                                   (input_contains(peek->input, "md5checksum.hex") ||
