@@ -48,7 +48,7 @@ static size_t group_equal_entries(log_group *folds, size_t n)
 
 /* ---- on a terminal --------------------------------------------------------------------------- */
 
-enum { LINES_OF_REMARKS = 2 };
+enum { LINES_OF_REMARKS = 2, LINES_OF_NEXT_CALL = 2 };
 
 bool cmd_is_brief(const cmd_session *s)
 {
@@ -163,12 +163,13 @@ static void print_groups_briefly(cmd_session *s, log_group *groups, size_t n)
 {
     const char **labels = wt_alloc(n + 1, sizeof *labels);
     char **texts = wt_alloc(n + 1, sizeof *texts);
+    const size_t reserved = s->next != NULL ? LINES_OF_NEXT_CALL : 0;
     qsort(groups, n, sizeof *groups, compare_severity);
     for (size_t i = 0; i < n; i++) {
         labels[i] = wt_severity_name(groups[i].entry.severity);
         texts[i] = describe_group(&groups[i]);
     }
-    print_remarks(s, labels, texts, n, s->lines_left);
+    print_remarks(s, labels, texts, n, s->lines_left - (s->lines_left > reserved ? reserved : 0));
     wt_strings_free(texts, n);
     free(labels);
 }

@@ -10,10 +10,9 @@
 
 static void caption_spectrum(figure_drawing *d)
 {
-    const wt_estimate height = roughness_value(d->table, ROUGHNESS_KEY_RMS_HEIGHT),
-                      slope = roughness_value(d->table, ROUGHNESS_KEY_RMS_SLOPE);
     text_format(&d->caption, " Root-mean-square height %s. Root-mean-square slope %s.",
-                ESTIMATE(&height), ESTIMATE(&slope));
+                VALUE(WT_Q_LENGTH, NULL, roughness_value(d->table, ROUGHNESS_KEY_RMS_HEIGHT).value),
+                VALUE(WT_Q_NONE, "1", roughness_value(d->table, ROUGHNESS_KEY_RMS_SLOPE).value));
 }
 
 /* ---- friction against velocity --------------------------------------------------------------- */

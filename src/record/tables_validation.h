@@ -7,8 +7,8 @@
 /* A number of a step with its standard error only. */
 #define STEP_NUMBER(X, ID, name, words, heading, shown)                                            \
     X(ID, name, words, NUMBER, LABEL(heading), STANDARD_ERROR(ID), SPARSE, shown)                  \
-    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", NUMBER, LABEL("± stat."), \
-      SPARSE)
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", NUMBER,                   \
+      LABEL("Standard error"), SPARSE)
 
 /* Each row is a step of a record. */
 #define VALIDATION_COLUMNS(X)                                                                      \
@@ -141,7 +141,7 @@
       SHOWS(predicted), LABEL("predicted"), STANDARD_ERROR(VALIDATION_RUNNING_IN_PREDICTED),       \
       SPARSE)                                                                                      \
     X(VALIDATION_RUNNING_IN_PREDICTED_STANDARD_ERROR, "settled_predicted_standard_error",          \
-      "its standard error", SI(TIME), LABEL("± stat."), SPARSE)                                    \
+      "its standard error", SI(TIME), LABEL("Standard error"), SPARSE)                             \
     NUMBER_AND_INTERVAL(X, VALIDATION_RUNNING_IN_TIME_RATIO, "time_ratio",                         \
                         "time measured over predicted", NUMBER, "Time, measured over predicted",   \
                         SHOWS(time_ratio))                                                         \
@@ -150,7 +150,7 @@
       SHOWS(change), LABEL("Change predicted"), STANDARD_ERROR(VALIDATION_RUNNING_IN_CHANGE),      \
       SPARSE)                                                                                      \
     X(VALIDATION_RUNNING_IN_CHANGE_STANDARD_ERROR, "change_predicted_standard_error",              \
-      "its standard error", NUMBER, LABEL("± stat."), SPARSE)                                      \
+      "its standard error", NUMBER, LABEL("Standard error"), SPARSE)                               \
     X(VALIDATION_RUNNING_IN_NOTE, AS(note), "what is lacking", TEXT, LABEL("Note"))                \
     X(VALIDATION_RUNNING_IN_FILE, AS(file), "file of the record", TEXT, LABEL("File"))
 #define VALIDATION_RUNNING_IN_KEYS(X)                                                              \

@@ -4,6 +4,8 @@
 #include "report/display_units.h"
 #include "core/base/number.h"
 #include "core/base/text.h"
+#include "core/math/students_t.h"
+#include "core/table/result_value.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -85,22 +87,25 @@ display_value_text format_display_value(wt_quantity quantity, const char *unit, 
 display_value_text format_display_estimate(const wt_estimate *estimate)
 {
     display_unit lab = select_display_unit(WT_Q_NONE, estimate->unit, estimate->value);
-    double error = fabs(estimate->standard_error) * lab.factor;
-    if (!(error > 0) || !isfinite(estimate->value)) {
-        display_value_text value = format_display_value(WT_Q_NONE, estimate->unit, estimate->value),
-                           text;
-        if (!isnan(error) || !isfinite(estimate->value))
-            return value;
-        (void)snprintf(text.chars, sizeof text.chars, "%.700s (error not known)", value.chars);
+    const double value = to_display_value(&lab, estimate->value),
+                 half = NORMAL_95 * fabs(estimate->standard_error) * lab.factor;
+    display_value_text text;
+    if (!(half > 0) || !isfinite(value)) {
+        text = format_display_value(WT_Q_NONE, estimate->unit, estimate->value);
+        if (isnan(half) && isfinite(value))
+            (void)strcat(text.chars, " (error not known)");
         return text;
     }
-    const int decimals = (int)fmin(9, 1 - floor(log10(error)));
-    display_value_text text;
-    (void)snprintf(
-        text.chars, sizeof text.chars, "%s ± %s%s%s",
-        FIXED(round_to_power_of_ten(to_display_value(&lab, estimate->value), decimals), decimals),
-        FIXED(round_to_power_of_ten(error, decimals), decimals), lab.label[0] != '\0' ? " " : "",
-        lab.label);
+    const int least = result_value_digits(value, value - half, value + half) - 1 -
+                      (value != 0 ? (int)floor(log10(fabs(value))) : 0),
+              decimals = least < 0   ? 0
+                         : least > 9 ? 9
+                                     : least;
+    (void)snprintf(text.chars, sizeof text.chars, "%s%s%s (95 %%: %s to %s)",
+                   FIXED(round_to_power_of_ten(value, least), decimals),
+                   lab.label[0] != '\0' ? " " : "", lab.label,
+                   FIXED(round_to_power_of_ten(value - half, least), decimals),
+                   FIXED(round_to_power_of_ten(value + half, least), decimals));
     return text;
 }
 

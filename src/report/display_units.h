@@ -23,10 +23,10 @@ double to_display_value(const display_unit *lab, double value);
 /* Formats a value in the SI unit `unit` (NULL = that of the quantity) with its display unit, up to
  * 3 digits: "1.15 µm". */
 typedef struct display_value_text {
-    char chars[800];
+    char chars[1200];
 } display_value_text;
 display_value_text format_display_value(wt_quantity quantity, const char *unit, double value);
-/* Formats "12.3 ± 0.4 MPa" with the standard error, or the value alone without one. */
+/* Formats "12.3 MPa (95 %: 11.5 to 13.1)", or the value alone without a standard error. */
 display_value_text format_display_estimate(const wt_estimate *estimate);
 
 #define VALUE(quantity, unit, value) format_display_value(quantity, unit, value).chars

@@ -34,7 +34,7 @@ static void page_inputs(page_writer *page)
     const figure_tables *t = page->tables;
     folded_table(page, "inputs", "Inputs", &t->inputs, "Files read, with their digests");
     folded_table(page, "methods", "Methods", &t->methods,
-                 "Methods, what they did here, and where they are described");
+                 "Methods, what they did here (±: standard error), and where they are described");
     folded_table(page, "notes", "Notes", &t->notes, "Notes and warnings");
 }
 

@@ -92,7 +92,7 @@ void page_table(page_writer *page, const table_view *table, const char *caption,
 /* Writes the table with all rows; nothing if there are none. */
 void page_whole_table(page_writer *page, const table_view *table, const char *caption,
                       const unsigned *columns, size_t n_columns);
-/* Writes the keys of a table as name, value, statistical and numerical error; nothing if there are
+/* Writes the keys of a table as name, value, standard and numerical error; nothing if there are
  * none. */
 void page_keys(page_writer *page, const table_view *table, const char *caption);
 

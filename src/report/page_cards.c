@@ -200,21 +200,14 @@ static void write_card(page_writer *page, const finding *f)
         text_add(&page->out, ".");
     }
     if (f->as_if_layer && !is_given && known)
-        text_add(&page->out,
-                 " The track is not shown to differ: the number is as if there were a layer.");
+        text_add(&page->out, " As if there were a layer: the track is not shown to differ.");
     if (known) /* its section exists */
         text_html(&page->out, " <a class=\"why\" href=\"#%s\">Why</a>", links[f->question].section);
     text_add(&page->out, "</p>\n");
     if (f->verdict != FINDING_NOT_COMPUTED)
         write_card_warnings(page, f->question);
-    if (value->range.widest != NULL)
-        text_html(&page->out, "<p class=\"widest\">Widest choice: %s", value->range.widest);
-    if (value->range.widest != NULL && isfinite(f->rest) && f->remedy[0] != '\0')
-        text_format(&page->out,
-                    "; <a href=\"#certain\">measuring it</a> leaves %.0f %% of the range",
-                    100 * f->rest);
-    if (value->range.widest != NULL)
-        text_add(&page->out, ".</p>\n");
+    if (value->range.widest != NULL && value->range.remedy == NULL) /* else the remedy names it */
+        text_html(&page->out, "<p class=\"widest\">Widest choice: %s.</p>\n", value->range.widest);
     if (known)
         write_key_figure(page, links[f->question].figure);
     text_add(&page->out, "</section>\n");

@@ -253,7 +253,7 @@ void page_whole_table(page_writer *page, const table_view *table, const char *ca
 
 /* ---- values with both errors ----------------------------------------------------------------- */
 
-static const char value_heading[] = "Value", statistical_heading[] = "Statistical error",
+static const char value_heading[] = "Value", standard_heading[] = "Standard error",
                   numerical_heading[] = "Numerical error";
 
 static void add_unit_label(text_buffer *text, const char *label)
@@ -294,13 +294,13 @@ static void write_error_cell(page_writer *page, const char *heading, double erro
     else {
         const double size = fabs(error) * lab->factor;
         const int decimals = 1 - (int)floor(log10(size));
-        text_format(&page->out, "± %s", NUMBER(round_to_power_of_ten(size, decimals), 2));
+        text_add(&page->out, NUMBER(round_to_power_of_ten(size, decimals), 2));
         add_unit_label(&page->out, lab->offset != 0 ? "K" : lab->label);
     }
     text_add(&page->out, "</td>");
 }
 
-/* Writes value, statistical and numerical error. */
+/* Writes value, standard error and numerical error. */
 static void write_estimate_cells(page_writer *page, const wt_estimate *estimate,
                                  wt_quantity quantity)
 {
@@ -308,7 +308,7 @@ static void write_estimate_cells(page_writer *page, const wt_estimate *estimate,
     begin_labelled_cell(page, value_heading, "", true);
     add_value_text(&page->out, estimate, &lab);
     text_add(&page->out, "</td>");
-    write_error_cell(page, statistical_heading, estimate->standard_error, &lab);
+    write_error_cell(page, standard_heading, estimate->standard_error, &lab);
     write_error_cell(page, numerical_heading, estimate->numerical_error, &lab);
 }
 
@@ -354,7 +354,7 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
     begin_html_table(page, caption, 4);
     heading_cell(page, "Quantity", "", false);
     heading_cell(page, value_heading, "", true);
-    heading_cell(page, statistical_heading, "", true);
+    heading_cell(page, standard_heading, "", true);
     heading_cell(page, numerical_heading, "", true);
     text_add(&page->out, "</tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < n; i++) {

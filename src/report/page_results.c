@@ -67,11 +67,9 @@ static void write_friction_table(page_writer *page)
     size_t rows[DECADES + 2];
     const size_t n = select_decade_rows(table, rows);
     page_table(page, table,
-               n < table->n_rows
-                   ? "Friction at the computed velocities next to whole decades (± stat.: one "
-                     "standard error, ± num.: numerical error); the result file holds all"
-                   : "Friction at the computed velocities (± stat.: one standard error, "
-                     "± num.: numerical error)",
+               n < table->n_rows ? "Friction at the computed velocities next to whole decades; the "
+                                   "result file holds all"
+                                 : "Friction at the computed velocities",
                NULL, 0, rows, n);
 }
 

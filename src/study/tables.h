@@ -221,7 +221,7 @@
       STANDARD_ERROR(DMA_COMPARISON_COMPLEX_MODULUS), SPARSE)                                      \
     X(DMA_COMPARISON_COMPLEX_MODULUS_STANDARD_ERROR, "dma_complex_modulus_standard_error",         \
       "its standard error, by the draws of the material; nan: not known", SI(COMPLEX_MODULUS),     \
-      LABEL("± stat."), LIKE(DMA_COMPARISON_MODULUS), SPARSE)                                      \
+      LABEL("Standard error"), LIKE(DMA_COMPARISON_MODULUS), SPARSE)                               \
     X(DMA_COMPARISON_RATIO, AS(ratio), "indentation modulus over |E*|", NUMBER,                    \
       LABEL("Indentation / DMA"), SPARSE)                                                          \
     X(DMA_COMPARISON_EXTRAPOLATED, AS(extrapolated), "1: outside the frequencies measured by DMA", \

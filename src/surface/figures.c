@@ -228,10 +228,12 @@ static void caption_measured(figure_drawing *d)
                       slope = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_RMS_SLOPE),
                       hurst = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_HURST);
     const double share = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_SHARE).value;
+    const char *const law = power_spectrum_key_text(d->table, POWER_SPECTRUM_KEY_LAW);
     text_format(&d->caption, " Root-mean-square height %s. Root-mean-square slope %s.",
                 ESTIMATE(&height), ESTIMATE(&slope));
     if (isfinite(hurst.value))
-        text_format(&d->caption, " Self-affine law: H = %s.", ESTIMATE(&hurst));
+        text_format(&d->caption, " Self-affine law: H = %s%s%s.", ESTIMATE(&hurst),
+                    law != NULL ? ", " : "", law != NULL ? law : "");
     if (isfinite(share))
         text_format(&d->caption,
                     " Beyond the points with bars the spectrum is that of the law: %s %% of the "

@@ -183,7 +183,8 @@ static void print_law(const surface_result *w, char *to, size_t size)
             to, size, "%s; misfit %.2g (chi-squared over degrees of freedom, of %zu bins%s)",
             l->rolls_off ? "with a roll-off"
                          : "no roll-off in the reliable range: the surface has longer waves",
-            l->misfit, l->n, l->misfit > 2 ? ": the law describes the spectrum badly" : "");
+            l->misfit, l->n,
+            l->misfit > SELF_AFFINE_BAD ? ": the law describes the spectrum badly" : "");
 }
 
 static void print_directions(const surface_result *w, char *to, size_t size)

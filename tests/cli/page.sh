@@ -81,6 +81,8 @@ function judge(name, width, frame) {
   say(name, 'tables_cut', beyond.length, beyond.join('; ').slice(0, 400));
   const sizes = [...page.querySelectorAll('.card svg')].map(s => 15 * s.getScreenCTM().a);
   say(name, 'type', Math.min(...sizes).toFixed(1), 'to', Math.max(...sizes).toFixed(1));
+  const keys = [...page.querySelectorAll('.key svg')].filter(s => s.clientHeight).map(s => 15 * s.getScreenCTM().a);
+  say(name, 'key_type', Math.min(99, ...keys).toFixed(2));
   judge_contrast(name, page);
   const first = page.querySelector('.finding .verdict, .finding .number');
   say(name, 'answer_begins', first ? Math.round(first.getBoundingClientRect().top) : -1);
@@ -147,6 +149,10 @@ for name in case warned dma decades record; do
   done
   for width in telephone tablet desk paper; do
     grep -q "JUDGED $width cards [1-9][0-9]* cut 0 *\$" "$name.judged" || fail "$name: cards: $(grep "$width cards" "$name.judged")"
+  done
+  for width in telephone tablet desk; do # type of the figures on the cards, in px
+    sed -n "s/.*JUDGED $width key_type //p" "$name.judged" | awk '$1 >= 9 { good = 1 } END { exit !good }' ||
+      fail "$name: $(grep "$width key_type" "$name.judged")"
   done
   for width in desk dark; do
     grep -q "JUDGED $width contrast good" "$name.judged" || fail "$name: $(grep "$width contrast" "$name.judged")"

@@ -145,8 +145,8 @@ static void test_page(void **state)
         ">0.646</td><td data-label=\"95 % interval\">0.602 to 0.693</td>"
         "<td data-label=\"Model choices\">0.642 to 0.649</td>",
         "Bulk</th><td data-label=\"Value\">7.99 MPa</td>",
-        (">3.16 µm</td><td class=\"n\" data-label=\"Statistical error\">± 0.80 µm</td>"
-         "<td class=\"n\" data-label=\"Numerical error\">± "), /* and the rounding error */
+        (">3.16 µm</td><td class=\"n\" data-label=\"Standard error\">0.80 µm</td>"
+         "<td class=\"n\" data-label=\"Numerical error\">"), /* and the rounding error */
         "bulk: 12 curves, 0 wide, 0 doubtful, 1 rejected",
         "R^2 0.71 below 0.90 &lt;i&gt;",
         "&lt;b&gt;&#39;`touch fixture_was_run`&quot;&amp;;$(rm -r x)\\",
@@ -225,7 +225,7 @@ static void test_tables_on_the_page(void **state)
         "log₁₀ b, rubber elasticity|Overlap (decades)|Determined by overlap|Note|",
         "−30.0|5.4",
         "Reference isotherm off the law (decades)|0.00000|"
-        "± 1.0×10⁻⁷|–|",
+        "1.0×10⁻⁷|–|",
         "Superposition|holds|||misfit below ",
         "WLF C1|6.504|6.482 to 6.526||at 20.0 °C|",
         "WLF C2|110.08 K|109.86 to 110.31|||",
@@ -234,7 +234,8 @@ static void test_tables_on_the_page(void **state)
         "Friction coefficient|0.689|0.573 to 0.806|",
         "Friction with layer|0.557|",
         "Group|Equivalent frequency (rad/s)|Indentation (MPa)|95 % interval from (MPa)|to (MPa)|"
-        "DMA E′ (MPa)|DMA |E*| (MPa)|± stat. (MPa)|Indentation / DMA|Outside measured frequencies|",
+        "DMA E′ (MPa)|DMA |E*| (MPa)|Standard error (MPa)|Indentation / DMA|Outside measured "
+        "frequencies|",
     };
     NEED_GNUPLOT();
     wt_result *result = fixture_only(tables, 5, &change);
@@ -259,7 +260,7 @@ static void test_tables_on_the_page(void **state)
     /* an error that does not apply is not a number */
     assert_non_null(strstr(page, "<th scope=\"row\">Reference temperature</th>"
                                  "<td class=\"n\" data-label=\"Value\">20 °C</td>"
-                                 "<td class=\"n\" data-label=\"Statistical error\">–</td>"));
+                                 "<td class=\"n\" data-label=\"Standard error\">–</td>"));
     const char *friction = strstr(page, "<caption>Friction at the computed velocities next to");
     assert_non_null(friction);
     char *end = strstr(friction, "</table>");

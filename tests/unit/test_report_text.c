@@ -127,12 +127,13 @@ static void test_typography(void **state)
 static void test_lab_units(void **state)
 {
     (void)state;
-    /* an error of two digits, of nine decimals at most */
-    const wt_estimate exact = {1, 1.2e-9, 0, "1"}, more = {1, 6e-10, 0, "1"},
-                      fine = {1, 2e-12, 0, "1"};
-    assert_string_equal(ESTIMATE(&exact), "1.000000000 ± 0.000000001");
-    assert_string_equal(ESTIMATE(&more), "1.000000000 ± 0.000000001");
-    assert_string_equal(ESTIMATE(&fine), "1.000000000 ± 0.000000000");
+    /* an interval of two digits, of three to six digits of the value */
+    const wt_estimate some = {3.02e-6, 0.815e-6, 0, "m"}, exact = {1, 1.2e-9, 0, "1"},
+                      zero = {0, 0.5, 0, "1"}, unknown = {2, NAN, 0, "1"};
+    assert_string_equal(ESTIMATE(&some), "3.02 µm (95 %: 1.42 to 4.62)");
+    assert_string_equal(ESTIMATE(&exact), "1.00000 (95 %: 1.00000 to 1.00000)");
+    assert_string_equal(ESTIMATE(&zero), "0.00 (95 %: −0.98 to 0.98)");
+    assert_string_equal(ESTIMATE(&unknown), "2 (error not known)");
     static const struct {
         wt_quantity quantity;
         const char *unit;

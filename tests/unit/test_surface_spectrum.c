@@ -412,6 +412,34 @@ static void errors_of_the_law(void **state)
     }
 }
 
+/* A spectrum that swings about its law by as much at each wavenumber: its short waves have most
+ * modes, and yet the law follows the few modes of the plateau as well. */
+static void law_of_a_spectrum_that_deviates(void **state)
+{
+    (void)state;
+    enum { BINS = 18, KNEE = 4 };
+    const double step = log(10) / 10, hurst = 0.8, swing = 0.3, ln_c0 = -46;
+    wt_spectrum_bin bins[BINS] = {{.index = 0}};
+    for (int k = 0; k < BINS; k++) {
+        const double freedom = 10 * exp(2 * step * k), x = step * (k > KNEE ? k - KNEE : 0);
+        bins[k] = (wt_spectrum_bin){
+            .index = k,
+            .reliable = true,
+            .freedom = freedom,
+            .shared_freedom = freedom,
+            .wavenumber = 1e4 * exp(step * k),
+            .density = exp(ln_c0 - 2 * (1 + hurst) * x + swing * sin(M_PI * k / 5.))};
+    }
+    const wt_surface_spectrum spectrum = {.bins = bins, .n = BINS};
+    wt_self_affine law;
+    law = wt_self_affine_fit(&spectrum);
+    assert_true(law.found && law.rolls_off && law.misfit > 10);
+    assert_near_abs(log(law.c0.value), ln_c0, swing);
+    assert_near_abs(log(law.roll_off.value / bins[KNEE].wavenumber), 0, swing);
+    assert_near_abs(law.hurst.value, hurst, 0.1);
+    assert_true(law.hurst.low < hurst && hurst < law.hurst.high);
+}
+
 static void test_slope_end(void **state)
 {
     (void)state;
@@ -750,11 +778,12 @@ int main(void)
         cmocka_unit_test(test_periodic),     cmocka_unit_test(test_forms_and_windows),
         cmocka_unit_test(test_missing),      cmocka_unit_test(test_lines),
         cmocka_unit_test(test_inversion),    cmocka_unit_test(test_stitch),
-        cmocka_unit_test(errors_of_the_law), cmocka_unit_test(test_slope_end),
-        cmocka_unit_test(test_scatter),      cmocka_unit_test(test_leakage),
-        cmocka_unit_test(test_directions),   cmocka_unit_test(test_orders),
-        cmocka_unit_test(test_places),       cmocka_unit_test(test_few_places),
-        cmocka_unit_test(test_refused),      cmocka_unit_test(test_tip),
+        cmocka_unit_test(errors_of_the_law), cmocka_unit_test(law_of_a_spectrum_that_deviates),
+        cmocka_unit_test(test_slope_end),    cmocka_unit_test(test_scatter),
+        cmocka_unit_test(test_leakage),      cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_orders),       cmocka_unit_test(test_places),
+        cmocka_unit_test(test_few_places),   cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_tip),
     };
     return cmocka_run_group_tests(tests, make_all, free_all);
 }

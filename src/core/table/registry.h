@@ -30,22 +30,25 @@
  * an interval. `heading` is the heading on the page. */
 #define COLUMN_AND_ERROR(X, ID, name, words, unit, heading, ...)                                   \
     X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID), __VA_ARGS__)                      \
-    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit,                     \
+      LABEL("Standard error"))
 #define COLUMN_AND_ERRORS(X, ID, name, words, unit, heading, ...)                                  \
     X(ID, name, words, unit, LABEL(heading), BOTH_ERRORS(ID), __VA_ARGS__)                         \
-    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))   \
-    X(ID##_NUMERICAL_ERROR, name "_numerical_error", "its numerical error", unit, LABEL("± num."))
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit,                     \
+      LABEL("Standard error"))                                                                     \
+    X(ID##_NUMERICAL_ERROR, name "_numerical_error", "its numerical error", unit,                  \
+      LABEL("Numerical error"))
 /* Variant for tables that earlier versions wrote without errors. */
 #define COLUMN_AND_NEW_ERROR(X, ID, name, words, unit, ...)                                        \
     X(ID, name, words, unit, STANDARD_ERROR(ID), __VA_ARGS__)                                      \
-    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."),   \
-      OPTIONAL)
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit,                     \
+      LABEL("Standard error"), OPTIONAL)
 #define COLUMN_AND_NEW_ERRORS(X, ID, name, words, unit, ...)                                       \
     X(ID, name, words, unit, BOTH_ERRORS(ID), __VA_ARGS__)                                         \
-    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."),   \
-      OPTIONAL)                                                                                    \
-    X(ID##_NUMERICAL_ERROR, name "_numerical_error", "its numerical error", unit, LABEL("± num."), \
-      OPTIONAL)
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit,                     \
+      LABEL("Standard error"), OPTIONAL)                                                           \
+    X(ID##_NUMERICAL_ERROR, name "_numerical_error", "its numerical error", unit,                  \
+      LABEL("Numerical error"), OPTIONAL)
 #define INTERVAL_COLUMNS(X, ID, prefix, ...)                                                       \
     X(ID##_LOW, prefix "low", "lower end of its 95 % interval", LABEL("95 % interval from"),       \
       __VA_ARGS__)                                                                                 \
@@ -54,8 +57,8 @@
 #define NUMBER_AND_INTERVAL(X, ID, name, words, unit, heading, ...)                                \
     X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID), INTERVAL(ID##_LOW, ID##_HIGH),    \
       SPARSE, __VA_ARGS__)                                                                         \
-    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."),   \
-      SPARSE)                                                                                      \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit,                     \
+      LABEL("Standard error"), SPARSE)                                                             \
     INTERVAL_COLUMNS(X, ID, name "_", unit, SPARSE)
 
 /* Columns: name in C, name of its lists, name of the table, title, subcommand that writes it. Two

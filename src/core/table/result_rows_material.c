@@ -169,11 +169,12 @@ static void add_transition(rows_source *s, const table_view *v)
 static void add_payne(rows_source *s, const table_view *v)
 {
     const double none = (double)NAN;
+    const char letter = payne_key_enum(v, PAYNE_KEY_DEFORMATION) == WT_SHEAR ? 'G' : 'E';
     for (size_t i = 0; i < v->n_rows; i++) {
         const double tenth = payne_get(v, i, PAYNE_STRAIN_TENTH);
         result_row *row = rows_add_number(
             s, 0, rows_number(payne_get(v, i, PAYNE_STORAGE_START), none, none, "Pa"),
-            "E' at %.2g %% strain", 100 * payne_get(v, i, PAYNE_STRAIN_MIN));
+            "%c' at %.2g %% strain", letter, 100 * payne_get(v, i, PAYNE_STRAIN_MIN));
         rows_note(row, "at %s",
                   rows_short(payne_get(v, i, PAYNE_ANGULAR_FREQUENCY), "rad/s").value);
         rows_add_number(s, 1, rows_number(payne_get(v, i, PAYNE_STORAGE_END), none, none, "Pa"),

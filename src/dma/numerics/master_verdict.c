@@ -183,6 +183,29 @@ static void note_route(const master_work *work, wt_log *log)
                        : "the vertical shift of rubber elasticity");
 }
 
+/* Warns once of isotherms with the same note, at the first of them. */
+static void warn_of_note(const master_work *work, const wt_master *m, size_t i, wt_log *log)
+{
+    size_t n = 0, last = i;
+    for (size_t k = 0; k < m->n_shifts; k++)
+        if (strcmp(m->shifts[k].note, m->shifts[i].note) == 0 &&
+            m->shifts[k].determined == m->shifts[i].determined &&
+            work->set.curves[k].exclusion[0] == '\0') {
+            if (k < i)
+                return;
+            n++;
+            last = k;
+        }
+    const wt_severity severity = m->shifts[i].determined ? WT_NOTE : WT_WARNING;
+    const double celsius = m->shifts[i].temperature - WT_ZERO_CELSIUS;
+    if (n == 1)
+        wt_log_add(log, severity, NULL, NULL, "isotherm of %.2f °C: %s", celsius,
+                   m->shifts[i].note);
+    else
+        wt_log_add(log, severity, NULL, NULL, "%zu isotherms of %.2f °C to %.2f °C: %s", n, celsius,
+                   m->shifts[last].temperature - WT_ZERO_CELSIUS, m->shifts[i].note);
+}
+
 void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_log *log)
 {
     note_quantity(work, log);
@@ -200,8 +223,7 @@ void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master 
                           "isotherm of %.2f °C: %s%s", celsius, m->shifts[i].note,
                           curve->has_no_moduli ? "" : "; " WT_KEEP_OPTION " uses it as it is");
         else if (m->shifts[i].note[0] != '\0')
-            wt_log_add(log, m->shifts[i].determined ? WT_NOTE : WT_WARNING, NULL, NULL,
-                       "isotherm of %.2f °C: %s", celsius, m->shifts[i].note);
+            warn_of_note(work, m, i, log);
     }
     if (work->lines)
         wt_log_add(log, WT_WARNING, NULL, NULL,

@@ -18,11 +18,17 @@ enum { LN_C0, LN_ROLL_OFF, HURST, CONSTANTS };
 
 typedef struct affine_fit_work {
     double *x, *y, *weight; /* [n] ln q, ln C without its bias, 1 / variance */
+    double *variance;       /* [n] by the scatter of the modes */
     size_t n;
     double *places;  /* [n * n_sizes] place weights of each point by scan size, or NULL */
     double c, power; /* ln C0 and -2 (1 + H) at the last tested roll-off */
     double c_variance, power_variance; /* variances at that roll-off */
 } affine_fit_work;
+
+static double residual(const affine_fit_work *f, size_t i, double r)
+{
+    return f->y[i] - f->c - f->power * fmax(0, f->x[i] - r);
+}
 
 /* Fits by least squares for a roll-off at x = r. Returns chi-squared. */
 static double chi_squared(affine_fit_work *f, double r)
@@ -41,10 +47,8 @@ static double chi_squared(affine_fit_work *f, double r)
     f->c = (sy - f->power * sx) / s;
     f->c_variance = sxx / d;
     f->power_variance = s / d;
-    for (size_t i = 0; i < f->n; i++) {
-        const double e = f->y[i] - f->c - f->power * fmax(0, f->x[i] - r);
-        chi += f->weight[i] * e * e;
-    }
+    for (size_t i = 0; i < f->n; i++)
+        chi += f->weight[i] * residual(f, i, r) * residual(f, i, r);
     return chi;
 }
 
@@ -69,6 +73,30 @@ static double find_roll_off(affine_fit_work *f, double *best)
         }
     }
     return at;
+}
+
+/* Sets weights with a variance of exp(ln_added) in addition to that of the modes. Returns the
+ * excess of chi-squared over its degrees of freedom. */
+static double misfit_excess(double ln_added, void *user)
+{
+    affine_fit_work *const f = user;
+    double best;
+    for (size_t i = 0; i < f->n; i++)
+        f->weight[i] = 1 / (f->variance[i] + exp(ln_added));
+    (void)find_roll_off(f, &best);
+    return best - (double)(f->n - CONSTANTS);
+}
+
+/* A spectrum that is not self-affine deviates from the law as much where a bin has many modes. Its
+ * deviation is then a variance of every bin; else the bins of short waves, which have most modes,
+ * decide alone, and the law leaves the long waves. */
+static void add_law_variance(affine_fit_work *f)
+{
+    /* From far less than the scatter of any bin to a factor of exp(10), in ln C. */
+    const double least = -25, most = 5;
+    double added;
+    if (root_find(misfit_excess, f, least, most, 1e-3, &added, NULL) == WT_OK)
+        (void)misfit_excess(added, f);
 }
 
 /* The law linearised at its best constants: J^T W J, in the order of `fitted`. */
@@ -231,10 +259,11 @@ static void fill_self_affine(affine_fit_work *f, double r, double wider, wt_self
 wt_self_affine wt_self_affine_fit(const wt_surface_spectrum *spectrum)
 {
     wt_self_affine law = {.found = false};
-    affine_fit_work f = {.x = wt_alloc((3 + spectrum->n_sizes) * spectrum->n, sizeof *f.x)};
+    affine_fit_work f = {.x = wt_alloc((4 + spectrum->n_sizes) * spectrum->n, sizeof *f.x)};
     f.y = f.x + spectrum->n;
     f.weight = f.y + spectrum->n;
-    f.places = spectrum->n_sizes > 0 ? f.weight + spectrum->n : NULL;
+    f.variance = f.weight + spectrum->n;
+    f.places = spectrum->n_sizes > 0 ? f.variance + spectrum->n : NULL;
     for (size_t k = 0; k < spectrum->n; k++) {
         const wt_spectrum_bin *b = &spectrum->bins[k];
         if (!b->reliable)
@@ -243,12 +272,18 @@ wt_self_affine wt_self_affine_fit(const wt_surface_spectrum *spectrum)
         f.y[f.n] = log(b->density) - surface_log_bias(b->freedom);
         for (size_t i = 0; i < spectrum->n_sizes; i++)
             f.places[f.n * spectrum->n_sizes + i] = spectrum->place_part[k * spectrum->n_sizes + i];
-        f.weight[f.n++] = 1 / surface_log_variance(b->shared_freedom);
+        f.variance[f.n] = surface_log_variance(b->shared_freedom);
+        f.weight[f.n] = 1 / f.variance[f.n];
+        f.n++;
     }
     if (f.n > CONSTANTS + 1) {
         double best;
+        (void)find_roll_off(&f, &best);
+        const double freedom = (double)(f.n - CONSTANTS);
+        if (best > SELF_AFFINE_BAD * freedom)
+            add_law_variance(&f);
         const double none = chi_squared(&f, f.x[0]), r = find_roll_off(&f, &best);
-        const double freedom = (double)(f.n - CONSTANTS), misfit = fmax(1, best / freedom);
+        const double misfit = fmax(1, best / freedom);
         /* A roll-off counts if it is significant at 95 % (chi-squared with one degree of
          * freedom). */
         law.rolls_off = r > f.x[0] && none - best > gsl_cdf_chisq_Pinv(0.95, 1) * misfit;
@@ -261,6 +296,9 @@ wt_self_affine wt_self_affine_fit(const wt_surface_spectrum *spectrum)
                     find_position_covariance(&linear, spectrum, law.place_covariance);
         if (law.found)
             fill_self_affine(&f, at, wider, &law);
+        law.misfit = 0;
+        for (size_t i = 0; i < f.n; i++)
+            law.misfit += residual(&f, i, at) * residual(&f, i, at) / f.variance[i] / left;
     }
     free(f.x);
     return law;

@@ -6,6 +6,10 @@
 #include "weartrack/surface.h"
 #include <gsl/gsl_integration.h>
 
+/* Chi-squared over its degrees of freedom above which a self-affine law describes a spectrum badly:
+ * with three of them, scatter alone exceeds it in a tenth of the cases. */
+enum { SELF_AFFINE_BAD = 2 };
+
 /* ---- heights: heights.c ---------------------------------------------------------------------- */
 
 /* Terms: 1; x, y; x^2, x y, y^2, with x and y from -1 to 1 over the points. */
