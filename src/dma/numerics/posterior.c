@@ -205,7 +205,9 @@ static wt_status fit_components(wt_posterior *p, posterior_component *component,
         if (!(p->cells[c].weight > 0.0))
             continue;
         set_cell_shifts(p, &p->cells[c]);
-        for (size_t i = 0; i < LAW_SPREADS; i++, (*n)++) {
+        double top = -HUGE_VAL;
+        bool relevant = true; /* not above a temperature error with negligible weight */
+        for (size_t i = 0; relevant && i < LAW_SPREADS; i++, (*n)++) {
             posterior_component *one = &component[*n];
             *one = (posterior_component){.cell = &p->cells[c], .spread = law_spread(i)};
             wt_status status = law_gls_covariance(&p->data, one->spread, root, err);
@@ -215,8 +217,10 @@ static wt_status fit_components(wt_posterior *p, posterior_component *component,
                 return status;
             one->weight = p->cells[c].log_weight - 0.5 * law_reml(&one->law) +
                           log(law_spread_prior(&p->data, one->spread));
-            most = fmax(most, one->weight);
+            relevant = !(one->weight < top + 2.0 * log(least_share));
+            top = fmax(top, one->weight);
         }
+        most = fmax(most, top);
     }
     if (!(most > -HUGE_VAL))
         return wt_fail(err, WT_E_RANGE, "the pole of the law is not determined");

@@ -206,7 +206,7 @@ static wt_status outlier_gains(struct search *search, const law_shape *shape, do
         if (status != WT_OK)
             break;
         if (search->largest - fit.log_det < outlier_trial_share * outlier_gain)
-            continue; /* no gain exceeds chi^2 */
+            break; /* no gain exceeds chi^2; a larger error raises log_det */
         const double least = fit.chi_square + fit.log_det - search->largest;
         law_design(data, shape, fit.unknown, x);
         for (size_t p = 0; p < n; p++)
