@@ -420,11 +420,9 @@ void calibration_errors_store(calibration_errors *to, const wt_force_curve *curv
 
 /* ---- fits ------------------------------------------------------------------------------------ */
 
-/* A trial of a fit with a shifted source is not deeper than this, over the deepest indentation. A
- * depth beyond the table costs time, but is no error. */
-static const double depth_reserve = 4;
-/* Least depth of a table [m], below the noise of an AFM. */
-static const double least_depth = 1e-11;
+/* Smallest depth of the tables, below the noise of an AFM [m], and their largest one over the
+ * deepest indentation. Others take longer, but have no error. */
+static const double least_depth = 1e-11, depth_reserve = 4;
 
 /* Creates the contact tables of the shifted tips, for the depths of the stored curves. */
 static wt_status create_shifted_tables(calibration_errors *to, const wt_tip *tip, wt_error *err)

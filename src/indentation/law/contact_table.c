@@ -3,8 +3,8 @@
  * The knots lie in the depth e = delta - b^2/R beyond the switch, 64 to every power of two. The
  * bits of e then give the number of the piece, and the jump of the curvature at the switch is a
  * knot. Value, slope and curvature are exact at the knots. The interpolation error is below 1e-13
- * of G. Below the switch a formula applies. Tips without a switch have formulas too, except the
- * sphere, whose table begins at the smallest depth.
+ * of G. Below the switch a formula applies, and just beyond it, within the smallest depth, the
+ * direct function. Tips without a switch have formulas too, except the sphere.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -18,7 +18,6 @@
 enum {
     MANTISSA_BITS = 6,                  /* 64 pieces per octave */
     SHIFT = 52 - MANTISSA_BITS,         /* of an IEEE double */
-    OCTAVES_BELOW_SWITCH_DEPTH = 16,    /* the direct function serves points nearer to it */
     MAX_PIECES = 2048 << MANTISSA_BITS, /* all exponents of a double */
 };
 
@@ -97,14 +96,9 @@ wt_status wt_contact_table_new(const wt_tip *tip, double delta_min, double delta
     double at = contact_switch_depth(tip);
     uint64_t first = 0;
     size_t n = 0;
-    if ((at > 0.0 || tip->shape == WT_TIP_SPHERE) && delta_max > at) {
-        double lo = ldexp(at, -OCTAVES_BELOW_SWITCH_DEPTH), hi = delta_max - at;
-        if (delta_min > lo)
-            lo = delta_min;
-        if (hi > lo) {
-            first = piece_number(lo);
-            n = (size_t)(piece_number(hi) - first) + 1;
-        }
+    if ((at > 0.0 || tip->shape == WT_TIP_SPHERE) && delta_max - at > delta_min) {
+        first = piece_number(delta_min);
+        n = (size_t)(piece_number(delta_max - at) - first) + 1;
     }
     if (n > MAX_PIECES)
         return wt_fail(err, WT_E_INTERNAL, "contact table of %zu pieces", n);
