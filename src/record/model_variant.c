@@ -17,7 +17,7 @@ double validation_margin(const validation *v)
     return log1p(v->job->margin);
 }
 
-stated_verdict validation_verdict(agreement_verdict verdict)
+static stated_verdict validation_verdict(agreement_verdict verdict)
 {
     static const stated_verdict stated[] = {[AGREEMENT_INCONCLUSIVE] = VERDICT_INCONCLUSIVE,
                                             [AGREEMENT_YES] = VERDICT_YES,
@@ -244,7 +244,7 @@ void model_variant_clear(model_variant *t)
 
 /* ---- compared quantities --------------------------------------------------------------------- */
 
-double ratio_log_value(const void *user, size_t k, size_t step)
+static double ratio_log_value(const void *user, size_t k, size_t step)
 {
     const ratio_inputs *r = user;
     return log(r->steps->step[step].friction /

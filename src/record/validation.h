@@ -79,7 +79,6 @@ typedef struct ratio_inputs {
     const double *shear;
     bool layered;
 } ratio_inputs;
-double ratio_log_value(const void *user, size_t k, size_t step);
 wt_status model_variant_fit_ratio(const ratio_inputs *of, uint64_t seed, model_variant *t,
                                   wt_error *err) WT_NODISCARD;
 
@@ -128,7 +127,6 @@ typedef struct verdict_text {
 verdict_text model_variant_verdict(const validation *v, const model_variant *t);
 /* Returns the requested range of measured over predicted: "0.833 to 1.2". */
 range_text validation_requested_range(double margin);
-stated_verdict validation_verdict(agreement_verdict verdict);
 
 mean_ratio mean_ratio_compute(const model_variant *t); /* row: freed by the caller */
 /* Returns the 95 % interval of exp(value). */

@@ -83,7 +83,8 @@ static wt_status compute_variant_friction(case_variant *s, const wt_layer_observ
     return status;
 }
 
-void case_variant_bind(case_variant *s)
+/* Lets the sliding refer to the velocity, rubber and surface of the variant. */
+static void case_variant_bind(case_variant *s)
 {
     s->sliding.rubber = s->given != NULL ? s->given : &s->rubber;
     s->sliding.surface = &s->surface;

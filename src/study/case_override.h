@@ -40,8 +40,6 @@ extern const char *const case_quantity_names[CASE_QUANTITIES];
 wt_status case_variant_create(const wt_sliding *sliding, const wt_layer_job *layer,
                               const wt_layer_observation *observation, const wt_job *work,
                               case_variant *s, wt_error *err) WT_NODISCARD;
-/* Lets the sliding refer to the velocity, rubber and surface of the variant. */
-void case_variant_bind(case_variant *s);
 /* Returns the largest wavenumber to which the counter surface is known, or that a surface has. */
 double case_variant_highest_wavenumber(const case_variant *s);
 /* Computes the results. number: [CASE_QUANTITIES]; results that do not apply stay unchanged. */

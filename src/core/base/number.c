@@ -87,7 +87,8 @@ size_t wt_format_si(double value, const char *unit, int digits, char *buffer, si
 /* Limits that agree to this number of digits are printed as equal. */
 enum { RANGE_DIGITS_MAX = 9 };
 
-int range_digits(double low, double high, int least)
+/* Returns the number of digits, at least `least`, with which two numbers differ in print. */
+static int range_digits(double low, double high, int least)
 {
     for (int digits = least; digits <= RANGE_DIGITS_MAX; digits++) {
         char first[32], second[32];

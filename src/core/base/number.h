@@ -27,8 +27,7 @@ typedef struct probability_text {
     char text[16];
 } probability_text;
 probability_text format_probability(double chance);
-/* Returns the number of digits, at least `least`, with which two numbers differ in print. */
-int range_digits(double low, double high, int least);
+/* Formats two numbers with the digits, at least `least`, with which they differ in print. */
 range_text format_range(double low, double high, int least);
 
 #endif

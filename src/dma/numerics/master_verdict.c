@@ -188,7 +188,7 @@ static void warn_of_note(const master_work *work, const wt_master *m, size_t i, 
 {
     size_t n = 0, last = i;
     for (size_t k = 0; k < m->n_shifts; k++)
-        if (strcmp(m->shifts[k].note, m->shifts[i].note) == 0 &&
+        if (wt_text_repeats(m->shifts[k].note, m->shifts[i].note) &&
             m->shifts[k].determined == m->shifts[i].determined &&
             work->set.curves[k].exclusion[0] == '\0') {
             if (k < i)

@@ -254,8 +254,11 @@ static const double same_step = 1e-3;
 /* States of the elastic force over modulus and of its derivatives. */
 enum { FORCE, BY_MODULUS, BY_CONTACT, N_MEMORIES };
 
-double curve_balanced_depth(const wt_contact_table *table, double k, double z, double e,
-                            double past, double now, double start, double *g, double *slope)
+/* Solves k (z - x) = E (past + now G(x)) for the depth x if k z > E past, and returns G and its
+ * slope there. `start` is an initial value or 0. The left side minus the right side falls and is
+ * concave. */
+static double curve_balanced_depth(const wt_contact_table *table, double k, double z, double e,
+                                   double past, double now, double start, double *g, double *slope)
 {
     const double most = z - e * past / k;
     double x = start > 0.0 && start < most ? start : most;

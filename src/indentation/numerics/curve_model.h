@@ -120,10 +120,4 @@ static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_
     return plain;
 }
 
-/* Solves k (z - x) = E (past + now G(x)) for the depth x if k z > E past, and returns G and its
- * slope there. `start` is an initial value or 0. The left side minus the right side falls and is
- * concave. */
-double curve_balanced_depth(const wt_contact_table *table, double k, double z, double e,
-                            double past, double now, double start, double *g, double *slope);
-
 #endif

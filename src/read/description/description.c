@@ -1,7 +1,5 @@
 /* Implements format descriptions and the quantities that each kind of data requires.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/description/description.h"
 #include "core/base/memory.h"
 

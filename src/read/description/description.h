@@ -1,8 +1,6 @@
 /* Declares a format description: the content of the XML of weartrack-format(5), ready for the text
  * engine.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_DESCRIPTION_H
 #define WT_READ_DESCRIPTION_H
 

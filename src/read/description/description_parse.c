@@ -91,9 +91,12 @@ static void validate_document(description_parser *p, description_xsd *schema, xm
     xmlSchemaFreeValidCtxt(context);
 }
 
-wt_status parse_document(description_xsd *schema, const char *xml, size_t length, const char *name,
-                         void (*parse)(description_parser *p, const xmlNode *root),
-                         text_description **description, wt_error *err)
+/* Parses a document with the function `parse`. With schema NULL the document
+ * is assumed to be valid. */
+static wt_status parse_document(description_xsd *schema, const char *xml, size_t length,
+                                const char *name,
+                                void (*parse)(description_parser *p, const xmlNode *root),
+                                text_description **description, wt_error *err)
 {
     const size_t max_length = (size_t)1 << 20;
     /* libxml2 prints encoding errors to standard error unless this thread has a handler. */

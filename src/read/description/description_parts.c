@@ -1,7 +1,5 @@
 /* Parses the elements of a description, one function for each.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/description/description_xml.h"
 
 #include <stdlib.h>

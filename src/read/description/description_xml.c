@@ -1,7 +1,5 @@
 /* Reads attributes, elements and regular expressions of a description.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/description/description_xml.h"
 
 #include <stdlib.h>

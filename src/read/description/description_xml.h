@@ -47,10 +47,4 @@ void parse_format(description_parser *p, const xmlNode *root);
 void parse_detect(description_parser *p, const xmlNode *root);
 unsigned parse_kinds(const char *choices);
 
-/* description_parse.c: parses a document with the function `parse`. With schema NULL the document
- * is assumed to be valid. */
-wt_status parse_document(description_xsd *schema, const char *xml, size_t length, const char *name,
-                         void (*parse)(description_parser *p, const xmlNode *root),
-                         text_description **description, wt_error *err);
-
 #endif

@@ -1,7 +1,5 @@
 /* Reads Igor binary waves: descriptor, detection, metadata and curves.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/ibw/ibw.h"
 
 #include "core/table/registry.h"

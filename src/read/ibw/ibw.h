@@ -4,9 +4,7 @@
  * The samples are stored channel by channel. A label names each channel, and a note of "key:
  * value" lines contains all else. Source: Technical Note 003 of WaveMetrics; the keys are known
  * from measured files.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_IBW_H
 #define WT_READ_IBW_H
 

@@ -81,8 +81,6 @@ bool nid_is_spectroscopy(const nid_channel *channel);
 /* Decodes the first n samples of a line: values[i] = factor * exported value. */
 wt_status nid_decode(const nid_file *file, const nid_channel *channel, size_t line, size_t n,
                      double factor, double *values, wt_error *err);
-/* Returns the SI unit for an exported one; "" and factor 1 for an unknown unit. */
-const char *nid_si_unit(const char *unit, double *factor);
 wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_log *log, wt_image **images, size_t *n_images, wt_error *err);
 

@@ -286,7 +286,8 @@ wt_status nid_decode(const nid_file *file, const nid_channel *c, size_t line, si
     return WT_OK;
 }
 
-const char *nid_si_unit(const char *unit, double *factor)
+/* Returns the SI unit for an exported one; "" and factor 1 for an unknown unit. */
+static const char *nid_si_unit(const char *unit, double *factor)
 {
     static const wt_quantity known[] = {WT_Q_LENGTH, WT_Q_DEFLECTION_VOLTAGE, WT_Q_FORCE,
                                         WT_Q_PHASE,  WT_Q_FREQUENCY,          WT_Q_TIME};

@@ -1,7 +1,5 @@
 /* Recognises the names row of a table.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 
 #include <stdlib.h>

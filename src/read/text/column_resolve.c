@@ -1,7 +1,5 @@
 /* Resolves the names row of a table: the quantities, units and conditions of its columns.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 
 #include <math.h>

@@ -1,9 +1,7 @@
 /* Declares the output of force curves as text that the description weartrack-stream reads. It
  * serves readers that decode in the sandbox, which returns only text, and readers of tables
  * without names.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_CURVE_TEXT_H
 #define WT_READ_CURVE_TEXT_H
 

@@ -1,8 +1,6 @@
 /* Declares the engine that reads text exports by a description: bytes to lines, lines to cells,
  * cells to tables in SI units, and tables to force curves, sweeps, spectra, images and records.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_TEXT_H
 #define WT_READ_TEXT_H
 

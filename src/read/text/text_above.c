@@ -1,7 +1,5 @@
 /* Reads the conditions that stand above or below the names row of a table.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/memory.h"
 #include "read/text/text.h"

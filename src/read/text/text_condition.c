@@ -1,7 +1,5 @@
 /* Finds temperatures and frequencies in column names and in lines above a table.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text_condition.h"
 
 #include "core/base/array.h"

@@ -1,8 +1,6 @@
 /* Declares the measurement conditions that a text states outside of columns: the temperature and
  * the frequency in a column name, in a line above a table or in the name of a sheet.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_TEXT_CONDITION_H
 #define WT_READ_TEXT_CONDITION_H
 

@@ -1,7 +1,5 @@
 /* Converts the tables of a text export to force curves.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "read/force_assembler.h"
 #include "read/text/text.h"

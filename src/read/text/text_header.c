@@ -1,7 +1,5 @@
 /* Processes lines outside of the rows: header values, steps and markers.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text_scanner.h"
 
 #include "core/base/text.h"

@@ -1,7 +1,5 @@
 /* Converts the tables of a text export to images: a matrix, points of a grid, or a profile.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "read/images.h"
 #include "read/text/text.h"

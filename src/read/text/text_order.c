@@ -1,8 +1,6 @@
 /* Separates the rows of temperature and strain sweeps, and orders the rows of isotherms that do not
  * stand together: rows in any order, or all temperatures of one frequency after another.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text_sweep.h"
 
 #include "core/base/array.h"

@@ -1,7 +1,5 @@
 /* Runs a description over a text, as a whole or part by part.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text_scanner.h"
 
 #include <math.h>

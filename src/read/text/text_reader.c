@@ -1,7 +1,5 @@
 /* Implements the reader that runs a description, and its detection.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 
 #include <stdlib.h>

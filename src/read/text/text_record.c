@@ -1,8 +1,6 @@
 /* Converts the tables of a text export to a friction record. Each table is a step, and so is each
  * block of a table.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 
 #include <math.h>

@@ -1,8 +1,6 @@
 /* Reads the rows of a table: numbers, blocks and segment kinds. Detects truncated files: a last
  * line without a line end, an incomplete last row, or a table without its end line.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/number.h"
 #include "read/text/text_scanner.h"

@@ -1,8 +1,6 @@
 /* Scans the lines of a text: header values, steps, names rows, units and rows. It can stop at the
  * beginning of a step.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text_scanner.h"
 
 #include "core/base/array.h"

@@ -1,8 +1,6 @@
 /* Declares the state of the scan of a text, for the files that process header lines, names and
  * rows.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_TEXT_SCANNER_H
 #define WT_READ_TEXT_SCANNER_H
 

@@ -1,8 +1,6 @@
 /* Converts the tables of a text export to a power spectrum of a surface, or a table to the noise
  * spectrum of a cantilever.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 
 #include "core/base/array.h"

@@ -1,7 +1,5 @@
 /* Converts the tables of a text export to the sweeps of a DMA measurement.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text_sweep.h"
 
 #include "core/base/text.h"

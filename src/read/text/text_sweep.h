@@ -1,8 +1,6 @@
 /* Declares the extraction of frequency, temperature and strain sweeps from a table. Internal to
  * the text engine.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_TEXT_SWEEP_H
 #define WT_READ_TEXT_SWEEP_H
 

@@ -1,8 +1,6 @@
 /* Checks a table of a DMA sweep for repeated rows and for a loss factor that contradicts the
  * moduli.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text_sweep.h"
 
 #include "core/base/array.h"

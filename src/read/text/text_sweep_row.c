@@ -1,7 +1,5 @@
 /* Computes the quantities of a sweep from a row of a table.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text_sweep.h"
 
 #include <math.h>

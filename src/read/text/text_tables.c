@@ -1,7 +1,5 @@
 /* Queries the tables of a scanned file, and formats the errors of incomplete tables.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 
 #include <stdlib.h>

@@ -11,9 +11,9 @@ cause 'see weartrack --help' nothingofthesort
 helps --help
 cause 'see weartrack master --help' master --nothing
 helps master --help
-no_input 'friction --material RESULT, or compare BULK TRACK --master RESULT' 'on a terminal: terminal.sh follows it'
-no_input 'friction --material RESULT --sample NAME, or compare BULK TRACK --master RESULT --sample NAME' 'on a terminal, as that of one sample'
-no_input 'friction --roughness RESULT --material DMA' 'on a terminal: terminal.sh follows it'
+no_input 'friction --material@, or compare BULK TRACK --master@' 'on a terminal: terminal.sh follows it'
+no_input 'friction --material@ --sample NAME, or compare BULK TRACK --master@ --sample NAME' 'on a terminal, as that of one sample'
+no_input 'friction --roughness@ --material DMA' 'on a terminal: terminal.sh follows it'
 piece "unknown option '%s'; did you mean --%s?"
 cause 'did you mean --poisson-ratio?' master --poison-ratio 0.5 three.csv -o a.h5
 helps master --poisson-ratio 0.5 three.csv -o a.h5
