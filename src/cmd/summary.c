@@ -29,6 +29,8 @@ static char *first_numbers(const wt_result *result, const char *file)
     for (size_t k = 0, used = 0; k < wt_result_rows_count(rows); k++) {
         const wt_result_row row = wt_result_rows_get(rows, k);
         const bool closed = row.interval[0] != '\0';
+        if (row.text[0] == '\0') /* only a note */
+            continue;
         const int length =
             snprintf(text + used, sizeof text - used, "%s %s %s%s%s%s", k == 0 ? ":" : ";",
                      row.name, row.text, closed ? " (" : "", row.interval, closed ? ")" : "");

@@ -78,8 +78,16 @@ static void write_reasons(page_writer *page, const result_row *row)
 
 static void write_row_card(page_writer *page, const result_rows *list, size_t first, size_t end)
 {
+    static const char *const classes[][2] = {{"inconclusive", " v-open"},
+                                             {"fails", " v-open"},
+                                             {"none", " v-nodata"},
+                                             {"not tested", " v-nodata"}};
     const result_row *const row = &list->rows[first];
-    text_add(&page->out, "<section class=\"finding\">\n<h2>");
+    const char *class = "";
+    for (size_t i = 0; row->kind == RESULT_ROW_TEXT && i < sizeof classes / sizeof *classes; i++)
+        if (strcmp(row->text, classes[i][0]) == 0)
+            class = classes[i][1];
+    text_html(&page->out, "<section class=\"finding%s\">\n<h2>", class);
     write_heading(page, row);
     text_add(&page->out, "</h2>\n");
     if (row->kind == RESULT_ROW_TEXT) {

@@ -47,7 +47,7 @@ static void write_remedy_row(page_writer *page, const finding *f)
     const result_value *const value = &f->value;
     text_html(&page->out, "<tr><th scope=\"row\">%s</th><td data-label=\"Held back by\">",
               finding_subject_text(f->question));
-    if (f->verdict == FINDING_NOT_COMPUTED) {
+    if (f->verdict == FINDING_NOT_COMPUTED || f->verdict == FINDING_NOT_ENOUGH_DATA) {
         text_add(&page->out, "missing data");
     } else if (value->remedy == NULL) {
         text_html(&page->out, "%s", value->range.widest);
@@ -90,7 +90,7 @@ static void write_remedies(page_writer *page, const finding *findings)
 
 /* Row of the limits, or of the notes of a result without limits. */
 typedef struct limit_line {
-    const char *text;
+    const char *text, *file; /* that the text is about, or "" */
     bool warned;
 } limit_line;
 
@@ -102,6 +102,7 @@ static void write_limit_items(page_writer *page, const limit_line *lines, size_t
     for (size_t i = 0; i < n; i++) {
         text_add(&page->out, lines[i].warned ? "<li class=\"warned\">" : "<li>");
         write_folded(page, lines[i].text, TWO_LINES);
+        text_html(&page->out, lines[i].file[0] != '\0' ? " (%s)" : "", wt_path_base(lines[i].file));
         text_add(&page->out, "</li>\n");
     }
     text_add(&page->out, "</ul>\n");
@@ -114,12 +115,13 @@ static void write_limits(page_writer *page)
     limit_line *const lines = wt_alloc(limits->n_rows + notes->n_rows + 1, sizeof *lines);
     size_t n = 0;
     for (; n < limits->n_rows; n++)
-        lines[n] = (limit_line){limits_text(limits, n, LIMITS_LIMIT),
+        lines[n] = (limit_line){limits_text(limits, n, LIMITS_LIMIT), "",
                                 limits_enum(limits, n, LIMITS_SEVERITY) == WT_WARNING};
     /* the notes on a result, which are worse, come after those on its data */
     for (size_t i = limits->n_rows == 0 ? notes->n_rows : 0; i-- > 0;)
         if (notes_enum(notes, i, NOTES_SEVERITY) != WT_NOTE)
-            lines[n++] = (limit_line){notes_text(notes, i, NOTES_TEXT), true};
+            lines[n++] = (limit_line){notes_text(notes, i, NOTES_TEXT),
+                                      notes_text(notes, i, NOTES_FILE), true};
     if (n > 0) {
         text_html(&page->out, "<section>\n<h2 id=\"limits\">%s</h2>\n",
                   limits->n_rows > 0 ? "Limits" : "Warnings");

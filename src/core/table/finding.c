@@ -8,9 +8,9 @@
 
 static finding_verdict difference_verdict(const result_value_tables *t, const result_value *f)
 {
-    if (t->comparison.table == NULL || isnan(f->number.value))
+    if (t->comparison.table == NULL)
         return FINDING_NOT_COMPUTED;
-    if (isnan(f->low) || isnan(f->high))
+    if (isnan(f->low) || isnan(f->high)) /* with one spot each there is no ratio either */
         return FINDING_NOT_ENOUGH_DATA;
     switch (comparison_key_enum(&t->comparison, COMPARISON_KEY_DIFFERS)) {
     case VERDICT_YES:
