@@ -21,8 +21,9 @@ typedef struct indent_shift_sum {
 typedef struct indent_summary {
     size_t n;
     indent_shift_sum bend, loss, loss_error, left_out; /* relative to the modulus */
-    indent_shift_sum range[WT_FIT_RANGES];             /* changes with the range of the fit */
-    double range_variance[WT_FIT_RANGES];              /* sums of the variances by noise */
+    /* Changes with the range of the fit, times their weights, and the sums of the weights. A weight
+     * is one over the variance by noise. */
+    double range_sum[WT_FIT_RANGES], range_weight[WT_FIT_RANGES];
     size_t n_unknown_loss;              /* curves with a loss of unknown effect on the modulus */
     double variance;                    /* sum of the relative variances of the moduli */
     double max_depth;                   /* largest indentation [m] */
@@ -34,8 +35,9 @@ void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
                         const wt_indent_options *options);
 void indent_summary_clear(indent_summary *summary);
 /* Relative error that the misfit of the law gives to all moduli: half of the spread of the mean
- * change of the modulus over the ranges of the fit, without the part by noise, and the pulls that
- * the fits left out. */
+ * change of the modulus over the ranges of the fit, without the noise of the two ranges, and the
+ * pulls that the fits left out. A misfit below the noise of the most precise range is not excluded,
+ * so that the error is not below half of that noise. */
 double indent_summary_range_spread(const indent_summary *summary);
 /* Mean relative change of the modulus with one range of the fit, and its error by noise; NaN if no
  * curve has enough samples in the range. */

@@ -283,17 +283,6 @@ static void add_shift(indent_shift_sum *all, double shift)
     all->n++;
 }
 
-static void add_range_shifts(indent_summary *to, const wt_indent_fit *fit)
-{
-    add_shift(&to->left_out, curve_left_out_error(fit));
-    for (int i = 0; i < WT_FIT_RANGES; i++)
-        if (isfinite(fit->range_shift[i]) && isfinite(fit->range_error[i])) {
-            to->range[i].sum += fit->range_shift[i];
-            to->range[i].n++;
-            to->range_variance[i] += fit->range_error[i] * fit->range_error[i];
-        }
-}
-
 void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
                         const wt_indent_options *options)
 {
@@ -302,8 +291,15 @@ void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
     to->variance += pow(fit->modulus.standard_error / fit->modulus.value, 2);
     add_shift(&to->loss, fit->loss_bias);
     add_shift(&to->loss_error, fit->loss_error);
-    if (!options->plain_least_squares && options->misfit_p_threshold > 0)
-        add_range_shifts(to, fit);
+    const bool has_ranges = !options->plain_least_squares && options->misfit_p_threshold > 0;
+    add_shift(&to->left_out, has_ranges ? curve_left_out_error(fit) : 0);
+    for (int i = 0; i < WT_FIT_RANGES && has_ranges; i++) {
+        const double weight = pow(fit->range_error[i], -2);
+        if (!isfinite(weight * fit->range_shift[i]))
+            continue;
+        to->range_sum[i] += weight * fit->range_shift[i];
+        to->range_weight[i] += weight;
+    }
     to->n_unknown_loss += indent_has_unknown_loss(fit);
     to->n++;
     if (isnan(fit->misfit[0]))
@@ -373,24 +369,27 @@ static void report_common_shifts(const indent_summary *summary, const wt_indent_
 
 double indent_summary_range_spread(const indent_summary *summary)
 {
-    double low = 0, high = 0, noise = 0;
+    /* smallest and largest shift, their variances, and that of the most precise range */
+    double end[2] = {0, 0}, variance[2] = {0, 0}, least = (double)NAN;
     for (int i = 0; i < WT_FIT_RANGES; i++) {
-        const double n = (double)summary->range[i].n;
-        if (!(n > 0))
-            continue;
-        low = fmin(low, summary->range[i].sum / n);
-        high = fmax(high, summary->range[i].sum / n);
-        noise = fmax(noise, summary->range_variance[i] / (n * n));
+        const wt_estimate shift = indent_summary_range_shift(summary, i);
+        const double noise = pow(shift.standard_error, 2);
+        const bool side = shift.value > 0;
+        if (!isnan(shift.value))
+            least = fmin(least, noise); /* NaN is ignored */
+        if (fabs(shift.value) > fabs(end[side])) {
+            end[side] = shift.value;
+            variance[side] = noise;
+        }
     }
-    return hypot(sqrt(fmax(pow((high - low) / 2, 2) - noise, 0)),
+    return hypot(sqrt(fmax(pow(end[1] - end[0], 2) - variance[0] - variance[1], least)) / 2,
                  mean_shift(summary, &summary->left_out));
 }
 
 wt_estimate indent_summary_range_shift(const indent_summary *summary, int range)
 {
-    const double n = (double)summary->range[range].n;
-    return (wt_estimate){summary->range[range].sum / n, sqrt(summary->range_variance[range]) / n, 0,
-                         "1"};
+    const double weight = summary->range_weight[range];
+    return (wt_estimate){summary->range_sum[range] / weight, 1 / sqrt(weight), 0, "1"};
 }
 
 /* Writes the changes of the moduli with other choices of the fit, as far as they are known. A pull
@@ -402,7 +401,7 @@ static void report_choices(const indent_summary *summary, table_writer *rows)
         isnan(loss_error(summary)) ? (double)NAN : mean_shift(summary, &summary->loss);
     for (int i = 0; i < WT_FIT_RANGES; i++) {
         const wt_estimate shift = indent_summary_range_shift(summary, i);
-        if (summary->range[i].n > 0)
+        if (summary->range_weight[i] > 0)
             indentation_set_value(rows, (indentation_key)(INDENTATION_KEY_RANGE_SHIFT + i),
                                   shift.value, shift.standard_error, 0);
     }

@@ -171,25 +171,29 @@ static void test_one_relaxation_time(void **state)
     }
 }
 
-/* Half of the range of the mean shifts, with 0 for the whole fit range, minus the noise of the
- * mean. A fit range with too few samples does not count. */
-static double spread_of(const double shift[2][WT_FIT_RANGES], double noise)
+/* Half of the range of the mean shifts, with 0 for the whole fit range, minus the noise of the two
+ * means, and at least the noise of the most precise mean. A mean weighs each curve by its noise. A
+ * fit range with too few samples does not count. */
+static double spread_of(const double shift[2][WT_FIT_RANGES], double noise, double noise_of_second)
 {
     const wt_indent_options options = wt_indent_defaults();
+    const double w[2] = {1 / (noise * noise), 1 / (noise_of_second * noise_of_second)};
+    const bool is_alone = isnan(shift[1][1]);
     indent_summary all = {0};
     for (int i = 0; i < 2; i++) {
         wt_indent_fit fit = {.modulus.value = 1e6, .max_force = 1e-9};
         for (int r = 0; r < WT_FIT_RANGES; r++) {
             fit.range_shift[r] = shift[i][r];
-            fit.range_error[r] = noise;
+            fit.range_error[r] = i == 0 ? noise : noise_of_second;
         }
         indent_summary_add(&all, &fit, &options);
     }
     const double spread = indent_summary_range_spread(&all);
     const wt_estimate middle = indent_summary_range_shift(&all, 1);
-    assert_near(middle.value, isnan(shift[1][1]) ? shift[0][1] : (shift[0][1] + shift[1][1]) / 2,
+    assert_near(middle.value,
+                is_alone ? shift[0][1] : (w[0] * shift[0][1] + w[1] * shift[1][1]) / (w[0] + w[1]),
                 1e-12);
-    assert_near(middle.standard_error, isnan(shift[1][1]) ? noise : noise / sqrt(2), 1e-12);
+    assert_near(middle.standard_error, is_alone ? noise : 1 / sqrt(w[0] + w[1]), 1e-12);
     assert_true(isnan(indent_summary_range_shift(&all, 2).value));
     indent_summary_clear(&all);
     return spread;
@@ -198,13 +202,16 @@ static double spread_of(const double shift[2][WT_FIT_RANGES], double noise)
 static void test_range_error(void **state)
 {
     (void)state;
-    const double none = (double)NAN;
+    const double none = (double)NAN, small = 1e-8;
     const double both[2][WT_FIT_RANGES] = {{0.10, -0.04, none}, {0.14, -0.02, none}},
                  one[2][WT_FIT_RANGES] = {{0.10, -0.04, none}, {0.14, none, none}};
-    assert_near(spread_of(both, 0), (0.12 + 0.03) / 2, 1e-12);
-    assert_near(spread_of(one, 0), (0.12 + 0.04) / 2, 1e-12);
-    assert_near(spread_of(both, 0.05), sqrt(0.075 * 0.075 - 0.05 * 0.05 / 2), 1e-12);
-    assert_true(spread_of(both, 1) == 0);
+    assert_near(spread_of(both, small, small), (0.12 + 0.03) / 2, 1e-12);
+    assert_near(spread_of(one, small, small), (0.12 + 0.04) / 2, 1e-12);
+    assert_near(spread_of(both, small, 2 * small), (0.108 + 0.036) / 2, 1e-12);
+    assert_near(spread_of(both, 0.05, 0.05), sqrt(0.15 * 0.15 - 0.05 * 0.05) / 2, 1e-12);
+    assert_near(spread_of(both, 1, 1), sqrt(0.5) / 2, 1e-12);
+    indent_summary none_added = {0};
+    assert_true(indent_summary_range_spread(&none_added) == 0);
 }
 
 /* An attraction before contact that no law of adhesion describes is returned if it is above a tenth
