@@ -92,7 +92,7 @@ static double contact_force(const wt_tip *tip, double depth)
     return g;
 }
 
-/* Fit of a curve with a worn tip, and the effect on ln(modulus) that is looked for. */
+/* Fit of a curve with tip wear, and the effect on ln(modulus) that it must have. */
 typedef struct wear_search {
     const wt_tip *tip;
     const pressed_curve *at;
