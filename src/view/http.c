@@ -43,10 +43,8 @@ static bool has_token(const char *target, const char *token)
     return differences == 0;
 }
 
-/* Checks the head of a request for the server on this port and finds its route. Returns the HTTP
- * status: 200, or the reason for the refusal. */
-static unsigned view_admit(const view_head *head, const char *token, unsigned port,
-                           const view_route *routes, const view_route **route)
+unsigned view_admit(const view_head *head, const char *token, unsigned port,
+                    const view_route *routes, const view_route **route)
 {
     enum {
         OK = 200,

@@ -32,6 +32,11 @@ typedef struct view_head {
     const char *site; /* header Sec-Fetch-Site */
 } view_head;
 
+/* Checks the head of a request for the server on this port and finds its route. Returns the HTTP
+ * status: 200, or the reason for the refusal. */
+unsigned view_admit(const view_head *head, const char *token, unsigned port,
+                    const view_route *routes, const view_route **route);
+
 /* The program that the server runs for whole cases: weartrack itself, one at a time. */
 typedef struct view_program {
     char **arguments; /* [n + 1] of the last one, ends with NULL */
