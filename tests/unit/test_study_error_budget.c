@@ -209,6 +209,7 @@ static void test_exact_ratio(void **state)
         wt_error_budget_compute(&sliding, NULL, &observation, NULL, &work, &table, NULL), WT_OK);
     assert_true(relative(table, "friction coefficient with layer", "pressure") > 0);
     assert_non_null(strstr(wt_table_key(table, "excluded_errors"), "modulus ratio"));
+    assert_null(strstr(wt_table_key(table, "excluded_errors"), "calibration"));
     for (size_t i = 0; i < wt_table_n_rows(table); i++) {
         assert_string_not_equal(text_cell(table, i, "source"), "modulus ratio");
         assert_string_not_equal(text_cell(table, i, "source"), "stated error");
