@@ -179,9 +179,11 @@ static size_t add_heading_lines(text_buffer *to, const figure_drawing *d, const 
         text_format(&words, "%s: ", c->rows->suffix);
     text_add(&words, refused ? verdict_text(indentation_enum(c->rows, c->row, INDENTATION_VERDICT))
                              : verdict);
-    if (!refused && isfinite(modulus.value))
-        text_format(&words, ", E = %s", ESTIMATE(&modulus));
     size_t lines = 1 + add_wrapped_lines(to, text_string(&words), VERDICT_LINES);
+    if (!refused && isfinite(modulus.value)) {
+        text_format(to, "\nE = %s", ESTIMATE(&modulus));
+        lines++;
+    }
     text_free(&words);
     if (c->kind != CURVE_ACCEPTED && reason[0] != '\0') {
         text_add(to, "\n");

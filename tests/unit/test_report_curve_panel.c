@@ -157,12 +157,13 @@ static void test_texts(void **state)
     assert_non_null(strstr(refused, "set label 5 'detector'"));
     assert_null(strstr(refused, "set arrow from")); /* no fit, no contact */
     char *doubtful = script_of(&tables, &list.curves[10]);
-    assert_non_null(strstr(doubtful, "'doubtful, E = 2.00"));
-    assert_non_null(strstr(doubtful, "set label 3 'baseline departs'"));
+    assert_non_null(strstr(doubtful, "set label 2 'doubtful'"));
+    assert_non_null(strstr(doubtful, "set label 3 'E = 2.00 MPa (95 %: 1.80 to 2.20)'"));
+    assert_non_null(strstr(doubtful, "set label 4 'baseline departs'"));
     assert_non_null(strstr(doubtful, "set arrow from"));
     char *accepted = script_of(&tables, &list.curves[14]);
-    assert_non_null(strstr(accepted, "'accepted, E = 2.00"));
-    assert_null(strstr(accepted, "set label 3"));
+    assert_non_null(strstr(accepted, "set label 3 'E = 2.00 MPa (95 %: 1.80 to 2.20)'"));
+    assert_null(strstr(accepted, "set label 4"));
     free(refused);
     free(doubtful);
     free(accepted);
