@@ -15,7 +15,7 @@
 #include <string.h>
 
 /* Quantities that a replicate returns for each velocity. */
-enum { HYSTERESIS, AREA, TOTAL, LAYERED, CHANGE, RELATIVE, N_KINDS };
+enum { HYSTERESIS, SHEARING, AREA, TOTAL, LAYERED, CHANGE, RELATIVE, N_KINDS };
 
 typedef struct friction_task {
     const wt_sliding *sliding;
@@ -61,8 +61,9 @@ static wt_status compute_bulk(const friction_task *task, size_t replicate,
     for (size_t i = 0; status == WT_OK && i < task->n; i++) {
         kind_values(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
         kind_values(out, task->n, AREA)[i] = points[i].area_ratio.value;
-        kind_values(out, task->n, TOTAL)[i] =
-            points[i].hysteresis.value + c->shear_stress * points[i].area_ratio.value / c->pressure;
+        const double shearing = c->shear_stress * points[i].area_ratio.value / c->pressure;
+        kind_values(out, task->n, SHEARING)[i] = shearing;
+        kind_values(out, task->n, TOTAL)[i] = points[i].hysteresis.value + shearing;
         kind_values(out, task->n, LAYERED)[i] = (double)NAN;
         kind_values(out, task->n, CHANGE)[i] = (double)NAN;
         kind_values(out, task->n, RELATIVE)[i] = (double)NAN;
@@ -121,7 +122,8 @@ TABLE_ROW(friction, FRICTION, double velocity, adhesion, extrapolated_share;
           wt_estimate total, hysteresis, area, with_layer;)
 
 TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
-           wt_estimate pressure, temperature, shear_stress, total, hysteresis, area, strain;
+           wt_estimate pressure, temperature, shear_stress, total, hysteresis, shearing, area,
+           strain;
            wt_estimate layer_thickness, layer_modulus_ratio, with_layer, change;
            wt_estimate layer_slope, layer_outside; char layer_moduli[512];
            wt_estimate relative_change, relative_change_low, relative_change_high;
@@ -200,6 +202,9 @@ static void set_friction_keys(friction_task *task, const sliding_contact *c, tab
         .total = estimate_with_error(task, TOTAL, last, task->numerical[0]),
         .hysteresis =
             estimate_with_error(task, HYSTERESIS, last, reference->hysteresis.numerical_error),
+        .shearing = estimate_with_error(task, SHEARING, last,
+                                        c->shear_stress / s->pressure.value *
+                                            reference->area_ratio.numerical_error),
         .area = estimate_with_error(task, AREA, last, reference->area_ratio.numerical_error),
         .strain = unknown_estimate,
         .layer_thickness = unknown_estimate,
@@ -373,7 +378,8 @@ static wt_status draw_friction_replicates(friction_task *task, wt_error *err)
     task->drawn = r->n * task->n;
     for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)
         kind_values(r->error, task->n, HYSTERESIS)[i] = kind_values(r->error, task->n, AREA)[i] =
-            kind_values(r->error, task->n, TOTAL)[i] = (double)NAN;
+            kind_values(r->error, task->n, SHEARING)[i] = kind_values(r->error, task->n, TOTAL)[i] =
+                (double)NAN;
     return status;
 }
 

@@ -55,6 +55,8 @@
       HEADLINE("Friction coefficient"))                                                            \
     X(FRICTION_KEY_HYSTERESIS, "hysteresis_at_reference", NUMBER, SHOWS(hysteresis),               \
       HEADLINE("Friction coefficient, hysteresis part"))                                           \
+    X(FRICTION_KEY_SHEARING, "shearing_at_reference", NUMBER, SHOWS(shearing),                     \
+      HEADLINE("Friction coefficient, shearing part"), OPTIONAL)                                   \
     X(FRICTION_KEY_AREA_RATIO, "area_ratio_at_reference", NUMBER, SHOWS(area),                     \
       HEADLINE("Real over nominal contact area"))                                                  \
     X(FRICTION_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),               \

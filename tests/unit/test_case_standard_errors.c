@@ -24,6 +24,7 @@ static const expectation list[] = {
     {&friction_schema, "reference_velocity", "0000"},
     {&friction_schema, "friction_at_reference", "kkkn"},
     {&friction_schema, "hysteresis_at_reference", "kkkn"},
+    {&friction_schema, "shearing_at_reference", "kkkn"},
     {&friction_schema, "area_ratio_at_reference", "kkkn"},
     {&friction_schema, "strain", "...."}, /* no softening */
     {&friction_schema, "layer_thickness", "knnn"},

@@ -114,6 +114,10 @@ static void test_friction(void **state)
             assert_true(key_estimate(t, key).numerical_error > 0.1 * cell(t, 2, error));
             assert_true(key_estimate(t, key).numerical_error < 10 * cell(t, 2, error));
         }
+        const wt_estimate shearing = key_estimate(t, "shearing_at_reference"),
+                          area = key_estimate(t, "area_ratio_at_reference");
+        assert_near(shearing.value, 5e6 / 0.4e6 * area.value, 1e-12);
+        assert_near(shearing.numerical_error, 5e6 / 0.4e6 * area.numerical_error, 1e-12);
         assert_near(key_estimate(t, "pressure").value, 0.4e6, 0);
         assert_near(key_estimate(t, "temperature").value, 293.15, 0);
         assert_near(key_estimate(t, "shear_stress").value, 5e6, 0);

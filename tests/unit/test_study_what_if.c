@@ -227,6 +227,10 @@ static void test_range(void **state)
     assert_near(hysteresis.range.low, low, 0);
     assert_near(hysteresis.range.high, high, 0);
     assert_string_equal(hysteresis.range.widest, "largest wavenumber q1");
+    const result_value shearing = result_value_friction(&found, FRICTION_KEY_SHEARING);
+    const double stated = number_cell(table, 0, "friction") - number_cell(table, 0, "hysteresis");
+    assert_near(shearing.number.value, stated, 1e-9);
+    assert_true(shearing.range.low <= stated && shearing.range.high > 1.1 * stated);
     assert_true(isnan(result_value_thickness(&found).number.value)); /* no table of the layer */
     wt_result_free(result);
 }

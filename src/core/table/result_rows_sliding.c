@@ -10,23 +10,21 @@ static void add_friction(rows_source *s, const table_view *v)
 {
     const result_value_tables *t = &s->values;
     const result_value hysteresis = result_value_friction(t, FRICTION_KEY_HYSTERESIS),
+                       shearing = result_value_friction(t, FRICTION_KEY_SHEARING),
                        area = result_value_friction(t, FRICTION_KEY_AREA_RATIO),
                        total = result_value_friction(t, FRICTION_KEY_FRICTION),
                        layered = result_value_friction(t, FRICTION_KEY_WITH_LAYER),
                        change = result_value_friction(t, FRICTION_KEY_RELATIVE_CHANGE);
     const bool known = !isnan(total.number.value);
-    const double none = (double)NAN;
     rows_condition(s, hysteresis.velocity, "m/s");
     rows_condition(s, hysteresis.pressure, "Pa");
     rows_condition(s, friction_value(v, FRICTION_KEY_TEMPERATURE).value, "degC");
     if (known)
         rows_add_value(s, 0, &total, "friction coefficient");
     rows_add_value(s, known, &hysteresis, known ? "hysteresis" : "friction by hysteresis");
-    if (known)
-        rows_add_number(s, 1,
-                        rows_number(total.number.value - hysteresis.number.value, none, none, "1"),
-                        "shearing");
-    else
+    if (!isnan(shearing.number.value))
+        rows_add_value(s, 1, &shearing, "shearing");
+    if (!known)
         rows_note(&s->rows->rows[s->rows->n - 1], "no shear stress: without shearing");
     rows_add_value(s, 0, &area, "real contact area");
     if (!isnan(layered.number.value)) {

@@ -144,6 +144,11 @@ WHAT_IF_ACCESSOR(what_if_total, WHAT_IF_FRICTION)
 WHAT_IF_ACCESSOR(what_if_thickness, WHAT_IF_THICKNESS)
 WHAT_IF_ACCESSOR(what_if_with_layer, WHAT_IF_WITH_LAYER)
 
+static double what_if_shearing(const table_view *what_if, size_t row)
+{
+    return what_if_total(what_if, row) - what_if_hysteresis(what_if, row);
+}
+
 static double what_if_change(const table_view *what_if, size_t row)
 {
     return what_if_with_layer(what_if, row) - what_if_total(what_if, row);
@@ -233,6 +238,7 @@ typedef struct predicted {
 static const predicted friction_numbers[] = {
     {FRICTION_KEY_FRICTION, what_if_total, true},
     {FRICTION_KEY_HYSTERESIS, what_if_hysteresis, true},
+    {FRICTION_KEY_SHEARING, what_if_shearing, true},
     {FRICTION_KEY_AREA_RATIO, what_if_area, true},
     {FRICTION_KEY_WITH_LAYER, what_if_with_layer, true},
     {FRICTION_KEY_CHANGE, what_if_change, false},
