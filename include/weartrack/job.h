@@ -91,6 +91,9 @@ typedef struct wt_tables_role {
 WT_API wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
                                 wt_tables_role role, wt_result **tables,
                                 wt_error *err) WT_NODISCARD;
+/* Variant that reads and checks only the tables of an HDF5 result for wt_result_main_values. */
+WT_API wt_status wt_tables_read_main_values(const char *path, wt_result **tables,
+                                            wt_error *err) WT_NODISCARD;
 
 /* ---- failures and notes --------------------------------------------------------------------- */
 

@@ -52,13 +52,14 @@ static wt_status read_result(void *user, size_t i, unsigned worker)
     wt_error err = WT_ERROR_INIT;
     wt_result *result = NULL;
     (void)worker;
-    wt_status read = wt_tables_read(r->files[i], r->files[i], NULL,
-                                    (wt_tables_role){.instead = NULL}, &result, &err);
+    const bool shown = r->brief && i < SHOWN, whole = shown || !cmd_is_hdf5_path(r->files[i]);
+    wt_status read = whole ? cmd_tables_read(r->files[i], &result, &err)
+                           : wt_tables_read_main_values(r->files[i], &result, &err);
     if (read == WT_OK)
         read = wt_result_main_values(result, &one->headlines, &err);
     if (read == WT_OK) {
         one->n_remarks = cmd_count_remarks(result);
-        one->first_numbers = r->brief && i < SHOWN ? first_numbers(result, r->files[i]) : NULL;
+        one->first_numbers = shown ? first_numbers(result, r->files[i]) : NULL;
     } else {
         one->failure = wt_alloc(1, sizeof err);
         wt_error_file(&err, r->files[i]);

@@ -3,6 +3,7 @@
 #include "weartrack/job.h"
 
 #include "core/base/memory.h"
+#include "core/store/store.h"
 #include "core/table/table_rows.h"
 #include "job/inputs.h"
 #include "weartrack/read.h"
@@ -86,8 +87,14 @@ wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
     return status;
 }
 
-/* ---- notes of a log ---------------------------------------------------------------------------
- */
+wt_status wt_tables_read_main_values(const char *path, wt_result **tables, wt_error *err)
+{
+    return store_read(path, store_extract_main_values, tables, NULL) == WT_OK
+               ? WT_OK /* a damaged file is read whole, for its message */
+               : wt_tables_read(path, path, NULL, (wt_tables_role){.instead = NULL}, tables, err);
+}
+
+/* ---- notes of a log -------------------------------------------------------------------------- */
 
 TABLE_ROW(notes, NOTES, const char *severity, *file; wt_log_entry entry;)
 

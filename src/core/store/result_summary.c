@@ -182,34 +182,29 @@ static wt_status add_table_headlines(table_writer *t, const wt_result *result,
 
 wt_status wt_result_main_values(const wt_result *result, wt_table **headlines, wt_error *err)
 {
-    static const table_schema *const schemas[] = {&answer_schema, &notes_schema, &failures_schema,
-                                                  &shift_factors_schema};
     result_value_tables found;
-    table_view answer, notes, failures, shifts;
-    table_view *const views[] = {&answer, &notes, &failures, &shifts};
-    wt_status status = result_values_bind(result, &found, err);
-    for (size_t i = 0; status == WT_OK && i < COUNT_OF(views); i++)
-        status = table_bind_result(result, schemas[i], "", views[i], err);
+    const wt_status status = result_values_bind(result, &found, err);
+    const table_view *const answer = &found.answer, *notes = &found.notes, *shifts = &found.shifts;
     if (status != WT_OK)
         return status;
     double n_remarks = 0;
-    for (size_t row = 0; row < notes.n_rows; row++)
-        n_remarks += notes_enum(&notes, row, NOTES_SEVERITY) != WT_NOTE;
+    for (size_t row = 0; row < notes->n_rows; row++)
+        n_remarks += notes_enum(notes, row, NOTES_SEVERITY) != WT_NOTE;
     table_writer t = table_begin(&keys_schema, err);
-    add_number_headline(&t, "status", "", result_completeness(&failures, &notes), "1");
-    if (answer.table != NULL && answer_key_text(&answer, ANSWER_KEY_CASE_TITLE) != NULL)
-        add_text_headline(&t, "case_title", answer_key_text(&answer, ANSWER_KEY_CASE_TITLE));
+    add_number_headline(&t, "status", "", result_completeness(&found.failures, notes), "1");
+    if (answer->table != NULL && answer_key_text(answer, ANSWER_KEY_CASE_TITLE) != NULL)
+        add_text_headline(&t, "case_title", answer_key_text(answer, ANSWER_KEY_CASE_TITLE));
     add_ratio_headlines(&t, &found);
     add_group_headlines(&t, &found);
     if (t.status == WT_OK)
         t.status = add_table_headlines(&t, result, &found, err);
     /* the misfit of the common spectrum, on which the verdict on superposition is based */
     add_bounds(&t, "superposition_misfit", bound_suffixes,
-               parse_number_or_nan(shift_factors_key_text(&shifts, SHIFT_FACTORS_KEY_MISFIT_LOW)),
-               parse_number_or_nan(shift_factors_key_text(&shifts, SHIFT_FACTORS_KEY_MISFIT_HIGH)),
+               parse_number_or_nan(shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_MISFIT_LOW)),
+               parse_number_or_nan(shift_factors_key_text(shifts, SHIFT_FACTORS_KEY_MISFIT_HIGH)),
                "1");
     add_number_headline(&t, "remarks", "", n_remarks, "1");
-    add_number_headline(&t, "failures", "", (double)failures.n_rows, "1");
+    add_number_headline(&t, "failures", "", (double)found.failures.n_rows, "1");
     return table_end(&t, headlines);
 }
 

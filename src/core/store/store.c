@@ -150,32 +150,22 @@ wt_status store_decode(const char *bytes, size_t length, wt_result *result, wt_e
     return status;
 }
 
-/* Decodes a new result. */
-static wt_status decode_result(const char *bytes, size_t length, const char *name,
-                               wt_result **result, wt_error *err)
+static wt_status store_read_bytes(const hdf5_bytes *from, hdf5_read_function *extract,
+                                  const char *name, wt_result **result, wt_error *err)
 {
+    const sandbox_limits limits = sandbox_limits_for(from->size);
+    size_t n = 0;
+    char *answer = NULL;
     wt_result *const read = wt_result_new();
-    const wt_status status = store_decode(bytes, length, read, err);
+    wt_status status = hdf5_sandbox_read(from, &limits, extract, &answer, &n, err);
+    if (status == WT_OK)
+        status = store_decode(answer, n, read, err);
     if (status == WT_OK) {
         *result = read;
     } else {
         wt_error_file(err, name);
         wt_result_free(read);
     }
-    return status;
-}
-
-static wt_status store_read_bytes(const hdf5_bytes *from, const char *name, wt_result **result,
-                                  wt_error *err)
-{
-    const sandbox_limits limits = sandbox_limits_for(from->size);
-    size_t n = 0;
-    char *answer = NULL;
-    wt_status status = hdf5_sandbox_read(from, &limits, store_extract, &answer, &n, err);
-    if (status == WT_OK)
-        status = decode_result(answer, n, name, result, err);
-    else
-        wt_error_file(err, name);
     free(answer);
     return status;
 }
@@ -185,39 +175,35 @@ wt_status wt_store_read_memory(const void *bytes, size_t length, const char *nam
 {
     /* A file without bytes must not be mistaken for a descriptor. */
     const hdf5_bytes from = {.bytes = length > 0 ? bytes : (const void *)"", .size = length};
-    return store_read_bytes(&from, name, result, err);
+    return store_read_bytes(&from, store_extract, name, result, err);
 }
 
-/* Opens a regular file. On failure *file is -1 or open; the caller closes it.
- * Opening a pipe without O_NONBLOCK would wait for a writer. */
-static wt_status store_open_regular(const char *path, int *file, struct stat *info, wt_error *err)
+wt_status store_read(const char *path, hdf5_read_function *extract, wt_result **result,
+                     wt_error *err)
 {
-    *file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    const bool opened = *file >= 0 && fstat(*file, info) == 0;
-    wt_status status = WT_OK;
-    if (!opened) {
+    struct stat info;
+    wt_status status;
+    /* Opening a pipe without O_NONBLOCK would wait for a writer. */
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0 || fstat(file, &info) != 0) {
         status = wt_fail(err, errno == ENOENT ? WT_E_NOT_FOUND : WT_E_IO, "%s", strerror(errno));
-    } else if (!S_ISREG(info->st_mode)) {
+    } else if (!S_ISREG(info.st_mode)) {
         status = wt_fail(err, WT_E_IO, "not a regular file");
         wt_error_expected(err, "an HDF5 file, which cannot come through a pipe");
-    } else if (info->st_size == 0) {
+    } else if (info.st_size == 0) {
         status = wt_fail(err, WT_E_FORMAT, "an empty file");
+    } else {
+        const hdf5_bytes from = {.file = file, .size = (size_t)info.st_size};
+        status = store_read_bytes(&from, extract, path, result, err);
     }
     if (status != WT_OK)
         wt_error_file(err, path);
+    if (file >= 0)
+        (void)close(file);
     return status;
 }
 
 wt_status wt_store_read(const char *path, wt_result **result, wt_error *err)
 {
-    struct stat info;
-    int file = -1;
-    wt_status status = store_open_regular(path, &file, &info, err);
-    if (status == WT_OK) {
-        const hdf5_bytes from = {.file = file, .size = (size_t)info.st_size};
-        status = store_read_bytes(&from, path, result, err);
-    }
-    if (file >= 0)
-        (void)close(file);
-    return status;
+    return store_read(path, store_extract, result, err);
 }

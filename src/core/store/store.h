@@ -36,10 +36,12 @@ typedef struct store_tail {
     uint64_t n_tables, case_length, origin_length;
 } store_tail;
 
-void store_tail_write(FILE *out,
-                      const store_tail *tail); /* writes 8 bytes for each member, little-endian */
-wt_status store_extract(hid_t file, size_t size, FILE *out,
-                        wt_error *err); /* an hdf5_read_function */
+/* An hdf5_read_function, and the variant that writes the tables of result_values_use alone. */
+wt_status store_extract(hid_t file, size_t size, FILE *out, wt_error *err);
+wt_status store_extract_main_values(hid_t file, size_t size, FILE *out, wt_error *err);
+/* wt_store_read with one of these functions. */
+wt_status store_read(const char *path, hdf5_read_function *extract, wt_result **result,
+                     wt_error *err) WT_NODISCARD;
 /* Creates the error WT_E_CORRUPT for a damaged file of this program, with advice. */
 wt_status store_corrupt_error(wt_error *err, const char *place, const char *message);
 /* Decodes the data from the sandbox into a result. All bytes are validated. */

@@ -4,7 +4,7 @@
 #include "core/base/memory.h"
 #include "core/store/hdf5_sandbox.h"
 #include "core/store/store.h"
-#include "core/table/table.h"
+#include "core/table/result_value.h"
 
 #include <endian.h>
 #include <stdlib.h>
@@ -15,8 +15,7 @@ typedef struct hdf5_reader {
     hsize_t file_size; /* upper limit for every array and text in the file */
     const char *table; /* for messages; NULL outside of tables */
     FILE *out;
-    wt_status
-        status; /* status of the first failure, after which the functions below return false */
+    wt_status status; /* of the first failure, after which the functions below return false */
     wt_error *err;
 } hdf5_reader;
 
@@ -441,15 +440,21 @@ static bool read_store_index(hdf5_reader *r, store_index *w)
                                                      "not as many digests as there are tables"));
 }
 
-/* Writes all tables. */
+static bool main_values_only; /* the process reads one file */
+
 wt_status store_extract(hid_t file, size_t size, FILE *out, wt_error *err)
 {
     hdf5_reader r = {.file = file, .file_size = size, .out = out, .err = err};
     store_index w = {.tables = NULL};
     bool good = read_store_index(&r, &w);
-    store_tail tail = {.has_origin = w.command != NULL, .n_tables = w.n_tables};
+    store_tail tail = {.has_origin = w.command != NULL};
     for (size_t i = 0; good && i < w.n_tables; i++)
-        good = write_stored_table(&r, w.tables[i]);
+        if (!main_values_only || result_values_use(w.tables[i])) {
+            good = write_stored_table(&r, w.tables[i]);
+            tail.n_tables++;
+        } else {
+            w.digests[i][0] = '\0';
+        }
     good = good && (!tail.has_origin || write_stored_table(&r, STORE_INPUTS_TABLE)) &&
            write_case_text(&r, &tail.case_length);
     if (good && tail.has_origin)
@@ -457,7 +462,7 @@ wt_status store_extract(hid_t file, size_t size, FILE *out, wt_error *err)
     for (size_t i = 0; good && i < w.n_digests; i++) {
         char padded[STORE_DIGEST_SIZE] = "";
         (void)snprintf(padded, sizeof padded, "%s", w.digests[i]);
-        (void)fwrite(padded, sizeof padded, 1, out);
+        (void)fwrite(padded, sizeof padded, padded[0] != '\0', out);
     }
     if (good) {
         const uint64_t words[] = {htole64(tail.has_origin), htole64(tail.n_tables),
@@ -469,4 +474,10 @@ wt_status store_extract(hid_t file, size_t size, FILE *out, wt_error *err)
     free(w.version);
     free(w.command);
     return r.status;
+}
+
+wt_status store_extract_main_values(hid_t file, size_t size, FILE *out, wt_error *err)
+{
+    main_values_only = true;
+    return store_extract(file, size, out, err);
 }

@@ -3,6 +3,7 @@
 #include "core/table/result_value.h"
 #include "core/base/array.h"
 #include "core/math/students_t.h"
+#include "core/table/table.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,7 +19,11 @@ static const struct {
                    {&friction_schema, offsetof(result_value_tables, friction)},
                    {&layer_schema, offsetof(result_value_tables, layer)},
                    {&what_if_schema, offsetof(result_value_tables, what_if)},
-                   {&track_layer_schema, offsetof(result_value_tables, track_layer)}};
+                   {&track_layer_schema, offsetof(result_value_tables, track_layer)},
+                   {&answer_schema, offsetof(result_value_tables, answer)},
+                   {&notes_schema, offsetof(result_value_tables, notes)},
+                   {&failures_schema, offsetof(result_value_tables, failures)},
+                   {&shift_factors_schema, offsetof(result_value_tables, shifts)}};
 
 wt_status result_values_bind(const wt_result *result, result_value_tables *tables, wt_error *err)
 {
@@ -32,6 +37,19 @@ wt_status result_values_bind(const wt_result *result, result_value_tables *table
         status = status == WT_OK ? one : status;
     }
     return status;
+}
+
+bool result_values_use(const char *table)
+{
+    const char *const name = table_current_name(table);
+    bool used = false;
+    for (size_t i = 0; i < COUNT_OF(table_views); i++)
+        used = used || strcmp(table_views[i].schema->name, name) == 0;
+    for (size_t i = 0; i < table_n_schemas; i++)
+        for (unsigned k = 0; k < table_schemas[i]->n_keys; k++)
+            used = used || (table_schemas[i]->keys[k].headline != NULL &&
+                            strcmp(table_schemas[i]->name, name) == 0);
+    return used;
 }
 
 static result_value empty_result_value(const char *name, const char *words, wt_quantity quantity,

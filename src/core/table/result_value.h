@@ -41,11 +41,14 @@ typedef enum sign_verdict { SIGN_BELOW = -1, SIGN_UNDECIDED = 0, SIGN_ABOVE = 1 
 /* Bound tables from which result values are computed. Each table may be absent. */
 typedef struct result_value_tables {
     table_view groups, budget, rates, comparison, friction, layer, what_if, track_layer;
+    table_view answer, notes, failures, shifts; /* of wt_result_main_values */
 } result_value_tables;
 
 /* Binds the tables of a result. A table that cannot be bound is an error and is then absent. */
 wt_status result_values_bind(const wt_result *result, result_value_tables *tables,
                              wt_error *err) WT_NODISCARD;
+/* True if wt_result_main_values reads the table, whose name may be a former one. */
+bool result_values_use(const char *table);
 
 /* Modulus of a group, for a row of modulus_groups. The interval is the one of that row: the
  * scatter of the spots and the errors that all curves share. */

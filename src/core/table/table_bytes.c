@@ -106,8 +106,7 @@ wt_status table_bytes_digest(const wt_table *table, char hex[65], wt_error *err)
 typedef struct byte_reader {
     const char *at, *end;
     wt_table *table;
-    wt_status
-        status; /* status of the first failure, after which the functions below return false */
+    wt_status status; /* of the first failure, after which the functions below return false */
     wt_error *err;
 } byte_reader;
 
