@@ -59,7 +59,7 @@ done
 # An existing name is refused and nothing is changed.
 cp -r "$work/tree" "$work/before"
 for call in 'reader aaa' 'reader gsf' 'reader stored' 'reader text' 'reader tidy' 'reader ntmdt-text' \
-  'reader Abc' 'reader' 'subcommand a' 'subcommand ramp' 'subcommand new-case' 'subcommand log' \
+  'reader Abc' 'reader' 'subcommand a' 'subcommand ramp' 'subcommand new-case' 'subcommand message' \
   'subcommand help' 'subcommand two words' 'other name' ''; do
   # shellcheck disable=SC2086 # the words of the call
   sh src/skeleton.sh $call >"$work/refused" 2>&1 && fail "\"$call\" was accepted"

@@ -188,6 +188,29 @@ static void other_temperatures(void **state)
 
 /* ---- columns for each condition -------------------------------------------------------------- */
 
+/* Of two columns of temperature that of the sample is read, in any order. */
+static void sample_temperature_before_oven(void **state)
+{
+    static const char *const names[] = {"Temperature (\u00b0C),Sample temperature (\u00b0C)",
+                                        "Sample temperature (\u00b0C),Temperature (\u00b0C)"};
+    const wt_read_options options = wt_read_defaults();
+    (void)state;
+    for (int first = 0; first < 2; first++) {
+        made_text t = {.n = 0};
+        wt_sweep sweep;
+        wt_error err;
+        wt_log *log = wt_log_new();
+        add(&t, "Frequency (Hz),%s,Storage modulus (MPa),Loss modulus (MPa)\n", names[first]);
+        for (size_t f = 0; f < N_F; f++)
+            add(&t, "%g,%d,%d,%.9g,%.9g\n", hertz[f], first ? 22 : 20, first ? 20 : 22,
+                storage(20, hertz[f]), loss(20, hertz[f]));
+        assert_int_equal(read_sweep(t.text, &options, &sweep, log, &err), WT_OK);
+        assert_near(sweep.isotherms[0].temperature, 22 + WT_ZERO_CELSIUS, 1e-12);
+        wt_sweep_clear(&sweep);
+        wt_log_free(log);
+    }
+}
+
 /* A table with two columns for each temperature. '#' in a name is the temperature. */
 static void reads_wide_as(const char *above, const char *first, const char *storage_name,
                           const char *loss_name, const char *below)
@@ -508,6 +531,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(columns_that_contradict_are_named),
                                        cmocka_unit_test(lines_above),
                                        cmocka_unit_test(other_temperatures),
+                                       cmocka_unit_test(sample_temperature_before_oven),
                                        cmocka_unit_test(wide_tables),
                                        cmocka_unit_test(wide_by_rows),
                                        cmocka_unit_test(temperatures_below_names),
