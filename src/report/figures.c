@@ -20,9 +20,9 @@ static const figure_list lists[] = {{figures_indentation, SECTION_INDENTATION},
                                     {figures_record, SECTION_FRICTION},
                                     {figures_validation, SECTION_FRICTION},
                                     {figures_layer, SECTION_LAYER},
+                                    {figures_constants, SECTION_LAYER},
                                     {figures_what_if, SECTION_UNCERTAINTY},
                                     {figures_collection, SECTION_COLLECTION},
-                                    {figures_constants, SECTION_COLLECTION},
                                     {figures_accuracy, SECTION_UNCERTAINTY}};
 
 /* Returns the figure, and the list that has it. */

@@ -41,7 +41,9 @@ void page_large_number(page_writer *page, const row_number *number, const char *
     const size_t n = strcspn(text.value, " "); /* the unit is behind the first blank */
     double left = 0, right = 0;
     if (strpbrk(text.value, "0123456789") == NULL) { /* such as "not known" */
-        text_html(&page->out, "<p class=\"verdict\"><strong>%s</strong></p>\n", text.value);
+        text_add(&page->out, "<p class=\"verdict\"><strong>");
+        text_typographic(&page->out, text.interval[0] != '\0' ? text.interval : text.value);
+        text_add(&page->out, "</strong></p>\n");
         return;
     }
     char *const value = wt_strndup(text.value, n);

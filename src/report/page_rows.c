@@ -36,12 +36,14 @@ static void write_parts(page_writer *page, const result_rows *list, size_t from,
     for (size_t i = from; i < to; i++) {
         const result_row *const row = &list->rows[i];
         const row_number_text number = row_number_format(&row->number);
-        const char *const value = row->kind == RESULT_ROW_TEXT ? row->text : number.value;
+        const bool alone = isnan(row->number.value) && number.interval[0] != '\0';
+        const char *const known = alone ? number.interval : number.value,
+                          *const value = row->kind == RESULT_ROW_TEXT ? row->text : known;
         text_add(&page->out, "<li>");
         write_heading(page, row);
         text_add(&page->out, value[0] != '\0' ? ": " : "");
         text_typographic(&page->out, value);
-        if (row->kind == RESULT_ROW_NUMBER && number.interval[0] != '\0') {
+        if (row->kind == RESULT_ROW_NUMBER && !alone && number.interval[0] != '\0') {
             text_add(&page->out, " (");
             text_typographic(&page->out, number.interval);
             text_add(&page->out, ")");
@@ -78,16 +80,8 @@ static void write_reasons(page_writer *page, const result_row *row)
 
 static void write_row_card(page_writer *page, const result_rows *list, size_t first, size_t end)
 {
-    static const char *const classes[][2] = {{"inconclusive", " v-open"},
-                                             {"fails", " v-open"},
-                                             {"none", " v-nodata"},
-                                             {"not tested", " v-nodata"}};
     const result_row *const row = &list->rows[first];
-    const char *class = "";
-    for (size_t i = 0; row->kind == RESULT_ROW_TEXT && i < sizeof classes / sizeof *classes; i++)
-        if (strcmp(row->text, classes[i][0]) == 0)
-            class = classes[i][1];
-    text_html(&page->out, "<section class=\"finding%s\">\n<h2>", class);
+    text_html(&page->out, "<section class=\"finding%s\">\n<h2>", row->open ? " v-open" : "");
     write_heading(page, row);
     text_add(&page->out, "</h2>\n");
     if (row->kind == RESULT_ROW_TEXT) {

@@ -102,7 +102,8 @@ static void write_limit_items(page_writer *page, const limit_line *lines, size_t
     for (size_t i = 0; i < n; i++) {
         text_add(&page->out, lines[i].warned ? "<li class=\"warned\">" : "<li>");
         write_folded(page, lines[i].text, TWO_LINES);
-        text_html(&page->out, lines[i].file[0] != '\0' ? " (%s)" : "", wt_path_base(lines[i].file));
+        if (lines[i].file[0] != '\0')
+            text_html(&page->out, " (%s)", wt_path_base(lines[i].file));
         text_add(&page->out, "</li>\n");
     }
     text_add(&page->out, "</ul>\n");

@@ -129,7 +129,7 @@ static void test_lab_units(void **state)
     (void)state;
     /* an interval of two digits, of three to six digits of the value */
     const wt_estimate some = {3.02e-6, 0.815e-6, 0, "m"}, exact = {1, 1.2e-9, 0, "1"},
-                      zero = {0, 0.5, 0, "1"}, unknown = {2, NAN, 0, "1"};
+                      zero = {0, 0.5, 0, "1"}, unknown = {2, (double)NAN, 0, "1"};
     assert_string_equal(ESTIMATE(&some), "3.02 µm (95 %: 1.42 to 4.62)");
     assert_string_equal(ESTIMATE(&exact), "1.00000 (95 %: 1.00000 to 1.00000)");
     assert_string_equal(ESTIMATE(&zero), "0.00 (95 %: −0.98 to 0.98)");

@@ -42,6 +42,7 @@ typedef struct result_row {
     char text[64];     /* of RESULT_ROW_TEXT: a verdict or a count */
     char note[320];
     bool missing;                                  /* of an answer: its first reason says why */
+    bool open;                                     /* a verdict that does not answer the question */
     result_row_reason reasons[RESULT_ROW_REASONS]; /* unused ones have no text */
 } result_row;
 

@@ -18,7 +18,10 @@ static void note_law(result_row *row, const table_view *v)
 static result_row *add_superposition(rows_source *s, const table_view *v, const char *name)
 {
     const char *verdict = shift_factors_key_text(v, SHIFT_FACTORS_KEY_SUPERPOSITION);
-    return rows_add_verdict(s, 0, verdict != NULL ? verdict : "not tested", name);
+    result_row *row = rows_add_verdict(s, 0, verdict != NULL ? verdict : "not tested", name);
+    row->open =
+        shift_factors_key_enum(v, SHIFT_FACTORS_KEY_SUPERPOSITION) != WT_SUPERPOSITION_HOLDS;
+    return row;
 }
 
 static double largest_temperature(const table_view *v, double sign)
