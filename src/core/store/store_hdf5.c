@@ -440,9 +440,7 @@ static bool read_store_index(hdf5_reader *r, store_index *w)
                                                      "not as many digests as there are tables"));
 }
 
-static bool main_values_only; /* the process reads one file */
-
-wt_status store_extract(hid_t file, size_t size, FILE *out, wt_error *err)
+static wt_status extract(hid_t file, size_t size, FILE *out, bool main_values_only, wt_error *err)
 {
     hdf5_reader r = {.file = file, .file_size = size, .out = out, .err = err};
     store_index w = {.tables = NULL};
@@ -452,9 +450,8 @@ wt_status store_extract(hid_t file, size_t size, FILE *out, wt_error *err)
         if (!main_values_only || result_values_use(w.tables[i])) {
             good = write_stored_table(&r, w.tables[i]);
             tail.n_tables++;
-        } else {
+        } else
             w.digests[i][0] = '\0';
-        }
     good = good && (!tail.has_origin || write_stored_table(&r, STORE_INPUTS_TABLE)) &&
            write_case_text(&r, &tail.case_length);
     if (good && tail.has_origin)
@@ -464,11 +461,10 @@ wt_status store_extract(hid_t file, size_t size, FILE *out, wt_error *err)
         (void)snprintf(padded, sizeof padded, "%s", w.digests[i]);
         (void)fwrite(padded, sizeof padded, padded[0] != '\0', out);
     }
-    if (good) {
-        const uint64_t words[] = {htole64(tail.has_origin), htole64(tail.n_tables),
-                                  htole64(tail.case_length), htole64(tail.origin_length)};
+    const uint64_t words[] = {htole64(tail.has_origin), htole64(tail.n_tables),
+                              htole64(tail.case_length), htole64(tail.origin_length)};
+    if (good)
         (void)fwrite(words, sizeof words, 1, out);
-    }
     wt_strings_free(w.tables, w.n_tables);
     wt_strings_free(w.digests, w.n_digests);
     free(w.version);
@@ -476,8 +472,12 @@ wt_status store_extract(hid_t file, size_t size, FILE *out, wt_error *err)
     return r.status;
 }
 
+wt_status store_extract(hid_t file, size_t size, FILE *out, wt_error *err)
+{
+    return extract(file, size, out, false, err);
+}
+
 wt_status store_extract_main_values(hid_t file, size_t size, FILE *out, wt_error *err)
 {
-    main_values_only = true;
-    return store_extract(file, size, out, err);
+    return extract(file, size, out, true, err);
 }
