@@ -16,10 +16,10 @@ static const double level = 0.05;
 /* Significance level for the lack of fit of few curves. A missed effect causes a wrong yes, a false
  * alarm only an "inconclusive". The level is therefore the usual type II error. */
 static const double few_level = 0.2;
-/* [m] Heuristic limit of tip wear: probes of 10 to 20 nm reach 50 to 100 nm after scans over hard
+/* [m] Limit of tip wear: probes of 10 to 20 nm reach 50 to 100 nm after scans over hard
  * fillers. Blunter tips image themselves instead of the sample. */
 static const double worn_radius = 100e-9;
-/* [K] Heuristic range of laboratory temperatures, 15 to 35 degC. A scanner warms the sample by a
+/* [K] Range of laboratory temperatures, 15 to 35 degC. A scanner warms the sample by a
  * few kelvin. */
 static const double room_span = 20;
 /* [1/K] -d ln aT/dT by Williams, Landel and Ferry (J. Am. Chem. Soc. 77 (1955) 3701: 17.44, 51.6 K)

@@ -26,8 +26,8 @@ enum {
     MIN_UNITS = 3
 };
 /* Share of the baseline for its tilt; it must be as long as the part. The rest may include
- * long-range forces and optical interference. The value is chosen; half of it makes the tilt nearly
- * three times less accurate. */
+ * long-range forces and optical interference. The error of the tilt is proportional to the share to
+ * the power of -3/2: it is twice that of the whole baseline, and six times with half the share. */
 static const double baseline_share = 0.6;
 /* Smallest rise of the signal in standard deviations of the noise. It determines a slope to some
  * per cent. */
