@@ -301,13 +301,20 @@ static void test_added_files(const char *case_text)
 /* The fit of one curve has the same digits by the server, by its preview and by `run`. */
 static void test_digits(const char *case_text)
 {
-    char of_curve[64], of_trial[64], of_run[64], contact[64], moved[64];
+    char of_curve[64], of_trial[64], of_run[64], contact[64], moved[64], error[64];
     expect(200, "POST", "curve?group=bulk&file=bulk-1.jpk-force-map&number=0", case_text,
            "\"curves\"");
     member("\"rows\"", "modulus", of_curve, sizeof of_curve);
     member("\"rows\"", "contact_point", contact, sizeof contact);
     expect(200, "POST", "trial?name=indentation/bulk&replicates=0", case_text, "bulk-1");
     member("\"rows\"", "modulus", of_trial, sizeof of_trial);
+    /* draws are made where the page asks for them, and only there */
+    expect(200, "POST", "trial?name=friction&replicates=0", case_text, "friction_at_reference");
+    member("\"friction_at_reference\"", "standard_error", error, sizeof error);
+    check(strcmp(error, "null") == 0, "no draws");
+    expect(200, "POST", "trial?name=friction&replicates=20", case_text, "friction_at_reference");
+    member("\"friction_at_reference\"", "standard_error", error, sizeof error);
+    check(strtod(error, NULL) > 0, "draws");
     char *const words[] = {(char *)(size_t)program, "run", "-q", "--no-report", "case.xml", NULL};
     check(run(words) == 0, "run");
     expect(200, "GET", "table?name=indentation/bulk", "", "bulk-1");

@@ -352,6 +352,7 @@ static void ramps(void **state)
         assert_near(ramp->loss_modulus[k], 3 * ramp->temperature[k], 0);
     }
     assert_non_null(strstr(wt_log_get(log, 0).text, "a copy of that of 1.txt"));
+    assert_int_equal(wt_log_get(log, 0).n_values, 1);
     wt_log_free(log);
     wt_sweep_clear(&sweep);
 }

@@ -476,13 +476,42 @@ static void test_many_velocities(void **state)
     wt_table_free(tables[1]);
 }
 
+/* The statement of a missed tolerance has the worst error of all velocities, in any order. */
+static void test_missed_tolerance(void **state)
+{
+    (void)state;
+    static const double rising[] = {1e-3, 0.1, 10}, falling[] = {10, 0.1, 1e-3};
+    const double *const orders[] = {rising, falling};
+    char statement[2][128];
+    for (size_t k = 0; k < 2; k++) {
+        sliding_set_up(orders[k], 3);
+        work.tolerance = 1e-17;
+        wt_table *table = friction(NULL);
+        snprintf(statement[k], sizeof *statement, "%s", wt_table_key(table, "numerical_statement"));
+        double worst = 0;
+        for (size_t i = 0; i < 3; i++)
+            worst = fmax(worst, cell(table, i, "hysteresis_numerical_error") /
+                                    cell(table, i, "hysteresis"));
+        const char *const stated = strstr(statement[k], "up to ");
+        assert_non_null(stated);
+        assert_true(strtod(stated + strlen("up to "), NULL) >= 0.95 * worst);
+        wt_table_free(table);
+    }
+    assert_string_equal(statement[0], statement[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_friction),     cmocka_unit_test(test_extrapolated),
-        cmocka_unit_test(test_layered),      cmocka_unit_test(test_errors),
-        cmocka_unit_test(test_layer),        cmocka_unit_test(test_growth),
-        cmocka_unit_test(test_layer_errors), cmocka_unit_test(test_many_velocities),
+        cmocka_unit_test(test_friction),
+        cmocka_unit_test(test_extrapolated),
+        cmocka_unit_test(test_layered),
+        cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_layer),
+        cmocka_unit_test(test_growth),
+        cmocka_unit_test(test_layer_errors),
+        cmocka_unit_test(test_many_velocities),
+        cmocka_unit_test(test_missed_tolerance),
     };
     return cmocka_run_group_tests_name("friction and layer", tests, NULL, NULL);
 }

@@ -362,6 +362,23 @@ static void test_long_and_short(void **state)
     }
 }
 
+/* A number that needs 17 digits keeps its last bit. */
+static void test_last_digit(void **state)
+{
+    (void)state;
+    static const char text[] = TABLE "0.1\t20\t10.000000000000002\t1\n1\t20\t11\t1.25\n"
+                                     "10\t20\t12.1\t1.5\n";
+    const book_writer_sheet sheet = {"One", text, false};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        wt_sweep sweep;
+        wt_error err;
+        assert_int_equal(kinds[k](path, &sheet, 1), 0);
+        assert_int_equal(read_sweep(NULL, &sweep, NULL, &err), WT_OK);
+        assert_true(sweep.isotherms[0].storage_modulus[0] > 10e6);
+        wt_sweep_clear(&sweep);
+    }
+}
+
 /* A degree sign is one byte in the code page of BIFF5, and in a narrow text of BIFF8. */
 static void test_code_page(void **state)
 {
@@ -492,6 +509,7 @@ int main(void)
                                        cmocka_unit_test(test_damaged),
                                        cmocka_unit_test(test_long_and_short),
                                        cmocka_unit_test(test_code_page),
+                                       cmocka_unit_test(test_last_digit),
                                        cmocka_unit_test(test_malicious_xls),
                                        cmocka_unit_test(test_measured)};
     return cmocka_run_group_tests(tests, set_up, clean);

@@ -536,6 +536,7 @@ typedef struct pause_case {
     double display;       /* value of the last digit */
     double noise;         /* of it, at rest and in motion */
     bool recorded;        /* samples are recorded in it */
+    bool backward;        /* the instrument counts this direction as negative */
 } pause_case;
 
 static double shown(const pause_case *c, double value, uint64_t *seed)
@@ -551,12 +552,13 @@ static void test_pause(void **state)
     (void)state;
     enum { ALL = 3600, AT = 1500, LAST = AT + 600, STROKE = 300 };
     static const pause_case cases[] = {
-        {WT_RECORD_DISTANCE, 0, 0, true},    {WT_RECORD_DISTANCE, 0, 0, false},
-        {WT_RECORD_DISTANCE, 1e-3, 0, true}, {WT_RECORD_DISTANCE, 0, 1e-5, true},
-        {WT_RECORD_LAPS, 0, 0, true},        {WT_RECORD_LAPS, 1, 0, true},
-        {WT_RECORD_VELOCITY, 0, 0, true},    {WT_RECORD_VELOCITY, 0, 1e-5, true},
-        {WT_RECORD_ROTATION, 0, 0, true},    {WT_RECORD_POSITION, 0, 1e-6, true},
-        {WT_RECORD_CHANNELS, 0, 0, false}};
+        {WT_RECORD_DISTANCE, 0, 0, true, false},    {WT_RECORD_DISTANCE, 0, 0, false, false},
+        {WT_RECORD_DISTANCE, 1e-3, 0, true, false}, {WT_RECORD_DISTANCE, 0, 1e-5, true, false},
+        {WT_RECORD_LAPS, 0, 0, true, false},        {WT_RECORD_LAPS, 1, 0, true, false},
+        {WT_RECORD_VELOCITY, 0, 0, true, false},    {WT_RECORD_VELOCITY, 0, 1e-5, true, true},
+        {WT_RECORD_ROTATION, 0, 0, true, true},     {WT_RECORD_VELOCITY, 0, 1e-5, true, false},
+        {WT_RECORD_ROTATION, 0, 0, true, false},    {WT_RECORD_POSITION, 0, 1e-6, true, false},
+        {WT_RECORD_CHANNELS, 0, 0, false, false}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         const pause_case *c = &cases[k];
         wt_record record = empty_record();
@@ -578,6 +580,7 @@ static void test_pause(void **state)
                                  : c->by == WT_RECORD_LAPS     ? way / 0.05
                                  : c->by == WT_RECORD_POSITION ? 0.01 * sin((double)slid / STROKE)
                                  : rests                       ? 0
+                                 : c->backward                 ? -0.05
                                                                : 0.05,
                                  &seed);
             n++;

@@ -237,7 +237,7 @@ static size_t shorten_exponent(char *text, size_t length)
         *to++ = *from++;
     else if (*from == '+')
         from++;
-    while (*from == '0' && from[1] != '\0')
+    while (*from == '0')
         from++;
     while (*from != '\0')
         *to++ = *from++;
