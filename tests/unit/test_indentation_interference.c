@@ -216,10 +216,46 @@ static void rejected_adhesion_changes_nothing(void **state)
     wt_contact_table_free(table);
 }
 
+/* Noise is no pull-off, and a pull-off of ten times the noise is found. */
+static void noise_does_not_pull(void **state)
+{
+    (void)state;
+    enum { DRAWS = 100 };
+    wt_contact_table *table = NULL;
+    wt_force_curve curve = {0};
+    curve_truth t = curve_standard();
+    t.n = 400;
+    t.noise = 0.5e-9;
+    const wt_indent_options options = wt_indent_defaults();
+    assert_int_equal(wt_contact_table_new(&t.tip, 1e-11, 1e-4, &table, NULL), WT_OK);
+    for (int pulled = 0; pulled < 2; pulled++) {
+        size_t found = 0;
+        for (int draw = 0; draw < DRAWS; draw++) {
+            wt_indent_fit fit;
+            curve_make(&t, 100 + (uint64_t)draw, &data);
+            wt_force_curve_reset(&curve);
+            curve.cantilever.spring_constant = t.spring_constant;
+            add(&curve, WT_SEGMENT_APPROACH, &t, 0);
+            curve_make(&t, 900 + (uint64_t)draw, &data);
+            add(&curve, WT_SEGMENT_RETRACT, &t, pulled ? 10 * t.noise : 0);
+            assert_int_equal(
+                wt_indent_fit_force_curve(table, &options, &curve, workspace, &fit, NULL), WT_OK);
+            found += fit.pull_off_force > 0;
+        }
+        printf("%zu of %d with a pull-off\n", found, DRAWS);
+        assert_true(pulled ? found >= DRAWS - 5 : found <= 1);
+    }
+    wt_force_curve_clear(&curve);
+    wt_contact_table_free(table);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact), cmocka_unit_test(with_a_range), cmocka_unit_test(intervals_cover),
-        cmocka_unit_test(no_false_alarms), cmocka_unit_test(rejected_adhesion_changes_nothing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(exact),
+                                       cmocka_unit_test(with_a_range),
+                                       cmocka_unit_test(intervals_cover),
+                                       cmocka_unit_test(no_false_alarms),
+                                       cmocka_unit_test(rejected_adhesion_changes_nothing),
+                                       cmocka_unit_test(noise_does_not_pull)};
     return cmocka_run_group_tests(tests, make_workspace, free_workspace);
 }
