@@ -104,3 +104,10 @@ for name in NR SBR; do
   grep -q "^  $name, rough surface  *0\.[0-9]* .*largest friction by hysteresis, at 10.0 m/s" words
 done
 ! grep -q 'not known' words
+
+# temperature sweeps of several samples have no case and are drawn together
+for name in ramp ramp-frequencies-in-turn; do
+  "$program" ramp -q "$fixtures/../formats/table-units/$name".* -o "$name.h5"
+done
+"$program" collect ramp.h5 ramp-frequencies-in-turn.h5 -o ramps.h5
+test "$("$program" table ramps.h5 collected_ramp | cut -f 2 | sort -u | grep -c ramp)" -eq 2

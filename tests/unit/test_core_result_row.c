@@ -90,6 +90,7 @@ static void test_forms(void **state)
         {{without, none, none, none, none, "m"}, "no limit", "", ""},
         {{0, 0, 0.2, none, none, no_unit}, "0", "0 to 0.200", ""},
         {{5.9e5, none, none, none, none, "rad/m"}, "5.90e5 rad/m", "", ""},
+        {{4321, none, none, none, none, "rad/m"}, "4321 rad/m", "", ""},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const row_number_text text = row_number_format(&cases[i].number);

@@ -32,6 +32,12 @@ static double modulus(double mean, int r, int spot)
 static wt_curve_verdict verdict_of_all = WT_CURVE_ACCEPTED; /* except the rejected one */
 static int n_names = SPOTS; /* names of positions; the others have the same names */
 
+/* Force, depth and pull of the curves; unknown without a force. */
+typedef struct pressed_curves {
+    double force, depth, pull_bulk, pull_track;
+} pressed_curves;
+static pressed_curves pressed;
+
 /* An indentation table with all columns; one curve for each position and rate, one rejected. */
 static wt_table *indentation(const char *group, double mean)
 {
@@ -60,7 +66,7 @@ static wt_table *indentation(const char *group, double mean)
                    {"second_minimum_ratio", "1"},
                    {"sensitivity_gain", "1"},
                    {"equivalent_frequency", "rad/s"}};
-    enum { SPOT = 2, VERDICT = 5, MODULUS = 7, RATE = 18, FREQUENCY = 22 };
+    enum { SPOT = 2, VERDICT = 5, MODULUS = 7, MAX_FORCE = 14, RATE = 18, FREQUENCY = 22 };
     char name[64], spot[8];
     snprintf(name, sizeof name, "indentation/%s", group);
     wt_table *t = wt_table_new(name, group);
@@ -80,6 +86,12 @@ static wt_table *indentation(const char *group, double mean)
         if (!good)
             break;
         wt_table_set_number(t, MODULUS, modulus(mean, r, s));
+        if (pressed.force > 0) {
+            const double pull = group[0] == 't' ? pressed.pull_track : pressed.pull_bulk;
+            wt_table_set_number(t, MAX_FORCE, pressed.force);
+            wt_table_set_number(t, MAX_FORCE + 1, pressed.depth);
+            wt_table_set_number(t, MAX_FORCE + 2, pull * (1 + 0.01 * s));
+        }
         wt_table_set_number(t, RATE, rate[r] * shift[s]);
         wt_table_set_number(t, FREQUENCY, frequency[r] * shift[(s + 1) % SPOTS]);
     }
@@ -817,6 +829,65 @@ static void test_model_choices(void **state)
                         "Measure a DMA of the rubber.");
 }
 
+static void set_tip(wt_table *t)
+{
+    static const struct {
+        const char *key;
+        wt_estimate value;
+    } tip[] = {{"tip_sides", {4, 0, 0, "1"}},
+               {"tip_half_angle", {20 * M_PI / 180, 0, 0, "rad"}},
+               {"tip_radius", {20e-9, 0, 0, "m"}},
+               {"tip_transition_radius", {19e-9, 0, 0, "m"}}};
+    assert_int_equal(wt_table_set_key(t, "tip_shape", "pyramid or cone with a cap", NULL), WT_OK);
+    for (size_t i = 0; i < sizeof tip / sizeof *tip; i++)
+        assert_int_equal(wt_table_set_estimate(t, tip[i].key, tip[i].value, NULL), WT_OK);
+}
+
+static double contact_force_at(double depth)
+{
+    const wt_tip tip = {.shape = WT_TIP_BLUNTED_PYRAMID,
+                        .sides = 4,
+                        .half_angle = 20 * M_PI / 180,
+                        .radius = 20e-9,
+                        .transition_radius = 19e-9};
+    double force, slope;
+    wt_contact_function(&tip, depth, &force, &slope);
+    return force;
+}
+
+/* The pull that a group would need: the contact begins deeper by what it compensates, and the rest
+ * of the curve is as steep as that of a stiffer sample. */
+static void test_pull(void **state)
+{
+    (void)state;
+    const double force = 50e-9, depth = 70e-9, stiffer = 1.15;
+    wt_compare_job job = at_one_temperature();
+    pressed = (pressed_curves){force, depth, 0.1e-9, 5e-9};
+    compare(stiffer, (double)NAN);
+    pressed = (pressed_curves){0};
+    set_tip(bulk_table);
+    set_tip(track_table);
+    assert_non_null(includes_of(job));
+    const char *const causes = wt_table_key(tables.comparison, "would_explain");
+    assert_non_null(causes);
+    const char *const cause = strstr(causes, "a pull of ");
+    assert_non_null(cause);
+    assert_non_null(strstr(cause, "more in the track"));
+    char *unit;
+    const double number = strtod(cause + strlen("a pull of "), &unit),
+                 pull = number * (strncmp(unit, " nN", 3) == 0 ? 1e-9 : 1e-12);
+    double low = depth, high = 100 * depth; /* the whole depth */
+    for (int i = 0; i < 60; i++) {
+        const double all = 0.5 * (low + high);
+        if (contact_force_at(all - depth) / contact_force_at(all) < pull / (force + pull))
+            low = all;
+        else
+            high = all;
+    }
+    assert_near((contact_force_at(low) - contact_force_at(low - depth)) / contact_force_at(depth),
+                stiffer, 0.01);
+}
+
 /* An unknown effect of the loss on the moduli is not zero, and excludes the verdict "no". */
 static void test_loss_not_known(void **state)
 {
@@ -949,6 +1020,7 @@ int main(void)
         cmocka_unit_test(test_not_given),
         cmocka_unit_test(test_shown_loss_and_curvature),
         cmocka_unit_test(test_model_choices),
+        cmocka_unit_test(test_pull),
         cmocka_unit_test(test_loss_not_known),
         cmocka_unit_test(test_temperature_error),
     };

@@ -201,6 +201,12 @@ static void test_limits(void **state)
         assert_true(number_cell(table, i, "hysteresis") > 0);
     }
     wt_table_free(table);
+    /* no wave of a law is shorter than 1 nm */
+    set_up();
+    surface.q1 = 4e9;
+    table = what_if(false, false);
+    find_row(table, "largest wavenumber q1", "6.28e9 rad/m");
+    wt_table_free(table);
 }
 
 /* The range of a result is that of all rows. */
