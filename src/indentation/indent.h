@@ -34,11 +34,11 @@ typedef struct indent_summary {
 void indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
                         const wt_indent_options *options);
 void indent_summary_clear(indent_summary *summary);
-/* Relative error that the misfit of the law gives to all moduli: half of the spread of the mean
- * change of the modulus over the ranges of the fit, without the noise of the two ranges, and the
- * pulls that the fits left out. A misfit below the noise of the most precise range is not excluded,
- * so that the error is not below half of that noise. */
-double indent_summary_range_spread(const indent_summary *summary);
+/* Relative error that the misfit of the law gives to all moduli: the largest mean change of the
+ * modulus with a range of the fit, without its noise, and the pulls that the fits left out. A
+ * change below the noise of the most precise range is not excluded, so that the error is at least
+ * that noise. */
+double indent_summary_range_error(const indent_summary *summary);
 /* Mean relative change of the modulus with one range of the fit, and its error by noise; NaN if no
  * curve has enough samples in the range. */
 wt_estimate indent_summary_range_shift(const indent_summary *summary, int range);

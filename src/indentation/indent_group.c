@@ -367,23 +367,18 @@ static void report_common_shifts(const indent_summary *summary, const wt_indent_
                    job->group, summary->n_unknown_loss, summary->n);
 }
 
-double indent_summary_range_spread(const indent_summary *summary)
+double indent_summary_range_error(const indent_summary *summary)
 {
-    /* smallest and largest shift, their variances, and that of the most precise range */
-    double end[2] = {0, 0}, variance[2] = {0, 0}, least = (double)NAN;
+    double largest = 0, least = (double)NAN; /* squares; fmax and fmin ignore NaN */
     for (int i = 0; i < WT_FIT_RANGES; i++) {
         const wt_estimate shift = indent_summary_range_shift(summary, i);
-        const double noise = pow(shift.standard_error, 2);
-        const bool side = shift.value > 0;
-        if (!isnan(shift.value))
-            least = fmin(least, noise); /* NaN is ignored */
-        if (fabs(shift.value) > fabs(end[side])) {
-            end[side] = shift.value;
-            variance[side] = noise;
-        }
+        const double noise = shift.standard_error * shift.standard_error;
+        if (isnan(shift.value))
+            continue;
+        largest = fmax(largest, shift.value * shift.value - noise);
+        least = fmin(least, noise);
     }
-    return hypot(sqrt(fmax(pow(end[1] - end[0], 2) - variance[0] - variance[1], least)) / 2,
-                 mean_shift(summary, &summary->left_out));
+    return hypot(sqrt(fmax(largest, least)), mean_shift(summary, &summary->left_out));
 }
 
 wt_estimate indent_summary_range_shift(const indent_summary *summary, int range)
@@ -449,8 +444,8 @@ void indent_summary_report(const indent_summary *summary, const wt_indent_job *j
     if (*hidden_errors != '\0')
         indentation_set_text(rows, INDENTATION_KEY_NOT_SHOWN, hidden_errors);
     report_common_shifts(summary, job, work, rows);
-    indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, indent_summary_range_spread(summary),
-                          0, 0);
+    indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, indent_summary_range_error(summary), 0,
+                          0);
     report_choices(summary, rows);
     test_mean_residual(summary, rows);
 }

@@ -171,10 +171,9 @@ static void test_one_relaxation_time(void **state)
     }
 }
 
-/* Half of the range of the mean shifts, with 0 for the whole fit range, minus the noise of the two
- * means, and at least the noise of the most precise mean. A mean weighs each curve by its noise. A
- * fit range with too few samples does not count. */
-static double spread_of(const double shift[2][WT_FIT_RANGES], double noise, double noise_of_second)
+/* Largest mean shift without its noise, and at least the noise of the most precise mean. A mean
+ * weighs each curve by its noise. A fit range with too few samples does not count. */
+static double error_of(const double shift[2][WT_FIT_RANGES], double noise, double noise_of_second)
 {
     const wt_indent_options options = wt_indent_defaults();
     const double w[2] = {1 / (noise * noise), 1 / (noise_of_second * noise_of_second)};
@@ -188,7 +187,7 @@ static double spread_of(const double shift[2][WT_FIT_RANGES], double noise, doub
         }
         indent_summary_add(&all, &fit, &options);
     }
-    const double spread = indent_summary_range_spread(&all);
+    const double error = indent_summary_range_error(&all);
     const wt_estimate middle = indent_summary_range_shift(&all, 1);
     assert_near(middle.value,
                 is_alone ? shift[0][1] : (w[0] * shift[0][1] + w[1] * shift[1][1]) / (w[0] + w[1]),
@@ -196,7 +195,7 @@ static double spread_of(const double shift[2][WT_FIT_RANGES], double noise, doub
     assert_near(middle.standard_error, is_alone ? noise : 1 / sqrt(w[0] + w[1]), 1e-12);
     assert_true(isnan(indent_summary_range_shift(&all, 2).value));
     indent_summary_clear(&all);
-    return spread;
+    return error;
 }
 
 static void test_range_error(void **state)
@@ -205,13 +204,13 @@ static void test_range_error(void **state)
     const double none = (double)NAN, small = 1e-8;
     const double both[2][WT_FIT_RANGES] = {{0.10, -0.04, none}, {0.14, -0.02, none}},
                  one[2][WT_FIT_RANGES] = {{0.10, -0.04, none}, {0.14, none, none}};
-    assert_near(spread_of(both, small, small), (0.12 + 0.03) / 2, 1e-12);
-    assert_near(spread_of(one, small, small), (0.12 + 0.04) / 2, 1e-12);
-    assert_near(spread_of(both, small, 2 * small), (0.108 + 0.036) / 2, 1e-12);
-    assert_near(spread_of(both, 0.05, 0.05), sqrt(0.15 * 0.15 - 0.05 * 0.05) / 2, 1e-12);
-    assert_near(spread_of(both, 1, 1), sqrt(0.5) / 2, 1e-12);
+    assert_near(error_of(both, small, small), 0.12, 1e-12);
+    assert_near(error_of(one, small, small), 0.12, 1e-12);
+    assert_near(error_of(both, small, 2 * small), 0.108, 1e-12);
+    assert_near(error_of(both, 0.05, 0.05), sqrt(0.12 * 0.12 - 0.05 * 0.05 / 2), 1e-12);
+    assert_near(error_of(both, 1, 1), sqrt(0.5), 1e-12);
     indent_summary none_added = {0};
-    assert_true(indent_summary_range_spread(&none_added) == 0);
+    assert_true(indent_summary_range_error(&none_added) == 0);
 }
 
 /* An attraction before contact that no law of adhesion describes is returned if it is above a tenth
