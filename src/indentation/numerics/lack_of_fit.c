@@ -288,7 +288,7 @@ static void residual_blocks_zero_gap(const blocks *b, double *x)
 }
 
 static const double min_curvature = 3.0;   /* in innovations; noise exceeds it in 1 of 400 cases */
-static const double max_end_slope = 0.9;   /* largest slope at the end over the steepest slope */
+static const double max_end_slope = 0.85;  /* largest slope at the end over the steepest slope */
 static const double straight_share = 0.75; /* share of the force at the steepest slope */
 
 /* ---- test ------------------------------------------------------------------------------------ */
