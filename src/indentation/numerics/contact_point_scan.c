@@ -34,6 +34,7 @@ static const double tolerance = 1e-3;
 static const double min_weight_ratio = 1.2;
 enum {
     NODES = SCAN_NODES,
+    HALF = NODES / 2,
     REACH = SCAN_EXTENT, /* range of contact points before the start, in whole depths */
     PER_OCTAVE = 16,     /* contact points per octave; a power of 2, as for the nodes */
     COARSE = 4,          /* distance of contact points in a scan for weights alone */
@@ -226,8 +227,10 @@ WIDE_REGISTERS static void distribute_samples(const projection *p)
     const double *position_index = p->workspace->scratch, *weight = p->workspace->weight;
     static const wide nothing = {0.0};
     wide node[SCAN_OCTAVES * STRIDE]; /* sums of weight, force and position */
-    for (size_t i = 0; i < p->n_octaves * STRIDE; i++)
-        node[i] = nothing;
+    const size_t last = p->n_octaves - 1;
+    for (size_t l = 0; l <= last; l++) /* the samples of an octave are in its first half */
+        for (size_t i = 0; i < (l < last ? HALF + 1 : STRIDE); i++)
+            node[l * STRIDE + i] = nothing;
     for (size_t i = 0; i < s->n;) { /* consecutive samples between the same nodes */
         const int at = (int)position_index[i];
         wide to_left = node[at], to_right = node[at + 1];
@@ -240,20 +243,21 @@ WIDE_REGISTERS static void distribute_samples(const projection *p)
         node[at] = to_left;
         node[at + 1] = to_right;
     }
-    for (size_t l = 0; l < p->n_octaves; l++)
-        for (size_t i = 0; i < STRIDE; i++) {
+    for (size_t l = 0; l <= last; l++)
+        for (size_t i = 0; i < (l < last ? HALF + 1 : STRIDE); i++) {
             octaves[l].weight[i] = node[l * STRIDE + i][0];
             octaves[l].force[i] = node[l * STRIDE + i][1];
             octaves[l].position[i] = node[l * STRIDE + i][2];
         }
-    for (size_t l = p->n_octaves - 1; l > 0; l--) {
+    for (size_t l = last; l > 0; l--) {
         const double *from[] = {octaves[l].weight, octaves[l].force, octaves[l].position};
         double *to[] = {octaves[l - 1].weight, octaves[l - 1].force, octaves[l - 1].position};
         for (size_t c = 0; c < 3; c++) {
-            double *upper = to[c] + NODES / 2;
+            double *upper = to[c] + HALF;
             upper[0] += from[c][0] + 0.5 * from[c][1];
-            for (size_t i = 1; i <= NODES / 2; i++)
-                upper[i] += from[c][2 * i] + 0.5 * (from[c][2 * i - 1] + from[c][2 * i + 1]);
+            for (size_t i = 1; i <= HALF; i++)
+                upper[i] = from[c][2 * i] + 0.5 * (from[c][2 * i - 1] + from[c][2 * i + 1]);
+            to[c][STRIDE - 1] = 0.0;
         }
     }
 }
@@ -266,8 +270,7 @@ static void tabulate_contact_function(const projection *p)
     double depth[REACH * NODES + 1], *extended = w->before_start[0];
     for (size_t l = p->n_octaves; l-- > 0;) {
         scan_octave *o = &w->octave[l];
-        const size_t n_shared = l + 1 < p->n_octaves ? NODES / 2 : 0,
-                     n = l > 0 ? NODES : REACH * NODES;
+        const size_t n_shared = l + 1 < p->n_octaves ? HALF : 0, n = l > 0 ? NODES : REACH * NODES;
         const double step = ldexp(p->top, -(int)l) / NODES;
         double *g = l > 0 ? o->g : extended;
         for (size_t i = 0; i < n_shared; i++)
@@ -421,7 +424,7 @@ static void scan_costs(const projection *p, double shallowest, size_t stride, co
                               0);
     for (size_t l = 0; l < p->n_octaves; l++) {
         const scan_octave *o = &w->octave[l];
-        for (size_t node = 0; node < NODES / 2; node += NODES / 2 / PER_OCTAVE * stride) {
+        for (size_t node = 0; node < HALF; node += HALF / PER_OCTAVE * stride) {
             const double depth = ldexp(p->top, -(int)l) * (1.0 - (double)node / NODES);
             if (depth >= shallowest)
                 add_profile_point(to, depth, projected_cost(p, o, node + 1, o->g + 1, o->gg + 1),

@@ -154,9 +154,10 @@ WIDE_REGISTERS static void average_blocks(const curve_law *m, const double p[N],
 {
     const curve_samples *s = m->samples;
     const size_t contact = s->n - first, least = (s->n + BLOCKS - 1) / BLOCKS;
-    memset(b, 0, sizeof *b);
     b->length = contact / IN_CONTACT > least ? contact / IN_CONTACT : least;
     b->n = s->n / b->length;
+    for (size_t c = 0; c < N; c++)
+        memset(b->column[c], 0, b->n * sizeof b->column[c][0]);
     const size_t start = s->n - b->n * b->length;
     const size_t step = b->length < 4 ? 1 : b->length / 4; /* derivatives are smooth */
     const double length = (double)b->length, share = 1.0 / length;
