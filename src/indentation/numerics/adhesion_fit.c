@@ -360,21 +360,9 @@ static bool is_better_law(const adhesive_law_fit *a, const adhesive_law_fit *b, 
     return a->evidence > b->evidence;
 }
 
-/* Alternative fit with a log likelihood ratio of chi2. */
-static curve_alternative alternative_from_gain(double chi2, double moved)
+static double other_law_error(const curve_fitting *f, const curve_solution *other, double chi2)
 {
-    return (curve_alternative){moved, 1.0 / (1.0 + exp(-0.5 * chi2))};
-}
-
-static curve_alternative alternative_from_fit(const curve_fitting *f, const curve_solution *other,
-                                              double chi2)
-{
-    return alternative_from_gain(chi2, other->p[CURVE_E] / f->solution.p[CURVE_E] - 1.0);
-}
-
-static double alternative_weight(const curve_alternative *o)
-{
-    return o->chance * o->moved * o->moved;
+    return curve_alternative_error(chi2, other->p[CURVE_E] / f->solution.p[CURVE_E] - 1.0);
 }
 
 /* Fits the laws of adhesion and selects the best. The other laws add to the error according to
@@ -417,14 +405,11 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool p
     f->solution = to->solution;
     f->kind = to->kind;
     f->kind.wave = to->solution.wave;
-    f->other_law = (curve_alternative){0.0, 0.0};
+    f->law_error = 0.0;
     for (int i = 0; i < LAWS && best->found; i++)
         if (law[i].found && &law[i] != best && (law[i].is_plausible || !best->is_plausible)) {
-            const curve_solution *other = &law[i].solution;
             const double gain = fmin(0.0, law[i].evidence - best->evidence);
-            const curve_alternative moved = alternative_from_fit(f, other, gain);
-            if (alternative_weight(&moved) > alternative_weight(&f->other_law))
-                f->other_law = moved;
+            f->law_error = fmax(f->law_error, other_law_error(f, &law[i].solution, gain));
         }
     return best->found;
 }
@@ -509,7 +494,7 @@ static bool adhesion_may_improve(curve_fitting *f, double most, bool *pull_alone
     if (may_improve)
         return true;
     if (step[0].share > 0.0 && step[0].gain > 0.25 * work_errors * work_errors)
-        f->other_law = alternative_from_gain(step[0].gain, step[0].modulus);
+        f->law_error = curve_alternative_error(step[0].gain, step[0].modulus);
     return false;
 }
 
@@ -557,6 +542,6 @@ bool curve_fit_adhesion(curve_fitting *f)
     f->solution = elastic;
     f->kind.wave = elastic.wave;
     evaluate_solution(f);
-    f->other_law = alternative_from_fit(f, &law, gain);
+    f->law_error = other_law_error(f, &law, gain);
     return true;
 }

@@ -4,9 +4,7 @@
  */
 #include "core/base/memory.h"
 #include "core/base/param.h"
-#include "core/math/root.h"
 #include "core/math/special.h"
-#include "core/math/students_t.h"
 #include "dma/law/material.h"
 #include "indentation/law/adhesion.h"
 #include "indentation/law/tip.h"
@@ -244,41 +242,6 @@ static void report_spectrum(const curve_fitting *f, wt_indent_fit *fit)
     fit->misfit_error *= loading_modulus / unit;
 }
 
-static const double outside_probability = 0.05; /* probability outside of a 95 % interval */
-static const double error_digits =
-    1e-3; /* tolerance of an error, which is reported with two digits */
-
-/* Search for the standard error of an interval about one fit that includes 95 % of the mixture of
- * two fits. */
-typedef struct two_fits {
-    double error;
-    const curve_alternative *other;
-} two_fits;
-
-static double coverage_deficit(double with_other, void *user)
-{
-    const two_fits *of = user;
-    const double end = NORMAL_95 * with_other, width = M_SQRT2 * of->error,
-                 moved = fabs(of->other->moved), chance = of->other->chance;
-    const double beyond =
-        (1.0 - chance) * erfc(end / width) +
-        0.5 * chance * (erfc((end - moved) / width) + erfc((end + moved) / width));
-    return outside_probability - beyond;
-}
-
-/* Returns the error that the alternative fit adds, as a root of the difference of squares. */
-static double added_error(double error, const curve_alternative *other)
-{
-    two_fits of = {error, other};
-    double with_other = error;
-    if (!(error > 0.0) || !(fabs(other->moved) > 0.0))
-        return 0.0;
-    if (root_find(coverage_deficit, &of, error, error + fabs(other->moved), error_digits * error,
-                  &with_other, NULL) != WT_OK)
-        return fabs(other->moved);
-    return sqrt(with_other * with_other - error * error);
-}
-
 /* Adds the error of a snap-in that was left out of a fit without adhesion. */
 static void add_left_out_pull(const curve_fitting *f, wt_indent_fit *fit)
 {
@@ -302,11 +265,8 @@ static void report_fit(curve_fitting *f, wt_indent_fit *fit)
     double reduced = 1.0 - f->options->poisson_ratio * f->options->poisson_ratio;
     const double e = reduced * s->p[CURVE_E] * (1.0 + f->loss_shift);
     fit->modulus.value = e;
-    const double error = hypot(s->standard_error[CURVE_E] / s->p[CURVE_E], f->loss_error),
-                 by_law = added_error(error, &f->other_law);
-    f->contact_error = added_error(error, &f->other_contact);
-    fit->modulus.standard_error =
-        e * sqrt(error * error + pow(f->contact_error, 2) + by_law * by_law);
+    const double error = hypot(s->standard_error[CURVE_E] / s->p[CURVE_E], f->loss_error);
+    fit->modulus.standard_error = e * hypot(error, hypot(f->contact_error, f->law_error));
     fit->contact_point.value = s->p[CURVE_C] + f->input.position_origin;
     fit->contact_point.standard_error = s->standard_error[CURVE_C];
     fit->misfit_error = e * s->misfit_error[CURVE_E] / s->p[CURVE_E];
@@ -368,10 +328,9 @@ static void add_second_contact(curve_fitting *f)
     if (f->n_minima < 2 || f->kind.adhesive)
         return;
     const double chi2 = f->solution.effective_n * log(second_cost_ratio(f));
-    const double share = 1.0 / (1.0 + exp(0.5 * fmax(chi2, 0.0)));
     if (chi2 < interval_chi2)
-        f->other_contact = (curve_alternative){
-            f->minima[1].reduced_modulus / f->minima[0].reduced_modulus - 1.0, share};
+        f->contact_error = curve_alternative_error(
+            -fmax(chi2, 0.0), f->minima[1].reduced_modulus / f->minima[0].reduced_modulus - 1.0);
 }
 
 static wt_status check_fit_arguments(const wt_indent_options *options, const wt_tip *tip, size_t n,

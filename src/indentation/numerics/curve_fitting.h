@@ -28,12 +28,6 @@ typedef struct curve_unloading {
     size_t jump; /* first sample in contact after the pull-off; 0 without a pull-off */
 } curve_unloading;
 
-/* Alternative fit: relative difference of its modulus, and the probability that it is the correct
- * one of the two. */
-typedef struct curve_alternative {
-    double moved, chance;
-} curve_alternative;
-
 typedef struct curve_fitting {
     const wt_contact_table *table;
     const wt_indent_options *options;
@@ -64,12 +58,17 @@ typedef struct curve_fitting {
     bool misfit_is_named;   /* the reason of the verdict names the misfit */
     bool without_adhesion;  /* no law of adhesion is tried */
     bool unknown_loss;      /* the curve loses work, and the law of the fit does not describe it */
-    /* Alternative law of adhesion, second contact point, and the relative error of the modulus due
-     * to the latter. */
-    curve_alternative other_law, other_contact;
-    double contact_error;
+    double law_error, contact_error; /* of the modulus, relative, by another law of adhesion and by
+                                        a second contact point */
     double unit; /* viscoelastic fit: |E*| of the spectrum for a modulus of 1 in the solution */
 } curve_fitting;
+
+/* Relative error by another fit with this difference of the modulus: the root of its mean square.
+ * chi2 is 2 ln of the ratio of likelihoods. */
+static inline double curve_alternative_error(double chi2, double difference)
+{
+    return fabs(difference) / sqrt(1.0 + exp(-0.5 * chi2));
+}
 
 /* Fitted baseline at a position. */
 static inline double curve_baseline(const curve_solution *s, double position)
