@@ -14,8 +14,6 @@
 /* Initial widths of the prior of the vertical shift [decade]: clamping and departure of the
  * material (master_widths.c). */
 static const double start_geometry = 0.002, start_departure = 0.02;
-/* Noise that is uniform along an isotherm. */
-const double master_uniform_noise[SPECTRUM_SHAPES] = {0.0};
 /* Maximum number of refits after outliers or curvature weights change. Later refits change
  * little. */
 enum { MOST_ROUNDS = 4, BEND_ROUNDS = 3 };
@@ -448,7 +446,7 @@ wt_status master_estimate_noise(master_work *work, wt_error *err)
 {
     wt_status status = WT_OK;
     work->within = spectrum_estimate_noise(work->s);
-    spectrum_set_point_noise(work->s, master_uniform_noise);
+    spectrum_set_point_noise(work->s, NULL);
     for (int round = 0; status == WT_OK && round < BEND_ROUNDS; round++) {
         status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
         if (status == WT_OK && round + 1 < BEND_ROUNDS)
@@ -479,7 +477,7 @@ wt_status master_test_superposition(master_work *work, wt_error *err)
     if (status == WT_OK && work->tested)
         work->lack = superposition_test(s, work->within.uncertainty);
     s->rho = s->kept_rho;
-    spectrum_set_point_noise(s, master_uniform_noise);
+    spectrum_set_point_noise(s, NULL);
     if (status == WT_OK) /* restores the columns that the cells use */
         status =
             master_set_widths(work, work->options.vertical, start_geometry, start_departure, err);

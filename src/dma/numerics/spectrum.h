@@ -264,7 +264,7 @@ spectrum_isotherm_noise spectrum_estimate_noise(spectrum *s);
 /* Computes the rms residual of each modulus [ln], and the rms residual about a polynomial of
  * each isotherm, for independent points. */
 void spectrum_measure_misfit(spectrum *s, double all[MODULI], double within[MODULI]);
-/* Sets the noise factors of the points from their isotherm and their position on it. */
+/* Sets the noise factors of the points from isotherm and position; shape NULL: isotherm alone. */
 void spectrum_set_point_noise(spectrum *s, const double shape[SPECTRUM_SHAPES]);
 
 /* ---- superposition.c: test if one spectrum with shifts describes the isotherms */
