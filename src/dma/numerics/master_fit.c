@@ -456,8 +456,8 @@ wt_status master_estimate_noise(master_work *work, wt_error *err)
 }
 
 /* Tests superposition with free vertical shifts, which the verdict excludes. The noise follows
- * the shape along the isotherms. The fit uses uniform noise, because a misfit at the ends does
- * not reduce their weight. */
+ * the shape along the isotherms. The fit uses uniform noise, because a misfit at the ends does not
+ * reduce their weight. */
 wt_status master_test_superposition(master_work *work, wt_error *err)
 {
     spectrum *s = work->s;
@@ -467,15 +467,19 @@ wt_status master_test_superposition(master_work *work, wt_error *err)
     /* also tested without a request if the misfit may affect the shifts */
     work->tested = !work->options.series_only || work->part ||
                    fmax(work->missed[STORAGE], work->missed[LOSS]) > shift_relevant_misfit;
+    if (!work->tested)
+        return WT_OK;
     wt_status status = master_set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
     s->rho = work->within.rho;
     spectrum_set_point_noise(s, work->within.shape);
     if (status == WT_OK)
-        status = spectrum_fit(s, work->is_gross ? SPECTRUM_ROUGH : SPECTRUM_NOISE, err);
-    if (status == WT_OK && work->tested)
+        status = spectrum_fit(s, SPECTRUM_ROUGH, err);
+    if (status == WT_OK)
         status = spectrum_refresh(s, err);
-    if (status == WT_OK && work->tested)
+    if (status == WT_OK) { /* the rough fit and a step serve as a full fit */
+        spectrum_step_residuals(s);
         work->lack = superposition_test(s, work->within.uncertainty);
+    }
     s->rho = s->kept_rho;
     spectrum_set_point_noise(s, NULL);
     if (status == WT_OK) /* restores the columns that the cells use */

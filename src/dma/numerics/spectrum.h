@@ -219,6 +219,8 @@ typedef enum spectrum_mode {
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
 /* Forms and factors the equations of the present unknowns, of no earlier rows. */
 wt_status spectrum_refresh(spectrum *s, wt_error *err) WT_NODISCARD;
+/* Takes the next step in the residuals alone, to first order, after a refresh. */
+void spectrum_step_residuals(spectrum *s);
 /* Returns the least objective that a step from the present unknowns can reach, by a parabola. */
 double spectrum_expected_objective(spectrum *s);
 /* Keeps the present fit, and returns to the kept one, which has the same unknowns. The equations
