@@ -14,8 +14,6 @@
 /* Initial widths of the prior of the vertical shift [decade]: clamping and departure of the
  * material (master_widths.c). */
 static const double start_geometry = 0.002, start_departure = 0.02;
-/* Noise that is uniform along an isotherm. */
-const double master_uniform_noise[SPECTRUM_SHAPES] = {0.0};
 /* Maximum number of refits after outliers or curvature weights change. Later refits change
  * little. */
 enum { MOST_ROUNDS = 4, BEND_ROUNDS = 3 };
@@ -448,7 +446,7 @@ wt_status master_estimate_noise(master_work *work, wt_error *err)
 {
     wt_status status = WT_OK;
     work->within = spectrum_estimate_noise(work->s);
-    spectrum_set_point_noise(work->s, master_uniform_noise);
+    spectrum_set_point_noise(work->s, NULL);
     for (int round = 0; status == WT_OK && round < BEND_ROUNDS; round++) {
         status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
         if (status == WT_OK && round + 1 < BEND_ROUNDS)
@@ -458,8 +456,8 @@ wt_status master_estimate_noise(master_work *work, wt_error *err)
 }
 
 /* Tests superposition with free vertical shifts, which the verdict excludes. The noise follows
- * the shape along the isotherms. The fit uses uniform noise, because a misfit at the ends does
- * not reduce their weight. */
+ * the shape along the isotherms. The fit uses uniform noise, because a misfit at the ends does not
+ * reduce their weight. */
 wt_status master_test_superposition(master_work *work, wt_error *err)
 {
     spectrum *s = work->s;
@@ -469,17 +467,21 @@ wt_status master_test_superposition(master_work *work, wt_error *err)
     /* also tested without a request if the misfit may affect the shifts */
     work->tested = !work->options.series_only || work->part ||
                    fmax(work->missed[STORAGE], work->missed[LOSS]) > shift_relevant_misfit;
+    if (!work->tested)
+        return WT_OK;
     wt_status status = master_set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
     s->rho = work->within.rho;
     spectrum_set_point_noise(s, work->within.shape);
     if (status == WT_OK)
-        status = spectrum_fit(s, work->is_gross ? SPECTRUM_ROUGH : SPECTRUM_NOISE, err);
-    if (status == WT_OK && work->tested)
+        status = spectrum_fit(s, SPECTRUM_ROUGH, err);
+    if (status == WT_OK)
         status = spectrum_refresh(s, err);
-    if (status == WT_OK && work->tested)
+    if (status == WT_OK) { /* the rough fit and a step serve as a full fit */
+        spectrum_step_residuals(s);
         work->lack = superposition_test(s, work->within.uncertainty);
+    }
     s->rho = s->kept_rho;
-    spectrum_set_point_noise(s, master_uniform_noise);
+    spectrum_set_point_noise(s, NULL);
     if (status == WT_OK) /* restores the columns that the cells use */
         status =
             master_set_widths(work, work->options.vertical, start_geometry, start_departure, err);

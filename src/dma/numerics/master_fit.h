@@ -79,8 +79,6 @@ wt_status master_estimate_noise(master_work *work, wt_error *err) WT_NODISCARD;
 void master_measure_misfit(master_work *work);
 /* Tests superposition with free vertical shifts; fills `lack`. */
 wt_status master_test_superposition(master_work *work, wt_error *err) WT_NODISCARD;
-/* Noise that is uniform along an isotherm. */
-extern const double master_uniform_noise[SPECTRUM_SHAPES];
 /* Sets the prior of the vertical shifts, with widths of clamping and departure [decade]. */
 wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double geometry,
                             double departure, wt_error *err) WT_NODISCARD;

@@ -54,17 +54,6 @@ static bool has_modulus_level(wt_shift_quantity by)
 
 /* ---- law ------------------------------------------------------------------------------------- */
 
-static wt_interval pole_interval(const wt_posterior *p, double sign)
-{
-    const double lead = p->shape.reference - p->shape.coldest;
-    const wt_interval c2 =
-        interval_offset(interval_map(posterior_constant(p, law_pole_index(&p->shape)), exp), lead);
-    if (sign > 0.0)
-        return c2;
-    return (wt_interval){p->shape.reference - c2.value, c2.standard_error,
-                         p->shape.reference - c2.high, p->shape.reference - c2.low};
-}
-
 /* Returns the correlation of C1 and C2 over the mixture, with C2 through its derivative. */
 static double wlf_constant_correlation(const wt_posterior *p)
 {
@@ -106,11 +95,14 @@ static void fill_shift_law(const wt_posterior *p, wt_master *m)
     m->offset = posterior_constant(p, 0);
     if (p->shape.kind != WT_LAW_ARRHENIUS) {
         m->c1 = posterior_constant(p, 1);
-        m->c2 = pole_interval(p, 1.0);
-        m->pole = pole_interval(p, -1.0);
-    }
-    if (p->shape.kind != WT_LAW_ARRHENIUS)
+        const wt_interval beyond =
+            interval_map(posterior_constant(p, law_pole_index(&p->shape)), exp);
+        const double reference = p->shape.reference;
+        const wt_interval c2 = m->c2 = interval_offset(beyond, reference - p->shape.coldest);
+        m->pole = (wt_interval){reference - c2.value, c2.standard_error, reference - c2.high,
+                                reference - c2.low};
         m->c_correlation = wlf_constant_correlation(p);
+    }
     for (size_t i = 0; i < m->n_shifts; i++)
         if (!isnan(wt_shift_law_log_a(&m->law, m->shifts[i].temperature)))
             m->shifts[i].law = reported_law(p, m->shifts[i].temperature);
@@ -158,15 +150,14 @@ static void set_law_rms(wt_master *m)
 
 struct order {
     double x;
-    size_t point;
+    size_t point, isotherm;
 };
 
 static int compare_reduced_frequency(const void *left, const void *right)
 {
     const struct order *a = left, *b = right;
-    if (a->x != b->x)
-        return a->x > b->x ? 1 : -1;
-    return (a->point > b->point) - (a->point < b->point);
+    const int by_x = (a->x > b->x) - (a->x < b->x);
+    return by_x != 0 ? by_x : (a->point > b->point) - (a->point < b->point);
 }
 
 /* Evaluates the spectrum at the points (step_response: the measured step response). It is computed
@@ -230,16 +221,11 @@ static void fill_master_curve(const master_work *work, wt_master *m)
             continue; /* the isotherm may not be in the spectrum */
         const double a = m->shifts[i].log_a.value - m->offset.value;
         for (size_t k = s->first[work->curve[i]]; k < s->first[work->curve[i] + 1]; k++)
-            order[m->n++] = (struct order){s->x[k] / M_LN10 + a, k};
+            order[m->n++] = (struct order){s->x[k] / M_LN10 + a, k, i};
     }
     qsort(order, m->n, sizeof *order, compare_reduced_frequency);
     for (size_t j = 0; j < m->n; j++) {
-        const size_t k = order[j].point;
-        size_t i = 0;
-        while (!m->shifts[i].determined || k < s->first[work->curve[i]] ||
-               k >= s->first[work->curve[i] + 1])
-            i++;
-        m->isotherm[j] = i;
+        const size_t k = order[j].point, i = m->isotherm[j] = order[j].isotherm;
         m->log_frequency[j] = order[j].x;
         const double b = m->shifts[i].log_b.value, unknown = (double)NAN;
         const double storage = s->used[STORAGE] ? s->y[STORAGE][k] / M_LN10 + b : unknown;
@@ -261,36 +247,31 @@ static void fill_master_curve(const master_work *work, wt_master *m)
     free(order);
 }
 
-/* Converts unknowns of the spectrum to a series at the reference temperature. `reached` returns
- * the probability that the spectrum extends to a term. The rest of the term counts as
- * equilibrium modulus. */
-static void terms_to_prony(const wt_posterior *p, const double *value, double offset,
-                           double (*reached)(const spectrum *s, size_t term, size_t place),
-                           size_t place, wt_prony *prony)
+/* Returns the probability that a spectrum with its end at `place`, or at SPECTRUM_ENDS places
+ * alike, extends to a term. */
+static double term_is_reached(const spectrum *s, size_t term, size_t place)
+{
+    const bool all = place == SPECTRUM_ENDS;
+    int reached = 0;
+    for (size_t k = all ? 0 : place; k < (all ? place : place + 1); k++)
+        reached += term < spectrum_end_term(s, k);
+    return reached / (all ? (double)SPECTRUM_ENDS : 1.0);
+}
+
+/* Converts unknowns of the spectrum to a series at the reference temperature. The share of a term
+ * that is not reached counts as equilibrium modulus. */
+static void terms_to_prony(const wt_posterior *p, const double *value, double offset, size_t place,
+                           wt_prony *prony)
 {
     const spectrum *s = &p->frame;
     wt_prony_alloc(prony, s->n_terms);
     prony->equilibrium_modulus = s->liquid ? 0.0 : exp(value[s->n_terms]);
     for (size_t j = 0; j < s->n_terms; j++) {
-        const double share = s->liquid ? 1.0 : reached(s, j, place);
+        const double share = s->liquid ? 1.0 : term_is_reached(s, j, place);
         prony->relaxation_time[j] = exp(s->log_tau + (double)j * s->step + offset * M_LN10);
         prony->modulus[j] = share * exp(value[j]);
         prony->equilibrium_modulus += (1.0 - share) * exp(value[j]);
     }
-}
-
-static double term_is_reached(const spectrum *s, size_t term, size_t place)
-{
-    return term < spectrum_end_term(s, place) ? 1.0 : 0.0;
-}
-
-static double mean_term_reached(const spectrum *s, size_t term, size_t unused)
-{
-    double sum = 0.0;
-    (void)unused;
-    for (size_t place = 0; place < SPECTRUM_ENDS; place++)
-        sum += term_is_reached(s, term, place) / SPECTRUM_ENDS;
-    return sum;
 }
 
 /* Finds the one-sided 95 % limit of ln of the equilibrium modulus from the rise of the
@@ -328,7 +309,7 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     posterior_mean(p, value);
     posterior_mean_law(p, unknown);
     if (has_modulus_level(p->by))
-        terms_to_prony(p, value, unknown[0], mean_term_reached, 0, &m->prony);
+        terms_to_prony(p, value, unknown[0], SPECTRUM_ENDS, &m->prony);
     free(value);
     m->prony.deformation = m->deformation;
     m->prony.reference_temperature = m->reference_temperature;
@@ -485,7 +466,7 @@ wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, w
     double *b = value + p->frame.n_unknowns;
     posterior_draw(p, seed, index, value, unknown, b);
     (void)err;
-    terms_to_prony(p, value, unknown[0], term_is_reached, posterior_end_index(seed, index), prony);
+    terms_to_prony(p, value, unknown[0], posterior_end_index(seed, index), prony);
     prony->deformation = master->deformation;
     prony->reference_temperature = master->reference_temperature;
     prony->frequency_min = master->prony.frequency_min;

@@ -135,7 +135,7 @@ static wt_status fit_free_shifts(master_work *work, wt_error *err)
         if (!work->is_gross) /* without them the fit is good: start again */
             return refit_without_restart(work, err);
         work->within = spectrum_estimate_noise(work->s);
-        spectrum_set_point_noise(work->s, master_uniform_noise);
+        spectrum_set_point_noise(work->s, NULL);
     } else if (status == WT_OK) {
         status = master_estimate_noise(work, err);
         if (status == WT_OK) /* a good start may have ended far off */

@@ -18,9 +18,9 @@ static const double departure_cells[] = {0.02, 0.04, 0.12};
 static const double geometry_prior_width = 0.01, departure_prior_width = 0.05;
 enum { GEOMETRIES = 4, DEPARTURES = 3 };
 
-/* Cells whose ln weight is this much below the largest are dropped. exp(-20) is 2e-9 of the
- * mixture; the law would have to raise it by exp(13) to the minimum share (posterior.c). */
-static const double negligible_log_weight = 20.0;
+/* Cells whose ln weight is this much below the largest are dropped, as by posterior.c. A departure
+ * that is too narrow for a geometry error is too narrow for a smaller one. */
+static const double negligible_log_weight = 14.0;
 
 static double log_prior(double width, double believed, double cell)
 {
@@ -48,19 +48,21 @@ static wt_status fit_tied_shift(master_work *work, double *log_weight, wt_error 
 {
     wt_status status = WT_OK;
     double best = -HUGE_VAL;
+    int narrowest = 0;
     for (int g = 0; g < GEOMETRIES; g++)
         log_weight[g] = -HUGE_VAL;
     for (int g = GEOMETRIES - 1;
          g == GEOMETRIES - 1 || (g >= 0 && log_weight[g + 1] > best - negligible_log_weight); g--) {
-        double weight = 0.0;
+        double weight;
         spectrum_return(work->s); /* to the widest departure of the geometry before */
-        for (int d = DEPARTURES - 1; weight >= log_weight[g] - negligible_log_weight && d >= 0;
-             d--) {
+        for (int d = DEPARTURES - 1; d >= narrowest; d--) {
             status = fit_cell(work, g, d, &weight, err);
             if (status != WT_OK)
                 return status;
             if (d == DEPARTURES - 1)
                 spectrum_keep(work->s);
+            if (weight < log_weight[g] - negligible_log_weight)
+                narrowest = d + 1;
             log_weight[g] = fmax(log_weight[g], weight) + log1p(exp(-fabs(log_weight[g] - weight)));
         }
         best = fmax(best, log_weight[g]);

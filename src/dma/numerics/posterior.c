@@ -255,28 +255,20 @@ static wt_status weigh_components(wt_posterior *p, gsl_matrix *root, wt_error *e
 static void components_without_law(wt_posterior *p)
 {
     p->components = arena_alloc(&p->memory, p->n_cells, sizeof *p->components);
-    for (size_t i = 0; i < p->n_cells; i++) {
-        posterior_component *component = &p->components[p->n_components];
-        *component = (posterior_component){.cell = &p->cells[i], .weight = p->cells[i].weight};
-        if (!(component->weight > 0.0))
-            continue;
-        component->law.unknown[0] = p->reference_a; /* without an error */
-        p->n_components++;
-    }
+    for (size_t i = 0; i < p->n_cells; i++)
+        if (p->cells[i].weight > 0.0) /* the reference has no error */
+            p->components[p->n_components++] =
+                (posterior_component){.cell = &p->cells[i],
+                                      .weight = p->cells[i].weight,
+                                      .law = {.unknown = {p->reference_a}}};
     p->shape = (law_shape){.kind = WT_LAW_NONE, .outlier = -1};
 }
 
-/* Factors the covariance of the additional errors. Rows without such an error, as the reference,
- * are 0. */
-static void factor_extra_covariance(wt_posterior *p)
+void posterior_root(const gsl_matrix *covariance, gsl_matrix *root)
 {
-    const size_t n = p->frame.n_curves;
-    if (p->extra_covariance == NULL)
-        return;
-    gsl_matrix *root = p->extra_covariance_root = arena_matrix(&p->memory, n, n);
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < covariance->size1; i++)
         for (size_t k = 0; k <= i; k++) {
-            double sum = gsl_matrix_get(p->extra_covariance, i, k);
+            double sum = gsl_matrix_get(covariance, i, k);
             for (size_t j = 0; j < k; j++)
                 sum -= gsl_matrix_get(root, i, j) * gsl_matrix_get(root, k, j);
             const double pivot = gsl_matrix_get(root, k, k);
@@ -298,7 +290,10 @@ wt_status posterior_finish(wt_posterior *p, double reference, wt_error *err)
                          .covariance = arena_matrix(&p->memory, n, n),
                          .slope = p->slope,
                          .scratch = arena_numbers(&p->memory, n * LAW_SCRATCH)};
-    factor_extra_covariance(p);
+    if (p->extra_covariance != NULL) {
+        p->extra_covariance_root = arena_matrix(&p->memory, n, n);
+        posterior_root(p->extra_covariance, p->extra_covariance_root);
+    }
     weigh_cells(p);
     set_cell_shifts(p, posterior_best(p));
     wt_status status = n < 2 ? wt_fail(&failure, WT_E_RANGE, "one isotherm has no shift")

@@ -104,6 +104,8 @@ posterior_place posterior_at_curve(size_t curve);
 /* Returns the place of a temperature between curve `cold` and the next. There must be a law whose
  * reference is that temperature. */
 posterior_place posterior_between(const wt_posterior *p, size_t cold, double temperature);
+/* Factors a covariance. The row of a value without a variance, as the reference, is 0. */
+void posterior_root(const gsl_matrix *covariance, gsl_matrix *root);
 /* Shift of a curve against a place, in decades. */
 wt_interval posterior_a(const wt_posterior *p, size_t curve, const posterior_place *to);
 double posterior_fit_error(const wt_posterior *p,

@@ -25,22 +25,6 @@ static double extra_variance(const wt_posterior *p, size_t curve)
     return p->extra_error != NULL ? p->extra_error[curve] * p->extra_error[curve] : 0.0;
 }
 
-/* Returns the interval of log10 a or b of a curve: element 0 or 2 of its block. */
-static wt_interval unknown_interval(const wt_posterior *p, size_t curve, size_t element,
-                                    double (*value)(const wt_posterior *, const double *, size_t))
-{
-    mixture_component part[MAX_COMPONENTS];
-    const bool fixed = (element == 0 ? p->frame.column_a : p->frame.column_b)[curve] < 0;
-    size_t n = 0;
-    for (size_t i = 0; i < p->n_cells; i++)
-        if (p->cells[i].weight > 0.0)
-            part[n++] = (mixture_component){
-                p->cells[i].weight, value(p, p->cells[i].value, curve) / M_LN10,
-                sqrt(p->cells[i].block[BLOCK_DIAGONAL * curve + element]) / M_LN10};
-    return fixed ? (wt_interval){part[0].mean, 0.0, part[0].mean, part[0].mean}
-                 : mixture_interval(part, n);
-}
-
 /* Returns the covariance of ln a of two curves. */
 static double shift_covariance(const wt_posterior *p, const posterior_cell *cell, size_t curve,
                                size_t other)
@@ -155,12 +139,21 @@ posterior_place posterior_between(const wt_posterior *p, size_t cold, double tem
 
 double posterior_fit_error(const wt_posterior *p, size_t curve)
 {
-    return unknown_interval(p, curve, 0, posterior_shift).standard_error;
+    return combination_interval(p, &(shift_combination){1, {curve}, {1.0}}, 0.0).standard_error;
 }
 
 wt_interval posterior_b(const wt_posterior *p, size_t curve)
 {
-    return unknown_interval(p, curve, 2, posterior_vertical_shift);
+    mixture_component part[MAX_COMPONENTS];
+    size_t n = 0;
+    for (size_t i = 0; i < p->n_cells; i++)
+        if (p->cells[i].weight > 0.0)
+            part[n++] = (mixture_component){
+                p->cells[i].weight, posterior_vertical_shift(p, p->cells[i].value, curve) / M_LN10,
+                sqrt(p->cells[i].block[BLOCK_DIAGONAL * curve + 2]) / M_LN10};
+    return p->frame.column_b[curve] < 0
+               ? (wt_interval){part[0].mean, 0.0, part[0].mean, part[0].mean}
+               : mixture_interval(part, n);
 }
 
 double posterior_a_per_b(const wt_posterior *p, size_t curve)
@@ -502,17 +495,16 @@ size_t posterior_end_index(uint64_t seed, size_t index)
 static void draw_law(const posterior_component *component, struct random_stream *s,
                      double unknown[LAW_MAX_UNKNOWNS])
 {
-    double root[LAW_MAX_UNKNOWNS][LAW_MAX_UNKNOWNS] = {{0}}, e[LAW_MAX_UNKNOWNS];
-    for (size_t u = 0; u < component->law.n_unknowns; u++) {
+    const size_t n = component->law.n_unknowns;
+    double factor[LAW_MAX_UNKNOWNS * LAW_MAX_UNKNOWNS], e[LAW_MAX_UNKNOWNS];
+    gsl_matrix_view root = gsl_matrix_view_array(factor, n, n);
+    gsl_matrix_const_view covariance = gsl_matrix_const_view_array_with_tda(
+        &component->law.covariance[0][0], n, n, LAW_MAX_UNKNOWNS);
+    posterior_root(&covariance.matrix, &root.matrix);
+    for (size_t u = 0; u < n; u++) {
         e[u] = draw_normal(s);
-        unknown[u] = component->law.unknown[u];
-        for (size_t v = 0; v <= u; v++) {
-            double sum = component->law.covariance[u][v];
-            for (size_t w = 0; w < v; w++)
-                sum -= root[u][w] * root[v][w];
-            root[u][v] = u == v ? sqrt(fmax(sum, 0.0)) : root[v][v] > 0.0 ? sum / root[v][v] : 0.0;
-            unknown[u] += root[u][v] * e[v];
-        }
+        for (size_t v = 0; v <= u; v++)
+            unknown[u] += factor[u * n + v] * e[v];
     }
 }
 

@@ -219,6 +219,8 @@ typedef enum spectrum_mode {
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
 /* Forms and factors the equations of the present unknowns, of no earlier rows. */
 wt_status spectrum_refresh(spectrum *s, wt_error *err) WT_NODISCARD;
+/* Takes the next step in the residuals alone, to first order, after a refresh. */
+void spectrum_step_residuals(spectrum *s);
 /* Returns the least objective that a step from the present unknowns can reach, by a parabola. */
 double spectrum_expected_objective(spectrum *s);
 /* Keeps the present fit, and returns to the kept one, which has the same unknowns. The equations
@@ -264,7 +266,7 @@ spectrum_isotherm_noise spectrum_estimate_noise(spectrum *s);
 /* Computes the rms residual of each modulus [ln], and the rms residual about a polynomial of
  * each isotherm, for independent points. */
 void spectrum_measure_misfit(spectrum *s, double all[MODULI], double within[MODULI]);
-/* Sets the noise factors of the points from their isotherm and their position on it. */
+/* Sets the noise factors of the points from isotherm and position; shape NULL: isotherm alone. */
 void spectrum_set_point_noise(spectrum *s, const double shape[SPECTRUM_SHAPES]);
 
 /* ---- superposition.c: test if one spectrum with shifts describes the isotherms */

@@ -6,6 +6,7 @@
 
 #include "core/math/special.h"
 #include <float.h>
+#include <gsl/gsl_cblas.h>
 #include <math.h>
 #include <string.h>
 
@@ -202,6 +203,21 @@ wt_status spectrum_refresh(spectrum *s, wt_error *err)
     s->may_reuse = false;
     prepare_equations(s);
     return invert_precision(s, err);
+}
+
+void spectrum_step_residuals(spectrum *s)
+{
+    const int m = (int)s->n_linear;
+    const double *const step = s->direction->data;
+    (void)spectrum_step_left(s);
+    for (size_t i = 0; i < s->n_curves; i++)
+        for (size_t k = s->first[i]; k < s->first[i + 1]; k++)
+            for (int q = 0; q < MODULI; q++) {
+                const double *const row = s->row[q] + k * (s->n_linear + 2);
+                s->residual[q][k] -= cblas_ddot(m, row, 1, step, 1);
+                s->residual[q][k] -= s->column_a[i] < 0 ? 0.0 : row[m] * step[s->column_a[i]];
+                s->residual[q][k] -= s->column_b[i] < 0 ? 0.0 : row[m + 1] * step[s->column_b[i]];
+            }
 }
 
 void spectrum_start_from(spectrum *s, const spectrum *fitted)

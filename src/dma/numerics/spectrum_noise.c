@@ -208,7 +208,9 @@ void spectrum_set_point_noise(spectrum *s, const double shape[SPECTRUM_SHAPES])
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
             const double u = isotherm_position(s, i, k);
             for (int q = 0; q < MODULI; q++)
-                s->spread[q][k] = s->kappa[i] * exp(shape[0] * u + shape[1] * (u * u - 1.0 / 3.0));
+                s->spread[q][k] =
+                    s->kappa[i] *
+                    (shape == NULL ? 1.0 : exp(shape[0] * u + shape[1] * (u * u - 1.0 / 3.0)));
         }
     }
 }
