@@ -53,7 +53,7 @@ set(allowed
   "core/table/result.c: .*former"                  # files of former versions
   "report/figure_files.c: memmem.*attribute"       # drawings of gnuplot
   "cmd/new_case.c: .*name=.\"generator"            # mark of a page in a folder
-  "cmd/(info|options|main).c: .*\"--")             # the command line
+  "cmd/(files|options|main).c: .*\"--")             # the command line
 
 set(found "")
 set(n 0)
