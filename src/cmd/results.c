@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/table_output.h"
 
-#include "core/base/spell_suggest.h"
+#include "core/base/text.h"
 
 #include <stdlib.h>
 #include <string.h>

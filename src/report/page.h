@@ -57,11 +57,6 @@ void page_cards(page_writer *page);   /* findings, measured against predicted fr
 void page_summary(page_writer *page); /* remedies, limits, data used */
 /* Conditions of a result and the data that it rests on, in one line below the title. */
 void page_conditions(page_writer *page);
-/* Cards of a result that answers none of the questions of a case, and a table of what does not fit
- * on them. */
-void page_rows(page_writer *page);
-/* Main numbers of one section of a case, with the texts of the terminal; nothing if it has none. */
-void page_section_rows(page_writer *page, page_section section);
 void page_results(page_writer *page);     /* result tables */
 void page_indentation(page_writer *page); /* conditions of indentation, rejected curves */
 

@@ -45,9 +45,9 @@ set(lists "[^a-z_](${lists})_text\\(|wt_(status_text|(${lists})_name)\\(")
 # Text from other sources.
 set(allowed
   "read/"                                          # foreign files
-  "case/case_parse.c: .*c->message"                # messages of libxml2
-  "case/case_parse.c: .* Expected is"
-  "case/case_parse.c: .*FILL IN"                   # mark in a case file
+  "case/case.c: .*c->message"                # messages of libxml2
+  "case/case.c: .* Expected is"
+  "case/case.c: .*FILL IN"                   # mark in a case file
   "core/base/unit.c: .*xc2.xb0 C"                   # spelling of a unit
   "core/table/table.c: .*_mark"                    # parts of an estimate in a file
   "core/table/result.c: .*former"                  # files of former versions
