@@ -26,9 +26,6 @@ bool svg_append_inline(text_buffer *page, const char *svg, size_t length, const 
 /* Reads width and height of a picture in its own units. False if it does not state them. */
 bool svg_canvas_size(const char *svg, size_t length, double size[2]);
 
-/* Appends the picture with width and height; `unit` is the size of its unit [mm]. */
-void svg_append_sized(text_buffer *out, const char *svg, size_t length, double unit);
-
 /* A figure of the library, drawn or not. */
 typedef struct drawn_figure {
     figure_drawing drawing;        /* zero if the result does not have its table */

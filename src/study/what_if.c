@@ -370,18 +370,6 @@ static void add_all_choices(what_if_run *w, const case_variant *used)
             add_choice(w, &choices[i], used);
 }
 
-case_variant *what_if_list_variants(const case_variant *used, size_t *n)
-{
-    what_if_run w = {.n = 0};
-    add_all_choices(&w, used);
-    *n = w.n;
-    case_variant *const settings = wt_alloc(w.n, sizeof *settings);
-    for (size_t i = 0; i < w.n; i++)
-        settings[i] = w.outcomes[i].case_variant;
-    free(w.outcomes);
-    return settings;
-}
-
 /* ---- table ----------------------------------------------------------------------------------- */
 
 static const struct {

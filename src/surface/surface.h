@@ -72,7 +72,5 @@ double surface_law_error(const surface_result *w, double wavenumber);
 double surface_knot_size_error(const wt_surface_spectrum *s, size_t knot, size_t size);
 /* The same due to the places of all sizes. */
 double surface_knot_position_error(const wt_surface_spectrum *s, size_t knot);
-/* Rms slope of the usual cutoff, above which rubber does not follow a surface. */
-extern const double surface_steep_slope;
 
 #endif
