@@ -17,7 +17,7 @@ static void print_format(const char *name, const wt_table *metadata)
 {
     const char *format = "";
     for (size_t row = 0; row < wt_table_n_rows(metadata) && *format == '\0'; row++)
-        if (strcmp(wt_table_text(metadata, row, FACTS_ITEM), "format") == 0)
+        if ((fact_item)wt_table_number(metadata, row, FACTS_KIND) == FACT_FORMAT)
             format = wt_table_text(metadata, row, FACTS_VALUE);
     printf("%s  %s\n", name, format);
 }
@@ -39,7 +39,7 @@ static void print_metadata(const char *name, const wt_table *metadata, size_t li
         const char *label = wt_table_text(metadata, row, FACTS_ITEM);
         const char *s = wt_table_text(metadata, row, FACTS_SOURCE);
         const char *v = wt_table_text(metadata, row, FACTS_VALUE);
-        if (strcmp(label, "file") == 0 && strcmp(v, name) == 0)
+        if (row == 0 && strcmp(v, name) == 0)
             continue; /* the heading has it */
         if (n_shown++ >= limit)
             continue;

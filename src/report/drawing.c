@@ -223,16 +223,19 @@ void span_add_section(value_span *span, const figure_drawing *d, int section, si
         span_add(span, wt_table_number(d->sections[section], row, place), positive_only);
 }
 
-static void write_label(figure_drawing *d, const char *axis, const char *label,
+/* Names of the axes in a script. */
+static const char *const axis_names[] = {[AXIS_X] = "x", [AXIS_Y] = "y", [AXIS_COLOUR] = "cb"};
+
+static void write_label(figure_drawing *d, drawing_axis_id id, const char *label,
                         const display_unit *lab)
 {
     text_buffer words = {0};
     text_add(&words, label);
     if (lab->label[0] != '\0')
         text_format(&words, " (%s)", lab->label);
-    if (strcmp(axis, "cb") == 0) // room for the label of the colour scale at the right
+    if (id == AXIS_COLOUR) // room for the label of the colour scale at the right
         text_add(&d->script, "set rmargin 12\n");
-    text_format(&d->script, "set %slabel ", axis);
+    text_format(&d->script, "set %slabel ", axis_names[id]);
     text_quoted(&d->script, text_string(&words));
     text_add(&d->script, "\n");
     text_free(&words);
@@ -282,7 +285,7 @@ enum { LABEL_WIDTH = 5, LABEL_MARGIN = 5 };
 
 /* Widens the left margin for wider tic labels: gnuplot would place the axis label outside of the
  * page. */
-static void write_margin(figure_drawing *d, const char *axis, double low, double high, double step)
+static void write_left_margin(figure_drawing *d, double low, double high, double step)
 {
     const double size = fmax(fabs(low), fabs(high));
     int decimals = 0;
@@ -291,7 +294,7 @@ static void write_margin(figure_drawing *d, const char *axis, double low, double
         decimals++;
     const int whole = size < 10 ? 1 : 1 + (int)log10(size);
     const int width = (low < 0) + whole + (decimals > 0) + decimals;
-    if (strcmp(axis, "y") == 0 && width > LABEL_WIDTH)
+    if (width > LABEL_WIDTH)
         text_format(&d->script, "set lmargin %d\n", width + LABEL_MARGIN);
 }
 
@@ -316,16 +319,18 @@ linear_axis axis_choose_linear(const figure_drawing *d, const schema_field *colu
     return a;
 }
 
-void axis_linear(figure_drawing *d, const char *axis, const char *label, const schema_field *column,
-                 value_span span)
+void axis_linear(figure_drawing *d, drawing_axis_id id, const char *label,
+                 const schema_field *column, value_span span)
 {
+    const char *const axis = axis_names[id];
     const linear_axis a = axis_choose_linear(d, column, span);
     write_unit(d, axis, schema_unit(column), &a.unit);
-    write_label(d, axis, label, &a.unit);
+    write_label(d, id, label, &a.unit);
     text_format(&d->script, "unset logscale %s\n", axis);
     write_range(d, axis, a.low, a.high);
     text_format(&d->script, "set %stics %s\nset format %s '%%g'\n", axis, LITERAL(a.step), axis);
-    write_margin(d, axis, a.low, a.high, a.step);
+    if (id == AXIS_Y)
+        write_left_margin(d, a.low, a.high, a.step);
 }
 
 /* True for decades whose tic labels need a power of ten. */
@@ -344,9 +349,10 @@ static void write_tic(figure_drawing *d, const char *comma, double mantissa, int
 }
 
 /* Writes a logarithmic axis of at most 2.2 decades: 1-2-5 tics with plain numbers. */
-static void write_short_log_axis(figure_drawing *d, const char *axis, double low, double high,
+static void write_short_log_axis(figure_drawing *d, drawing_axis_id id, double low, double high,
                                  double width)
 {
+    const char *const axis = axis_names[id];
     double margin = pow(10, fmax(0.05 * width, 0.02));
     low /= margin;
     high *= margin;
@@ -372,19 +378,19 @@ static void write_short_log_axis(figure_drawing *d, const char *axis, double low
                 comma = ", ";
             }
     text_format(&d->script, ")\nset format %s '%%g'\n", axis);
-    if (strcmp(axis, "y") == 0 &&
+    if (id == AXIS_Y &&
         (uses_power_label((int)floor(log10(low))) || uses_power_label((int)floor(log10(high)))))
         text_format(&d->script, "set lmargin %d\n", LABEL_WIDTH + 2 + LABEL_MARGIN); /* 2·10^{-7} */
 }
 
-void axis_log(figure_drawing *d, const char *axis, const char *label, const schema_field *column,
+void axis_log(figure_drawing *d, drawing_axis_id id, const char *label, const schema_field *column,
               value_span span)
 {
+    const char *const axis = axis_names[id];
     const char *unit = schema_unit(column);
     double decades = log10(span.high / span.low);
     // The unit suits three times the geometric mean. Over many decades, times and velocities are
-    // shown in SI units, moduli in MPa. many decades, times and velocities are better known in SI,
-    // moduli in MPa.
+    // shown in SI units, moduli in MPa.
     double size = 3 * sqrt(span.low) * sqrt(span.high);
     if (decades > 2.5 && (strcmp(unit, "s") == 0 || strcmp(unit, "m/s") == 0))
         size = 1;
@@ -393,10 +399,10 @@ void axis_log(figure_drawing *d, const char *axis, const char *label, const sche
     display_unit lab = select_display_unit(column->quantity, unit, size);
     double low = span.low * lab.factor, high = span.high * lab.factor;
     write_unit(d, axis, unit, &lab);
-    write_label(d, axis, label, &lab);
+    write_label(d, id, label, &lab);
     text_format(&d->script, "set logscale %s\n", axis);
     if (decades < 2.2) {
-        write_short_log_axis(d, axis, low, high, decades);
+        write_short_log_axis(d, id, low, high, decades);
         return;
     }
     double margin = pow(10, 0.03 * decades);
@@ -404,8 +410,7 @@ void axis_log(figure_drawing *d, const char *axis, const char *label, const sche
     high *= margin;
     write_range(d, axis, low, high);
     // At most seven labels. The first tic is given, as gnuplot would count from the end of the
-    // axis, which is no whole decade. must be given: else gnuplot counts from the end of the axis,
-    // which is no whole decade.
+    // axis, which is no whole decade.
     int step = 1 + (int)(decades / 6), first = (int)ceil(log10(low));
     text_format(&d->script, "set %stics 1e%d,1e%d\n", axis, first, step);
     text_format(&d->script, step == 1 ? "set m%stics 10\n" : "unset m%stics\n", axis);

@@ -156,16 +156,16 @@ bool drawing_build_data(figure_drawing *d)
 
 /* ---- axes ------------------------------------------------------------------------------------ */
 
-void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis, const char *label,
+void drawing_axis(figure_drawing *d, drawing_axis_id id, const figure_axis *axis, const char *label,
                   value_span span)
 {
     const schema_field *column = &d->figure->table->columns[axis->column];
     if (axis->scale == AXIS_FROM_ZERO)
         span_add(&span, 0, false);
     if (axis->scale == AXIS_LOG)
-        axis_log(d, letter, label != NULL ? label : axis->label, column, span);
+        axis_log(d, id, label != NULL ? label : axis->label, column, span);
     else
-        axis_linear(d, letter, label != NULL ? label : axis->label, column, span);
+        axis_linear(d, id, label != NULL ? label : axis->label, column, span);
 }
 
 /* True if the colour has a meaning: different values. */
@@ -203,11 +203,11 @@ static void collect_colours(figure_drawing *d)
 
 void drawing_axes(figure_drawing *d)
 {
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
-    drawing_axis(d, "y", &d->figure->y[0], d->y_label, d->y[0]);
+    drawing_axis(d, AXIS_X, &d->figure->x, NULL, d->x);
+    drawing_axis(d, AXIS_Y, &d->figure->y[0], d->y_label, d->y[0]);
     if (!is_coloured(d))
         return;
-    drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
+    drawing_axis(d, AXIS_COLOUR, &d->figure->colour, NULL, d->colour);
     collect_colours(d);
     if (d->n_colours > 0)
         text_add(&d->script, "unset colorbox\nset rmargin 3\n");

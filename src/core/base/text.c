@@ -81,36 +81,25 @@ void json_write_text(FILE *out, const char *text)
 
 size_t utf8_character_length(const char *text, size_t length)
 {
-    const unsigned char *s = (const unsigned char *)text;
-    size_t n;
-    unsigned char low = 0x80, high = 0xBF; /* range of the second byte */
-    if (length == 0)
+    const unsigned char *const s = (const unsigned char *)text, first = length > 0 ? s[0] : 0xFF;
+    const size_t n = first < 0x80   ? 1
+                     : first < 0xC2 ? 0
+                     : first < 0xE0 ? 2
+                     : first < 0xF0 ? 3
+                     : first < 0xF5 ? 4
+                                    : 0;
+    /* Second bytes that are no overlong form, no surrogate and not above U+10FFFF. */
+    const unsigned char low = first == 0xE0   ? 0xA0
+                              : first == 0xF0 ? 0x90
+                                              : 0x80,
+                        high = first == 0xED   ? 0x9F
+                               : first == 0xF4 ? 0x8F
+                                               : 0xBF;
+    if (length < n || (n > 1 && (s[1] < low || s[1] > high)))
         return 0;
-    if (s[0] < 0x80)
-        return 1;
-    if (s[0] >= 0xC2 && s[0] <= 0xDF) {
-        n = 2;
-    } else if (s[0] >= 0xE0 && s[0] <= 0xEF) {
-        n = 3;
-        if (s[0] == 0xE0)
-            low = 0xA0;
-        if (s[0] == 0xED)
-            high = 0x9F;
-    } else if (s[0] >= 0xF0 && s[0] <= 0xF4) {
-        n = 4;
-        if (s[0] == 0xF0)
-            low = 0x90;
-        if (s[0] == 0xF4)
-            high = 0x8F;
-    } else {
-        return 0;
-    }
-    if (length < n || s[1] < low || s[1] > high)
-        return 0;
-    for (size_t i = 2; i < n; i++) {
+    for (size_t i = 2; i < n; i++)
         if ((s[i] & 0xC0) != 0x80)
             return 0;
-    }
     return n;
 }
 
