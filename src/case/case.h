@@ -92,8 +92,6 @@ struct wt_case {
     flow_resource_set requested;
 };
 
-/* Creates an empty case with default parameters; NULL when out of memory. */
-wt_case *case_new(void);
 /* Parses a case file from memory. `path` gives the name for messages and the folder of the input
  * files. */
 wt_status case_from_bytes(const void *bytes, size_t length, const char *path, wt_case **out,

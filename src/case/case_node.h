@@ -9,25 +9,11 @@
 
 /* Returns the first child element with the name, NULL if there is none. */
 xmlNode *case_child(const xmlNode *parent, const char *name);
-/* Returns the next sibling element with the name, NULL if there is none. */
-xmlNode *case_next(const xmlNode *node, const char *name);
-
-/* Adds "line N, <name>" to an error and returns `status`. */
-wt_status case_add_location(const xmlNode *node, wt_status status, wt_error *err);
-/* Variant for an error whose place is the name of a parameter in this section. */
-wt_status case_add_param_location(const xmlNode *section, wt_status status, wt_error *err);
 
 /* Returns the text of a node. The case owns the text. */
 const char *case_node_text(wt_case *c, const xmlNode *node);
 /* Returns the element name of a parameter: in <sliding>, "sliding-temperature" is "temperature". */
 const char *case_param_name(const char *section, const char *param);
-/* Sets every parameter that the section states as an element or an attribute. The structure must
- * live as long as the case. */
-wt_status case_read_params(wt_case *c, const xmlNode *section, const wt_params *params,
-                           void *structure, wt_error *err) WT_NODISCARD;
-/* Reads the <NAME> elements of a parent as file sets. The attributes of the parent are defaults. */
-wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, case_files *files,
-                          wt_error *err) WT_NODISCARD;
 /* Table of the attributes of a file set that only a case has. */
 const wt_params *case_group_params(void);
 

@@ -6,8 +6,9 @@
 #include "core/table/registry.h"
 
 const file_kind_missing file_kind_missing_rows[FILE_KIND_N_MISSING] = {
-    {"spring-constant", "0.1N/m"}, {"sensitivity", "60nm/V"},  {"temperature", "20degC"},
-    {"units", "\"E'=MPa\""},       {"deformation", "tension"}, {"frequency", "10Hz"},
+    {"spring-constant", "0.1N/m"}, {"sensitivity", "60nm/V"},
+    {"temperature", "20degC"},     [FILE_KIND_UNITS] = {"units", "\"E'=MPa\""},
+    {"deformation", "tension"},    {"frequency", "10Hz"},
 };
 
 void format_metadata_value(const char *value, const char *unit, char *out, size_t size)
@@ -118,9 +119,7 @@ static void read_column(const metadata_row *row, file_kind *found)
 
 bool file_kind_is_missing(const file_kind *found, size_t missing)
 {
-    const bool by_column =
-        *found->unitless != '\0' && strcmp(file_kind_missing_rows[missing].name, "units") == 0;
-    return found->missing[missing] && !by_column;
+    return found->missing[missing] && (missing != FILE_KIND_UNITS || *found->unitless == '\0');
 }
 
 static void read_metadata(const wt_formats *formats, const wt_table *metadata, file_kind *found)

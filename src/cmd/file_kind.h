@@ -5,8 +5,8 @@
 
 #include "cmd/cmd.h"
 
-/* Number of kinds of information that a file may lack. */
-enum { FILE_KIND_N_MISSING = 6 };
+/* Number of kinds of information that a file may lack, and the units among them. */
+enum { FILE_KIND_UNITS = 3, FILE_KIND_N_MISSING = 6 };
 /* Name of the option and of the attribute in a case, with an example value. */
 typedef struct file_kind_missing {
     const char *name, *example;

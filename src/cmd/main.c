@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cmd/cmd.h"
-#include "core/base/spell_suggest.h"
+#include "core/base/text.h"
 
 /* One table drives dispatch, --help and the tests. */
 const cmd_command cmd_commands[] = {

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cmd/cmd.h"
-#include "core/base/spell_suggest.h"
+#include "core/base/text.h"
 
 enum { MAX_OPTIONS = 160, FIRST_CODE = 256, NAME_SIZE = 48, TEXT_SIZE = 512 };
 

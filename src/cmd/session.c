@@ -1,6 +1,6 @@
 /* Common start and end of all subcommands. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
-#include "core/base/spell_suggest.h"
+#include "core/base/text.h"
 
 #include <string.h>
 #include <unistd.h>

@@ -52,7 +52,8 @@ static char drawn_modulus_letter(const figure_drawing *d)
     return modulus_letter(master_curve_key_enum(d->table, MASTER_CURVE_KEY_DEFORMATION));
 }
 
-static void derived_quantity_axis(figure_drawing *d, const char *axis, const derived_quantity *c)
+static void derived_quantity_axis(figure_drawing *d, drawing_axis_id axis,
+                                  const derived_quantity *c)
 {
     static const schema_field number = {.quantity = WT_Q_NONE};
     const schema_field *column =
@@ -104,7 +105,7 @@ static void reduced_axis(figure_drawing *d)
     drawing_temperature_label(
         label, d->figure->x.label,
         master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value);
-    drawing_axis(d, "x", &d->figure->x, label, d->x);
+    drawing_axis(d, AXIS_X, &d->figure->x, label, d->x);
 }
 
 static void plot_fit_line(figure_drawing *d, size_t column, const char *unit, const char *title)
@@ -151,12 +152,12 @@ static void draw_frequency_panels(figure_drawing *d, bool fitted, curve_style wi
     if (fitted)
         reduced_axis(d);
     else
-        drawing_axis(d, "x", &d->figure->x, NULL, d->x);
-    drawing_axis(d, "y", &d->figure->y[0], label, d->y[0]);
+        drawing_axis(d, AXIS_X, &d->figure->x, NULL, d->x);
+    drawing_axis(d, AXIS_Y, &d->figure->y[0], label, d->y[0]);
     if (!span_is_empty(&d->colour))
-        drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
+        drawing_axis(d, AXIS_COLOUR, &d->figure->colour, NULL, d->colour);
     plot_moduli(d, fitted, with);
-    derived_quantity_axis(d, "y", &loss_ratio);
+    derived_quantity_axis(d, AXIS_Y, &loss_ratio);
     text_add(&d->script, "unset key\nunset colorbox\n");
     if (fitted)
         plot_fit_interval(d, FITTED + 7, "1", NULL);
@@ -230,7 +231,7 @@ static void draw_step(figure_drawing *d, bool fitted)
     if (fitted)
         reduced_axis(d);
     if (!span_is_empty(&d->colour) && d->n_colours == 0)
-        drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
+        drawing_axis(d, AXIS_COLOUR, &d->figure->colour, NULL, d->colour);
     if (fitted)
         plot_fit_interval(d, FITTED + 1, "y_unit", interval_title);
     plot_measured_points(d, "($1*x_unit):($2*y_unit)", "points ls 51");
@@ -271,10 +272,10 @@ static void draw_van_gurp_palmen(figure_drawing *d)
         return;
     d->width = 1.15;
     define_derived_quantities(d);
-    derived_quantity_axis(d, "x", &size_log);
-    derived_quantity_axis(d, "y", &angle);
+    derived_quantity_axis(d, AXIS_X, &size_log);
+    derived_quantity_axis(d, AXIS_Y, &angle);
     if (!span_is_empty(&d->colour))
-        drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
+        drawing_axis(d, AXIS_COLOUR, &d->figure->colour, NULL, d->colour);
     plot_measured_points(d, "(size($2,$3)*x_unit):(angle($2,$3)*y_unit)", "points ls 51");
     plot_item(d, d->data[0],
               "(size($5,$6)*x_unit):(angle($5,$6)*y_unit) with lines ls 11 title '%s'",

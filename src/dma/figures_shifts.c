@@ -86,7 +86,7 @@ static value_span residual_span(const figure_drawing *d, double offset)
 static void plot_residual(figure_drawing *d)
 {
     const double offset = shift_factors_value(d->table, SHIFT_FACTORS_KEY_OFFSET).value;
-    drawing_axis(d, "y", &d->figure->y[1], NULL, residual_span(d, offset));
+    drawing_axis(d, AXIS_Y, &d->figure->y[1], NULL, residual_span(d, offset));
     text_add(&d->script, "unset key\n");
     text_add(&d->script, "set ylabel 'Residual, log_{10} a_T' enhanced\n");
     plot_item(d, d->data[0],
@@ -204,7 +204,7 @@ void draw_influences(figure_drawing *d)
         span_add(&span, influences_get(d->table, row, INFLUENCES_INTERVAL), false);
     }
     drawing_axes(d);
-    drawing_axis(d, "y", &d->figure->y[0], NULL, span);
+    drawing_axis(d, AXIS_Y, &d->figure->y[0], NULL, span);
     text_add(&d->script, "set ylabel 'Largest change of log_{10} a_T' enhanced\n");
     plot_item(d, d->data[0], "($1+x_offset):(abs($2)) with impulses ls 1 lw 6 title 'change'");
     plot_item(d, d->data[0],

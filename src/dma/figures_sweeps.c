@@ -49,7 +49,7 @@ static void draw_payne(figure_drawing *d)
     plot_fraction_mark(d, PAYNE_STRAIN_TENTH, 0.9, "a tenth lost");
     plot_fraction_mark(d, PAYNE_STRAIN_HALF, 0.5, "half lost");
     plot_end(d);
-    drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
+    drawing_axis(d, AXIS_Y, &d->figure->y[1], NULL, d->y[1]);
     plot_strain_points(d, LOSS, 52, loss);
     drawing_colours(d, "points ls 51"); /* for both panels; the key of this panel has free space */
     plot_end(d);
@@ -155,7 +155,7 @@ static void draw_ramp(figure_drawing *d)
     drawing_colours(d, "points ls 51");
     plot_end(d);
     text_add(&d->script, "unset mytics\n");
-    drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
+    drawing_axis(d, AXIS_Y, &d->figure->y[1], NULL, d->y[1]);
     plot_ramp(d, 4, 51, "tan δ");
     plot_peaks(d, GLASS_TRANSITION_FACTOR_PEAK, "peak of tan δ");
     plot_end(d);

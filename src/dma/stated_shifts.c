@@ -4,7 +4,7 @@
 #include "dma/law_parse.h"
 
 #include "core/base/param.h"
-#include "core/base/spell_suggest.h"
+#include "core/base/text.h"
 #include "dma/sweep_input.h"
 #include "job/inputs.h"
 

@@ -140,12 +140,12 @@ static void draw_transverse_isotropy(figure_drawing *d)
             {TRANSVERSE_ISOTROPY_FACTORS, 0}, {factor_sets[k].factors, NULL}, NULL};
         section[k] = drawing_section(d, d->table, factor_sets[k].factors, &rows, columns, 3, 3);
     }
-    axis_log(d, "x", "Sliding velocity", &field[TRANSVERSE_ISOTROPY_VELOCITY], velocity);
+    axis_log(d, AXIS_X, "Sliding velocity", &field[TRANSVERSE_ISOTROPY_VELOCITY], velocity);
     for (size_t p = 0; p < COUNT_OF(panels); p++) {
         value_span span = EMPTY_SPAN;
         span_add(&span, 0, false);
         span_add_column(&span, d->table, panels[p].column, false);
-        axis_linear(d, "y", panels[p].label, &field[panels[p].column], span);
+        axis_linear(d, AXIS_Y, panels[p].label, &field[panels[p].column], span);
         for (size_t k = 0; k < COUNT_OF(factor_sets); k++)
             plot_item(d, section[k], "($1*x_unit):($%zu*y_unit) with lines ls %d title '%s'", p + 2,
                       factor_sets[k].style, factor_sets[k].title);
@@ -187,8 +187,8 @@ static void draw_decades(figure_drawing *d)
     span_add_section(&x, d, section, 1, true);
     span_add(&y, 0, false);
     span_add_section(&y, d, section, 2, false);
-    axis_log(d, "x", "Wavenumber q", &field[FRICTION_DECADES_FROM], x);
-    axis_linear(d, "y", "Hysteresis friction by the decade", &field[FRICTION_DECADES_HYSTERESIS],
+    axis_log(d, AXIS_X, "Wavenumber q", &field[FRICTION_DECADES_FROM], x);
+    axis_linear(d, AXIS_Y, "Hysteresis friction by the decade", &field[FRICTION_DECADES_HYSTERESIS],
                 y);
     for (size_t k = 0; k < n; k++) {
         char title[48];

@@ -177,7 +177,7 @@ static void draw_modulus_groups(figure_drawing *d)
     if (span_is_empty(&d->y[0]) || d->status != WT_OK)
         return;
     d->width = n <= 2 ? 0.8 : 1;
-    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    drawing_axis(d, AXIS_Y, &d->figure->y[0], NULL, d->y[0]);
     text_format(&d->script, "set xrange [0.5:%zu.6]\nset xtics (", n);
     for (size_t i = 0; i < n; i++) {
         text_buffer label = {0};
@@ -291,19 +291,19 @@ static bool has_map_positions(map_panel *panel)
     return table->column[INDENTATION_FILE] >= 0 && panel->step_x > 0 && panel->step_y > 0;
 }
 
-static void map_axis(figure_drawing *d, const char *letter, const map_panel *panel,
+static void map_axis(figure_drawing *d, drawing_axis_id id, const map_panel *panel,
                      indentation_column column, double step)
 {
     value_span span = EMPTY_SPAN;
     span_add_column(&span, panel->table, column, false);
     span = (value_span){span.low - step / 2, span.high + step / 2};
-    axis_linear(d, letter, letter, &indentation_schema.columns[column], span);
+    axis_linear(d, id, id == AXIS_X ? "x" : "y", &indentation_schema.columns[column], span);
 }
 
 static void draw_modulus_panel(figure_drawing *d, const map_panel *panel)
 {
-    map_axis(d, "x", panel, INDENTATION_X, panel->step_x);
-    map_axis(d, "y", panel, INDENTATION_Y, panel->step_y);
+    map_axis(d, AXIS_X, panel, INDENTATION_X, panel->step_x);
+    map_axis(d, AXIS_Y, panel, INDENTATION_Y, panel->step_y);
     text_format(&d->script, "half_x = %s; half_y = %s  # m\n", LITERAL(panel->step_x / 2),
                 LITERAL(panel->step_y / 2));
     plot_heading(d, panel->group);
@@ -346,7 +346,7 @@ static void draw_modulus_map(figure_drawing *d)
     if (n == 0 || span_is_empty(&colour) || d->status != WT_OK)
         return;
     const size_t across = drawing_panels(d, n, n, 0.95, 1);
-    axis_log(d, "cb", "Modulus", &indentation_schema.columns[INDENTATION_MODULUS], colour);
+    axis_log(d, AXIS_COLOUR, "Modulus", &indentation_schema.columns[INDENTATION_MODULUS], colour);
     text_format(
         &d->script,
         "set size ratio -1\nset border 15\nset cblabel offset 1,0\nset multiplot layout %zu,%zu\n",

@@ -28,8 +28,6 @@ typedef struct sample_set {
     size_t size, n;    /* size is 0 or a power of two */
 } sample_set;
 
-/* Adds samples of `owner`, unless there are some of the same hash. Returns the first owner. */
-const void *sample_set_add(sample_set *set, uint64_t hash, const void *owner);
 void sample_set_clear(sample_set *set);
 
 /* Input file of a job. */

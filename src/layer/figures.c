@@ -46,7 +46,7 @@ static void draw_thickness(figure_drawing *d)
 {
     double balance = positive_value(d, LAYER_KEY_BALANCE_THICKNESS);
     span_add(&d->y[0], balance, true);
-    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    drawing_axis(d, AXIS_Y, &d->figure->y[0], NULL, d->y[0]);
     mark_time(d, visible_incubation(d), "incubation", 0.75);
     mark_time(d, positive_value(d, LAYER_KEY_RELAXATION_TIME), "relaxation", 0.1);
     if (isfinite(balance))
@@ -61,7 +61,7 @@ static void draw_thickness(figure_drawing *d)
 static void draw_rates(figure_drawing *d)
 {
     text_add(&d->script, "unset arrow\nunset label\n");
-    drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
+    drawing_axis(d, AXIS_Y, &d->figure->y[1], NULL, d->y[1]);
     mark_time(d, visible_incubation(d), NULL, 0);
     mark_time(d, positive_value(d, LAYER_KEY_RELAXATION_TIME), NULL, 0);
     drawing_curves(d, 1);
@@ -73,7 +73,7 @@ static void draw_layer(figure_drawing *d)
     if (!drawing_build_data(d))
         return;
     bool thickness = !span_is_empty(&d->y[0]), rates = !span_is_empty(&d->y[1]);
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    drawing_axis(d, AXIS_X, &d->figure->x, NULL, d->x);
     if (thickness && rates) {
         d->height = 1.5;
         text_add(&d->script, "set multiplot layout 2,1\n");

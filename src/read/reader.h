@@ -71,13 +71,6 @@ typedef struct file_reader {
                           const wt_read_options *options, wt_log *log, table_writer *metadata);
 } file_reader;
 
-/* True for a reader that recognises text. It is queried only if no reader recognises a
- * signature. */
-static inline bool reader_is_text(const file_reader *reader)
-{
-    return reader->description != NULL && reader->runs == NULL;
-}
-
 /* peek_begins: true if the file begins with these bytes. peek_contains: true if the visible part
  * contains them. */
 static inline bool peek_begins(const file_peek *peek, const char *bytes, size_t n)

@@ -262,8 +262,8 @@ void draw_curve_panel(figure_drawing *d, const listed_curve *c)
     span_add_section(&y, d, retract, 1, false);
     if (d->status != WT_OK || span_is_empty(&x) || span_is_empty(&y))
         return;
-    axis_linear(d, "x", "Displacement", &curves_schema.columns[CURVES_DISPLACEMENT], x);
-    axis_linear(d, "y", "Force", &curves_schema.columns[CURVES_FORCE], y);
+    axis_linear(d, AXIS_X, "Displacement", &curves_schema.columns[CURVES_DISPLACEMENT], x);
+    axis_linear(d, AXIS_Y, "Force", &curves_schema.columns[CURVES_FORCE], y);
     text_add(&d->script, "unset arrow\nunset label\n");
     add_heading(d, c);
     if (has_fitted_samples(d, c->block))

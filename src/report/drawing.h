@@ -83,8 +83,10 @@ size_t drawing_panels(figure_drawing *d, size_t n, size_t columns, double width,
 size_t drawing_list_columns(const figure_description *figure, unsigned columns[FIGURE_COLUMNS]);
 /* Builds the sections of all groups and their ranges; false if there is nothing to draw. */
 bool drawing_build_data(figure_drawing *d);
-/* Writes axis "x", "y" or "cb"; `label` NULL = the described one. */
-void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis, const char *label,
+/* Axes, with the colour scale. */
+typedef enum drawing_axis_id { AXIS_X, AXIS_Y, AXIS_COLOUR } drawing_axis_id;
+/* Writes an axis; `label` NULL = the described one. */
+void drawing_axis(figure_drawing *d, drawing_axis_id id, const figure_axis *axis, const char *label,
                   value_span span);
 /* Writes the x axis, the y axis of the first panel and, if the colour has a meaning, the colour
  * scale. Up to three colours are listed in the key instead, by drawing_colours in the plot command.
@@ -143,12 +145,12 @@ typedef struct linear_axis {
 } linear_axis;
 linear_axis axis_choose_linear(const figure_drawing *d, const schema_field *column,
                                value_span span);
-/* Writes label, range and tics of axis "x", "y" or "cb" and defines its factor, such as x_unit =
+/* Writes label, range and tics of an axis and defines its factor, such as x_unit =
  * 1e9 (and x_offset for temperatures). The span is in the SI unit of the column and not empty. The
  * unit is appended to `label`. */
-void axis_linear(figure_drawing *d, const char *axis, const char *label, const schema_field *column,
-                 value_span span);
-void axis_log(figure_drawing *d, const char *axis, const char *label, const schema_field *column,
+void axis_linear(figure_drawing *d, drawing_axis_id id, const char *label,
+                 const schema_field *column, value_span span);
+void axis_log(figure_drawing *d, drawing_axis_id id, const char *label, const schema_field *column,
               value_span span);
 
 /* ---- plot command --------------------------------------------------------------------------- */

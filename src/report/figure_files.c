@@ -69,7 +69,7 @@ wt_status figure_font_check(const void *member, wt_error *err)
 
 /* ---- before drawing -------------------------------------------------------------------------- */
 
-wt_status figure_append_data(const figure_drawing *d, text_buffer *to, wt_error *err)
+static wt_status figure_append_data(const figure_drawing *d, text_buffer *to, wt_error *err)
 {
     wt_status status = WT_OK;
     char *bytes = NULL;
@@ -188,22 +188,6 @@ static wt_status set_bitmap_resolution(const report_folder *folder, const drawn_
     return status;
 }
 
-wt_status figure_collect(const report_folder *folder, const wt_report_options *options,
-                         drawn_figure *figure, wt_error *err)
-{
-    char name[128];
-    wt_status status = read_figure_picture(folder, figure, "svg", name, &figure->svg, err);
-    if (status == WT_OK && (options->figures & WT_FIGURE_SVG) != 0) {
-        text_buffer sized = {0};
-        svg_append_sized(&sized, text_string(&figure->svg), figure->svg.length, 1e3 * unit_length);
-        status = folder_write(folder, name, text_string(&sized), sized.length, err);
-        text_free(&sized);
-    }
-    if (status == WT_OK && (options->figures & WT_FIGURE_PNG) != 0)
-        status = set_bitmap_resolution(folder, figure, err);
-    return status;
-}
-
 /* Returns the length of `word` if s (n bytes) begins with it, else 0. */
 static size_t prefix_length(const char *s, size_t n, const char *word)
 {
@@ -238,7 +222,8 @@ bool svg_canvas_size(const char *svg, size_t length, double size[2])
     return true;
 }
 
-void svg_append_sized(text_buffer *out, const char *svg, size_t length, double unit)
+/* Appends the picture with width and height; `unit` is the size of its unit [mm]. */
+static void svg_append_sized(text_buffer *out, const char *svg, size_t length, double unit)
 {
     double size[2];
     const char *begin = memmem(svg, length, "<svg", 4);
@@ -250,6 +235,22 @@ void svg_append_sized(text_buffer *out, const char *svg, size_t length, double u
     text_bytes(out, svg, (size_t)(begin - svg));
     text_format(out, " width=\"%.2fmm\" height=\"%.2fmm\"", unit * size[0], unit * size[1]);
     text_bytes(out, begin, (size_t)(svg + length - begin));
+}
+
+wt_status figure_collect(const report_folder *folder, const wt_report_options *options,
+                         drawn_figure *figure, wt_error *err)
+{
+    char name[128];
+    wt_status status = read_figure_picture(folder, figure, "svg", name, &figure->svg, err);
+    if (status == WT_OK && (options->figures & WT_FIGURE_SVG) != 0) {
+        text_buffer sized = {0};
+        svg_append_sized(&sized, text_string(&figure->svg), figure->svg.length, 1e3 * unit_length);
+        status = folder_write(folder, name, text_string(&sized), sized.length, err);
+        text_free(&sized);
+    }
+    if (status == WT_OK && (options->figures & WT_FIGURE_PNG) != 0)
+        status = set_bitmap_resolution(folder, figure, err);
+    return status;
 }
 
 /* Scale of a picture: the type of the built-in style, 15 units, has 14/16 of the text size of a

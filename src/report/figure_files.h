@@ -19,8 +19,6 @@ wt_status figure_formats_read(const char *text, void *member, wt_error *err) WT_
 /* Checks that a font name is safe in scripts and on the page. */
 wt_status figure_font_check(const void *member, wt_error *err) WT_NODISCARD;
 
-/* Appends the data of a figure: its sections, as gnuplot's `index` counts them. */
-wt_status figure_append_data(const figure_drawing *d, text_buffer *to, wt_error *err) WT_NODISCARD;
 /* Writes data and script and stores them in `figure`. */
 wt_status figure_write(const report_folder *folder, const wt_report_options *options,
                        drawn_figure *figure, wt_error *err) WT_NODISCARD;

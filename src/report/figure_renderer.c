@@ -1,10 +1,64 @@
-/* Draws a figure from its description.
- *
+/* Binds the tables of a result to their schemas, and draws a figure from its description.
  * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report/report_tables.h"
+
 #include "report/drawing.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+static wt_status bind_indentation(const wt_result *result, figure_tables *tables, wt_error *err)
+{
+    const char *const prefix = indentation_schema.name;
+    const size_t length = strlen(prefix), n = wt_result_n_tables(result);
+    tables->indentation = wt_alloc(n, sizeof *tables->indentation);
+    for (size_t i = 0; i < n; i++) {
+        const wt_table *table = wt_result_table(result, i);
+        const char *name = wt_table_name(table);
+        if (strncmp(name, prefix, length) != 0)
+            continue;
+        wt_status status = table_bind(table, &indentation_schema, name + length,
+                                      &tables->indentation[tables->n_indentation++], err);
+        if (status != WT_OK)
+            return status;
+    }
+    return WT_OK;
+}
+
+wt_status figure_tables_bind(const wt_result *result, figure_tables *tables, wt_error *err)
+{
+    wt_status status = WT_OK;
+    *tables = (figure_tables){.n_indentation = 0};
+#define BIND(table)                                                                                \
+    if (status == WT_OK)                                                                           \
+        status = table_bind_result(result, &table##_schema, "", &tables->table, err);
+    FIGURE_TABLES(BIND)
+    return status != WT_OK ? status : bind_indentation(result, tables, err);
+}
+
+void figure_tables_clear(figure_tables *tables)
+{
+    free(tables->indentation);
+    *tables = (figure_tables){.n_indentation = 0};
+}
+
+const table_view *figure_tables_find(const figure_tables *tables, const table_schema *schema)
+{
+#define FIND(table)                                                                                \
+    if (schema == &table##_schema)                                                                 \
+        return &tables->table;
+    FIGURE_TABLES(FIND)
+    return NULL;
+}
+
+const table_view *figure_tables_indentation(const figure_tables *tables, const char *group)
+{
+    for (size_t i = 0; i < tables->n_indentation; i++)
+        if (strcmp(tables->indentation[i].suffix, group) == 0)
+            return &tables->indentation[i];
+    return NULL;
+}
 
 /* ---- data ------------------------------------------------------------------------------------ */
 
@@ -102,16 +156,16 @@ bool drawing_build_data(figure_drawing *d)
 
 /* ---- axes ------------------------------------------------------------------------------------ */
 
-void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis, const char *label,
+void drawing_axis(figure_drawing *d, drawing_axis_id id, const figure_axis *axis, const char *label,
                   value_span span)
 {
     const schema_field *column = &d->figure->table->columns[axis->column];
     if (axis->scale == AXIS_FROM_ZERO)
         span_add(&span, 0, false);
     if (axis->scale == AXIS_LOG)
-        axis_log(d, letter, label != NULL ? label : axis->label, column, span);
+        axis_log(d, id, label != NULL ? label : axis->label, column, span);
     else
-        axis_linear(d, letter, label != NULL ? label : axis->label, column, span);
+        axis_linear(d, id, label != NULL ? label : axis->label, column, span);
 }
 
 /* True if the colour has a meaning: different values. */
@@ -149,11 +203,11 @@ static void collect_colours(figure_drawing *d)
 
 void drawing_axes(figure_drawing *d)
 {
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
-    drawing_axis(d, "y", &d->figure->y[0], d->y_label, d->y[0]);
+    drawing_axis(d, AXIS_X, &d->figure->x, NULL, d->x);
+    drawing_axis(d, AXIS_Y, &d->figure->y[0], d->y_label, d->y[0]);
     if (!is_coloured(d))
         return;
-    drawing_axis(d, "cb", &d->figure->colour, NULL, d->colour);
+    drawing_axis(d, AXIS_COLOUR, &d->figure->colour, NULL, d->colour);
     collect_colours(d);
     if (d->n_colours > 0)
         text_add(&d->script, "unset colorbox\nset rmargin 3\n");

@@ -26,9 +26,6 @@ bool svg_append_inline(text_buffer *page, const char *svg, size_t length, const 
 /* Reads width and height of a picture in its own units. False if it does not state them. */
 bool svg_canvas_size(const char *svg, size_t length, double size[2]);
 
-/* Appends the picture with width and height; `unit` is the size of its unit [mm]. */
-void svg_append_sized(text_buffer *out, const char *svg, size_t length, double unit);
-
 /* A figure of the library, drawn or not. */
 typedef struct drawn_figure {
     figure_drawing drawing;        /* zero if the result does not have its table */
@@ -57,11 +54,6 @@ void page_cards(page_writer *page);   /* findings, measured against predicted fr
 void page_summary(page_writer *page); /* remedies, limits, data used */
 /* Conditions of a result and the data that it rests on, in one line below the title. */
 void page_conditions(page_writer *page);
-/* Cards of a result that answers none of the questions of a case, and a table of what does not fit
- * on them. */
-void page_rows(page_writer *page);
-/* Main numbers of one section of a case, with the texts of the terminal; nothing if it has none. */
-void page_section_rows(page_writer *page, page_section section);
 void page_results(page_writer *page);     /* result tables */
 void page_indentation(page_writer *page); /* conditions of indentation, rejected curves */
 

@@ -47,7 +47,9 @@ wt_status read_whole_file(const char *path, size_t limit, text_buffer *text, wt_
     return status;
 }
 
-wt_status write_temporary_file(const char *path, const char *bytes, size_t length, wt_error *err)
+/* Writes a file in a temporary folder. */
+static wt_status write_temporary_file(const char *path, const char *bytes, size_t length,
+                                      wt_error *err)
 {
     FILE *file = fopen(path, "wb");
     bool good = file != NULL && fwrite(bytes, 1, length, file) == length;

@@ -14,9 +14,6 @@ const char *embedded_file_text(const char *name);
 /* Appends a whole file of at most `limit` bytes. */
 wt_status read_whole_file(const char *path, size_t limit, text_buffer *text,
                           wt_error *err) WT_NODISCARD;
-/* Writes a file in a temporary folder. */
-wt_status write_temporary_file(const char *path, const char *bytes, size_t length,
-                               wt_error *err) WT_NODISCARD;
 /* Finds a built-in plot style by name. A case may only use these, as a style can run any command.
  */
 wt_status find_built_in_style(const char *name, const char **text, wt_error *err) WT_NODISCARD;

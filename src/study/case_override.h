@@ -46,9 +46,4 @@ double case_variant_highest_wavenumber(const case_variant *s);
 wt_status case_variant_compute(case_variant *s, const wt_job *work, wt_estimate *number,
                                wt_error *err) WT_NODISCARD;
 
-/* Returns the case variants behind the rows of the table "what_if" in the same order; the first is
- * the case as used. A variant with another `vertical` than the first needs a new fit of the
- * isotherms. The caller frees them with free(). */
-case_variant *what_if_list_variants(const case_variant *used, size_t *n);
-
 #endif

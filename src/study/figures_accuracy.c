@@ -103,8 +103,8 @@ static void draw_part(figure_drawing *d, const char *part)
     }
     if (span_is_empty(&time) || span_is_empty(&error))
         return;
-    axis_log(d, "x", "Processor time", &field[WORK_PRECISION_SECONDS], time);
-    axis_log(d, "y", "Relative error", &field[WORK_PRECISION_TRUE_ERROR], error);
+    axis_log(d, AXIS_X, "Processor time", &field[WORK_PRECISION_SECONDS], time);
+    axis_log(d, AXIS_Y, "Relative error", &field[WORK_PRECISION_TRUE_ERROR], error);
     plot_heading(d, part);
     for (size_t i = 0; i < n; i++) {
         const int style = method_style(methods[i]);
@@ -224,7 +224,8 @@ static void add_source_name(figure_drawing *d, size_t row, size_t y)
 static void draw_number(figure_drawing *d, const number_panel *p)
 {
     const table_view *t = d->table;
-    axis_log(d, "x", "Relative error", &t->schema->columns[ERROR_BUDGET_RELATIVE_ERROR], p->span);
+    axis_log(d, AXIS_X, "Relative error", &t->schema->columns[ERROR_BUDGET_RELATIVE_ERROR],
+             p->span);
     text_format(&d->script, "set yrange [-0.7:%zu.7]\n", p->n - 1);
     begin_names(d);
     for (size_t i = 0; i < p->n; i++)
@@ -325,7 +326,7 @@ static void draw_cost(figure_drawing *d)
                          "set tmargin 3\nunset key\n");
     d->height = 0.3 + 0.08 * (double)name_stages(d);
     d->narrow = true;
-    axis_linear(d, "x", "Processor time", &t->schema->columns[COST_CPU_TIME], time);
+    axis_linear(d, AXIS_X, "Processor time", &t->schema->columns[COST_CPU_TIME], time);
     text_add(&d->script, "k=0\n");
     plot_item(d, section,
               "(0):" STAGE_POSITION ":(0):($1*x_unit):(-k-0.35):(-k+0.35) "
@@ -334,7 +335,7 @@ static void draw_cost(figure_drawing *d)
     if (!span_is_empty(&error)) {
         text_add(&d->script, "set origin 0.62,0\nset size 0.38,1\nset lmargin 2\n"
                              "unset ytics\nset key outside top center horizontal\n");
-        axis_log(d, "x", "Relative error", &t->schema->columns[COST_STANDARD_ERROR], error);
+        axis_log(d, AXIS_X, "Relative error", &t->schema->columns[COST_STANDARD_ERROR], error);
         text_add(&d->script, "k=0\nj=0\n");
         plot_item(d, section,
                   "($3>0 ? $3*x_unit : NaN):" STAGE_POSITION
@@ -506,7 +507,7 @@ static void draw_choice_panel(figure_drawing *d, const panel *p)
         span_add(&span, p->bars[i].low, false);
         span_add(&span, p->bars[i].high, false);
     }
-    axis_linear(d, "x", p->label, &d->table->schema->columns[p->column], span);
+    axis_linear(d, AXIS_X, p->label, &d->table->schema->columns[p->column], span);
     text_format(&d->script, "set yrange [%s:%zu.%d]\n", d->stacked ? "-0.3" : "-0.6",
                 p->n - 1 + chance, d->stacked ? 9 : 6);
     begin_names(d);

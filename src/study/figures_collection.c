@@ -85,8 +85,8 @@ static void begin_grid(figure_drawing *d, const panel_grid *g)
      * same size */
     text_format(&d->script, "set tmargin %zu\nset key width 1\nset multiplot layout %zu,%zu\n",
                 3 + (d->n_groups + 1) / 2, lines, columns);
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
-    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    drawing_axis(d, AXIS_X, &d->figure->x, NULL, d->x);
+    drawing_axis(d, AXIS_Y, &d->figure->y[0], NULL, d->y[0]);
 }
 
 /* Draws a panel. The legend of the first panel also lists groups that it does not contain. */
@@ -147,8 +147,8 @@ static void draw_ramps(figure_drawing *d)
         char label[64];
         (void)snprintf(label, sizeof label, "%s modulus %c%s", panel == 0 ? "Storage" : "Loss",
                        letter, panel == 0 ? "′" : "″");
-        drawing_axis(d, "x", &d->figure->x, NULL, d->x);
-        drawing_axis(d, "y", &d->figure->y[panel], label, d->y[panel]);
+        drawing_axis(d, AXIS_X, &d->figure->x, NULL, d->x);
+        drawing_axis(d, AXIS_Y, &d->figure->y[panel], label, d->y[panel]);
         for (size_t k = 0; k < d->n_groups; k++) {
             plot_item(d, d->data[k], "($1+x_offset):($%zu*y_unit) with linespoints ls %zu",
                       panel + 2, k + 1);
@@ -291,8 +291,8 @@ static void draw_regions(figure_drawing *d)
     }
     if (d->status != WT_OK || span_is_empty(&d->x))
         return;
-    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
-    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    drawing_axis(d, AXIS_X, &d->figure->x, NULL, d->x);
+    drawing_axis(d, AXIS_Y, &d->figure->y[0], NULL, d->y[0]);
     for (size_t k = 0, shown = 0; k < COUNT_OF(names); k++)
         if (section[k] != NO_SECTION) {
             plot_item(d, section[k], "($1*x_unit):($2*y_unit) with lines ls %zu", ++shown);

@@ -252,24 +252,28 @@ static const model_choice choices[] = {
 static void short_number(double value, char text[WORDS])
 {
     clocale_print(text, WORDS, "%.3g", value);
-    char *from = strstr(text, "e+"), *to = from;
-    if (from == NULL)
-        return;
-    from += strspn(from, "e+0");
-    *to++ = 'e';
-    memmove(to, from, strlen(from) + 1);
+    char *const sign = strchr(text, '+');
+    const char *const digits = sign != NULL ? sign + strspn(sign, "+0") : NULL;
+    if (digits != NULL)
+        memmove(sign, digits, strlen(digits) + 1);
+}
+
+static double choice_number(const model_choice *c, const case_variant *s)
+{
+    double value;
+    memcpy(&value, (const char *)s + c->member, sizeof value);
+    return value;
 }
 
 /* The heat conductivity is changed by the diffusivity, at constant heat capacity, which varies
  * little between rubbers. */
 static void name_choice(const model_choice *c, const case_variant *s, char text[WORDS])
 {
-    double value;
     if (c->unit == NULL) {
         c->name(s, text);
         return;
     }
-    memcpy(&value, (const char *)s + c->member, sizeof value);
+    double value = choice_number(c, s);
     if (c->member == offsetof(case_variant, sliding.flash.diffusivity))
         value *= s->sliding.flash.heat_capacity;
     short_number(value, text);
@@ -339,6 +343,22 @@ static wt_status compute_task(void *user, size_t i, unsigned worker)
     return WT_OK;
 }
 
+/* Relative difference of numbers that are shown alike, with three digits. */
+static const double shown_alike = 1e-3;
+
+/* True if the choice changed the variant. */
+static bool is_moved(const model_choice *c, const case_variant *a, const case_variant *b)
+{
+    if (c->unit == NULL)
+        return a->vertical != b->vertical || a->sliding.flash.on != b->sliding.flash.on ||
+               a->layer_observation.bulk_shear != b->layer_observation.bulk_shear ||
+               a->layer.profile != b->layer.profile ||
+               (a->layer.profile != WT_PROFILE_PERSSON &&
+                fabs(a->layer.local_friction - b->layer.local_friction) > shown_alike);
+    const double x = choice_number(c, a), y = choice_number(c, b);
+    return fabs(x - y) > shown_alike * fabs(x);
+}
+
 /* Adds the variants of a choice. A limit may exclude one side. */
 static void add_choice(what_if_run *w, const model_choice *c, const case_variant *used)
 {
@@ -351,7 +371,7 @@ static void add_choice(what_if_run *w, const model_choice *c, const case_variant
         else
             *(double *)(void *)((char *)&moved + c->member) *= c->tried[i];
         name_choice(c, &moved, tried);
-        if (strcmp(tried, as_used) != 0) {
+        if (is_moved(c, used, &moved)) {
             outcome *const o = &w->outcomes[w->n++];
             *o = (outcome){.model_choice = c, .case_variant = moved};
             memcpy(o->used, as_used, WORDS);
@@ -368,18 +388,6 @@ static void add_all_choices(what_if_run *w, const case_variant *used)
     for (size_t i = 0; i < COUNT_OF(choices); i++)
         if (choices[i].applies(used))
             add_choice(w, &choices[i], used);
-}
-
-case_variant *what_if_list_variants(const case_variant *used, size_t *n)
-{
-    what_if_run w = {.n = 0};
-    add_all_choices(&w, used);
-    *n = w.n;
-    case_variant *const settings = wt_alloc(w.n, sizeof *settings);
-    for (size_t i = 0; i < w.n; i++)
-        settings[i] = w.outcomes[i].case_variant;
-    free(w.outcomes);
-    return settings;
 }
 
 /* ---- table ----------------------------------------------------------------------------------- */

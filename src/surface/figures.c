@@ -151,7 +151,7 @@ static void load_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
 static void draw_height_map(figure_drawing *d, const drawn_scan *s)
 {
     const schema_field *field = height_map_schema.columns;
-    axis_linear(d, "cb", "Height", &field[HEIGHT_MAP_HEIGHT], s->height);
+    axis_linear(d, AXIS_COLOUR, "Height", &field[HEIGHT_MAP_HEIGHT], s->height);
     /* The axes count columns, rows and metres: an expression for each point would take five times
      * as long as the drawing. The tics have the unit, and the bar replaces those of a length. */
     const linear_axis h = axis_choose_linear(d, &field[HEIGHT_MAP_HEIGHT], s->height);
@@ -211,8 +211,8 @@ static void draw_profiles(figure_drawing *d)
     begin_scan_panels(d, n, 0.75);
     text_add(&d->script, "unset key\n");
     for (size_t i = 0; i < n; i++) {
-        axis_linear(d, "x", "x", &field[HEIGHT_PROFILE_X], scans[i].x);
-        axis_linear(d, "y", "Height", &field[HEIGHT_PROFILE_HEIGHT], scans[i].height);
+        axis_linear(d, AXIS_X, "x", &field[HEIGHT_PROFILE_X], scans[i].x);
+        axis_linear(d, AXIS_Y, "Height", &field[HEIGHT_PROFILE_HEIGHT], scans[i].height);
         plot_heading(d, scans[i].name);
         plot_item(d, scans[i].section, "($1*x_unit):($2*y_unit) with lines ls 21 notitle");
         plot_end(d);

@@ -12,11 +12,6 @@ typedef struct surface_view {
     double dx, dy, line_step; /* [m] */
     double *z, *line;         /* [ny * nx], [n_line] */
 } surface_view;
-void surface_view_clear(surface_view *view);
-/* Thins the heights so that the maps of n_scans scans fit into one figure. The caller clears
- * `to`. */
-wt_status surface_view_create(const wt_height_map *map, wt_surface_form form, size_t n_scans,
-                              surface_view *to, wt_error *err) WT_NODISCARD;
 
 /* One height map or profile. The heights are freed after its spectrum is computed. */
 typedef struct surface_scan {
@@ -77,15 +72,5 @@ double surface_law_error(const surface_result *w, double wavenumber);
 double surface_knot_size_error(const wt_surface_spectrum *s, size_t knot, size_t size);
 /* The same due to the places of all sizes. */
 double surface_knot_position_error(const wt_surface_spectrum *s, size_t knot);
-/* Returns true if the anisotropy is significant. */
-bool surface_is_anisotropic(const wt_surface_anisotropy *directions);
-/* Rms slope of the usual cutoff, above which rubber does not follow a surface. */
-extern const double surface_steep_slope;
-
-/* Builds the tables. params: parameters of the job, for the texts of its choices. The caller
- * clears `tables`. */
-wt_status surface_tables_make(const wt_params *params, const wt_topography_job *job,
-                              const surface_scan *scans, size_t n, const surface_result *whole,
-                              wt_topography_tables *tables, wt_error *err) WT_NODISCARD;
 
 #endif

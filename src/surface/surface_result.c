@@ -161,7 +161,7 @@ void surface_describe_profiles(const surface_result *w, char *to, size_t size)
 
 /* Rms slope of the usual cutoff: Lorenz, Persson et al., J. Phys.: Condens. Matter 23 (2011)
  * 175003 and later. */
-const double surface_steep_slope = 1.3;
+static const double surface_steep_slope = 1.3;
 /* Rubber cannot follow waves shorter than 1 nm. */
 static const double shortest_wave = 1e-9;
 /* Limit of the search for a slope along the law: the size of an atom [m]. */

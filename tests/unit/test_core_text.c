@@ -1,6 +1,5 @@
 /* Errors, the parse log, numbers, paths. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
-#include "core/base/spell_suggest.h"
 #include "core/base/text.h"
 #include "weartrack/core.h"
 

@@ -246,13 +246,13 @@ static void test_wide_labels_have_a_margin(void **state)
     (void)state;
     static const schema_field number = {.unit = "1"};
     figure_drawing d = {.status = WT_OK};
-    axis_linear(&d, "y", "b", &number, (value_span){-0.75, 0.75});
+    axis_linear(&d, AXIS_Y, "b", &number, (value_span){-0.75, 0.75});
     assert_null(strstr(text_string(&d.script), "lmargin"));
     text_free(&d.script);
-    axis_linear(&d, "y", "b", &number, (value_span){-0.00075, 0.00075});
+    axis_linear(&d, AXIS_Y, "b", &number, (value_span){-0.00075, 0.00075});
     assert_non_null(strstr(text_string(&d.script), "set lmargin 13\n"));
     text_free(&d.script);
-    axis_linear(&d, "x", "b", &number, (value_span){-0.00075, 0.00075});
+    axis_linear(&d, AXIS_X, "b", &number, (value_span){-0.00075, 0.00075});
     assert_null(strstr(text_string(&d.script), "lmargin"));
     text_free(&d.script);
 }
@@ -265,34 +265,34 @@ static void test_logarithmic_tics_are_at_whole_decades(void **state)
                               temperature = {.quantity = WT_Q_TEMPERATURE},
                               time = {.quantity = WT_Q_TIME};
     figure_drawing d = {.status = WT_OK};
-    axis_log(&d, "x", "q", &wavenumber, (value_span){1e3, 3e7});
+    axis_log(&d, AXIS_X, "q", &wavenumber, (value_span){1e3, 3e7});
     // gnuplot would count decades from the end of the axis if the first tic were not given.
     assert_non_null(strstr(text_string(&d.script), "set xtics 1e3,1e1\n"));
     assert_non_null(strstr(text_string(&d.script), "\nset xrange [733.9"));
     text_free(&d.script);
-    axis_log(&d, "y", "E", &modulus, (value_span){11e6, 24e6});
+    axis_log(&d, AXIS_Y, "E", &modulus, (value_span){11e6, 24e6});
     assert_non_null(strstr(text_string(&d.script), "set ylabel 'E (MPa)'\n"));
     assert_non_null(strstr(text_string(&d.script), "set ytics (15.0, 20.0)\n"));
     text_free(&d.script);
-    axis_log(&d, "y", "E", &modulus, (value_span){20.1e6, 20.3e6});
+    axis_log(&d, AXIS_Y, "E", &modulus, (value_span){20.1e6, 20.3e6});
     assert_non_null(strstr(text_string(&d.script), "set ytics (19.5, 20.0, 20.5, 21.0)\n"));
     text_free(&d.script);
     /* Numbers with many digits are powers, and have a margin at the axis. */
-    axis_log(&d, "y", "q", &wavenumber, (value_span){1.2e5, 8e6});
+    axis_log(&d, AXIS_Y, "q", &wavenumber, (value_span){1.2e5, 8e6});
     assert_non_null(strstr(text_string(&d.script), ", '2·10^{5}' 200000.0, "));
     assert_non_null(strstr(text_string(&d.script), "set lmargin 12\n"));
     text_free(&d.script);
     // Over many decades moduli are in MPa, times and velocities in SI.
-    axis_log(&d, "y", "E", &modulus, (value_span){1e6, 1e12});
+    axis_log(&d, AXIS_Y, "E", &modulus, (value_span){1e6, 1e12});
     assert_non_null(strstr(text_string(&d.script), "set ylabel 'E (MPa)'\n"));
     text_free(&d.script);
-    axis_log(&d, "x", "t", &time, (value_span){1e-9, 1e-3});
+    axis_log(&d, AXIS_X, "t", &time, (value_span){1e-9, 1e-3});
     assert_non_null(strstr(text_string(&d.script), "set xlabel 't (s)'\n"));
     text_free(&d.script);
-    axis_log(&d, "x", "t", &time, (value_span){1e-7, 1e-6});
+    axis_log(&d, AXIS_X, "t", &time, (value_span){1e-7, 1e-6});
     assert_non_null(strstr(text_string(&d.script), "set xlabel 't (ns)'\n"));
     text_free(&d.script);
-    axis_linear(&d, "x", "T", &temperature, (value_span){293.15, 293.15});
+    axis_linear(&d, AXIS_X, "T", &temperature, (value_span){293.15, 293.15});
     assert_non_null(strstr(text_string(&d.script), "x_offset = -273.15"));
     text_free(&d.script);
     // There is no axis for numbers that it cannot show.
@@ -304,10 +304,10 @@ static void test_logarithmic_tics_are_at_whole_decades(void **state)
     assert_true(span_is_empty(&span));
     span_add(&span, 1e-99, true);
     span_add(&span, 1e99, true);
-    axis_log(&d, "x", "q", &number, span);
+    axis_log(&d, AXIS_X, "q", &number, span);
     assert_non_null(strstr(text_string(&d.script), ",1e34\n"));
     text_free(&d.script);
-    axis_linear(&d, "x", "q", &number, (value_span){5e-324, 1e-323});
+    axis_linear(&d, AXIS_X, "q", &number, (value_span){5e-324, 1e-323});
     assert_non_null(strstr(text_string(&d.script), "set xtics 0.5\n"));
     drawing_clear(&d);
 }

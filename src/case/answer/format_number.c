@@ -56,6 +56,24 @@ number_text format_with_unit(double value, const char *unit)
     return format_with_digits(value, unit, 3);
 }
 
+/* Rounds to the three digits that format_with_unit shows. */
+static double round_as_shown(double value)
+{
+    if (value == 0 || !isfinite(value))
+        return value;
+    const double scale = pow(10, 2 - floor(log10(fabs(value))));
+    return round(value * scale) / scale;
+}
+
+number_text format_range_with_unit(double low, double high, const char *unit)
+{
+    number_text words = format_with_unit(low, unit);
+    if (!(round_as_shown(high) <= round_as_shown(low)))
+        clocale_append(words.text, sizeof words.text, " to %.40s",
+                       format_with_unit(high, unit).text);
+    return words;
+}
+
 number_text format_value(wt_estimate e)
 {
     return format_with_unit(e.value, e.unit);
@@ -110,12 +128,9 @@ number_text format_celsius(double kelvin)
 number_text format_frequency(const result_value *f)
 {
     number_text result = {""};
-    const number_text low = format_with_unit(f->frequency[0], "rad/s"),
-                      high = format_with_unit(f->frequency[1], "rad/s");
-    const bool one = strcmp(low.text, high.text) == 0;
     if (!isnan(f->frequency[0]))
-        clocale_print(result.text, sizeof result.text, " at %.40s%s%.40s", low.text,
-                      one ? "" : " to ", one ? "" : high.text);
+        clocale_print(result.text, sizeof result.text, " at %.100s",
+                      format_range_with_unit(f->frequency[0], f->frequency[1], "rad/s").text);
     return result;
 }
 

@@ -25,6 +25,8 @@ typedef struct number_text {
 
 /* Formats a value with its unit. A specific wear rate [m^2/N] is printed in mm^3/(N m). */
 number_text format_with_unit(double value, const char *unit);
+/* "2 %", or "2 % to 5 %" if both differ as they are shown. */
+number_text format_range_with_unit(double low, double high, const char *unit);
 number_text format_value(wt_estimate estimate);    /* without its errors */
 number_text format_estimate(wt_estimate estimate); /* with ± the standard error, if it is known */
 number_text format_celsius(double kelvin);

@@ -131,12 +131,8 @@ static void append_strain(text_builder *t, const table_view *table)
                  high = shift_factors_value(table, SHIFT_FACTORS_KEY_STRAIN_HIGH).value;
     if (isnan(low))
         return;
-    const number_text least = format_with_unit(1e2 * low, "%"),
-                      largest = format_with_unit(1e2 * high, "%");
-    text_append(t, "The isotherms were measured with a strain amplitude of %s", least.text);
-    if (strcmp(least.text, largest.text) != 0)
-        text_append(t, " to %s", largest.text);
-    text_append(t, ". ");
+    text_append(t, "The isotherms were measured with a strain amplitude of %s. ",
+                format_range_with_unit(1e2 * low, 1e2 * high, "%").text);
 }
 
 static void describe_shifting(text_builder *t, const table_view *table)

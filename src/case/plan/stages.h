@@ -5,7 +5,7 @@
 
 #include "case/resources.h"
 
-/* Sets of optional inputs, which a stage uses if they are available. stages.c lists their
+/* Sets of optional inputs, which a stage uses if they are available. plan.c lists their
  * resources. */
 typedef enum flow_optional_input_id {
     FLOW_OPTIONAL_NONE,

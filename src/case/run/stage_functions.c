@@ -18,7 +18,8 @@ void flow_run_clear(flow_run *run)
     *run = (flow_run){0};
 }
 
-void flow_run_store_table(flow_run *run, flow_resource resource, wt_table **table)
+/* Moves a table into the run. A table from an earlier attempt is freed. */
+static void flow_run_store_table(flow_run *run, flow_resource resource, wt_table **table)
 {
     wt_table_free(run->table[resource]);
     run->table[resource] = *table;
@@ -342,8 +343,8 @@ wt_status flow_step_energy_density(flow_run *run, wt_error *err)
                                      &run->table[FLOW_ENERGY_DENSITY], err);
 }
 
-wt_status flow_run_layer_observation(const flow_run *run, wt_layer_observation *observation,
-                                     wt_error *err)
+static wt_status flow_run_layer_observation(const flow_run *run, wt_layer_observation *observation,
+                                            wt_error *err)
 {
     *observation = run->c->layer_observation;
     observation->thickness = run->thickness;

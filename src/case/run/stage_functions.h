@@ -37,22 +37,15 @@ void flow_kept_clear(flow_kept *kept);
 wt_status flow_run_case(const wt_case *c, const wt_run_options *options, flow_kept *kept,
                         wt_log *log, wt_result **result, size_t *n_failed,
                         wt_error *err) WT_NODISCARD;
-/* Creates the stated rubber of a case or of its layer material. */
-wt_status flow_run_create_stated_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
-                                        wt_error *err) WT_NODISCARD;
 /* Sets the transverse isotropy of the rubber as the case states it. */
 void flow_run_set_direction(flow_run *run);
 
 /* Return the sliding contact of a run and the observation of its layer. WT_E_MISSING without a
  * modulus ratio, for example after an inconclusive comparison. */
 wt_sliding flow_run_sliding(const flow_run *run);
-wt_status flow_run_layer_observation(const flow_run *run, wt_layer_observation *observation,
-                                     wt_error *err) WT_NODISCARD;
 
 /* Returns the indentation job of the bulk (0) or the track (1). */
 wt_indent_job flow_group_job(const flow_run *run, int g);
-/* Moves a table into the run. A table from an earlier attempt is freed. */
-void flow_run_store_table(flow_run *run, flow_resource resource, wt_table **table);
 
 #define STEP_PROTOTYPE(id, name, title, needs, any, additions, outputs, step)                      \
     wt_status step(flow_run *run, wt_error *err);

@@ -45,8 +45,9 @@ static wt_status read_stated_points(const wt_case *c, const wt_job *work, wt_rub
     return status;
 }
 
-wt_status flow_run_create_stated_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
-                                        wt_error *err)
+/* Creates the stated rubber of a case or of its layer material. */
+static wt_status flow_run_create_stated_rubber(const wt_case *c, const wt_job *work,
+                                               wt_rubber *rubber, wt_error *err)
 {
     const double reference = c->master.fit.reference_temperature;
     wt_status status = c->kind == WT_RUBBER_TABLE ? read_stated_points(c, work, rubber, err)

@@ -2,7 +2,6 @@
  * GPL-3.0-or-later */
 #include "core/base/param.h"
 #include "core/base/quantity.h"
-#include "core/base/spell_suggest.h"
 #include "core/base/text.h"
 
 #include <stdalign.h>

@@ -56,7 +56,8 @@ static wt_status store_inputs_read(const wt_table *table, wt_provenance *provena
     return WT_OK;
 }
 
-wt_status store_corrupt_error(wt_error *err, const char *place, const char *message)
+/* Creates the error WT_E_CORRUPT for a damaged file of this program, with advice. */
+static wt_status store_corrupt_error(wt_error *err, const char *place, const char *message)
 {
     (void)wt_fail(err, WT_E_CORRUPT, "%s", message);
     wt_error_place(err, "%s", place);

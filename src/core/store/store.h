@@ -42,8 +42,6 @@ wt_status store_extract_main_values(hid_t file, size_t size, FILE *out, wt_error
 /* wt_store_read with one of these functions. */
 wt_status store_read(const char *path, hdf5_read_function *extract, wt_result **result,
                      wt_error *err) WT_NODISCARD;
-/* Creates the error WT_E_CORRUPT for a damaged file of this program, with advice. */
-wt_status store_corrupt_error(wt_error *err, const char *place, const char *message);
 /* Decodes the data from the sandbox into a result. All bytes are validated. */
 wt_status store_decode(const char *bytes, size_t length, wt_result *result, wt_error *err);
 

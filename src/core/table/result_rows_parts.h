@@ -37,9 +37,6 @@ double rows_plain_key(const char *text);
 row_number_text rows_short(double value, const char *unit);
 
 /* The parts of one schema; the view has a table. */
-void rows_of_curves(rows_source *s);
-void rows_of_material(rows_source *s);
-void rows_of_surface(rows_source *s);
 void rows_of_friction(rows_source *s);
 void rows_of_layer(rows_source *s);
 void rows_of_errors(rows_source *s);

@@ -28,8 +28,6 @@ typedef struct closed_list {
 size_t length_without_reason(const char *cell);
 /* Returns the value of the text with which a cell begins; the longest one if there are several. */
 int closed_list_find(const closed_list *list, const char *cell);
-/* Returns the set of texts in a cell that lists several with commas; bit n for unknown texts. */
-uint64_t closed_list_find_items(const closed_list *list, const char *cell);
 const char *closed_list_get(const closed_list *list, int value); /* "" for an unknown value */
 
 /* Type of the member that a column or key shows. */

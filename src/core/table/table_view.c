@@ -52,7 +52,8 @@ int closed_list_find(const closed_list *list, const char *cell)
     return found;
 }
 
-uint64_t closed_list_find_items(const closed_list *list, const char *cell)
+/* Returns the set of texts in a cell that lists several with commas; bit n for unknown texts. */
+static uint64_t closed_list_find_items(const closed_list *list, const char *cell)
 {
     uint64_t items = 0;
     for (const char *item = cell; item != NULL; item = strchr(item, ',')) {

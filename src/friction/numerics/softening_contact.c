@@ -67,7 +67,8 @@ static const wt_material_law loss_law_closed = {.name = "loss",
 /* Below this t the rounding of q matters; above it the relative error is ten roundings. */
 static const double rounding_counts = 0.1;
 
-double softening_strain(const strain_law *s, double q)
+/* Strain at a wavenumber. */
+static double softening_strain(const strain_law *s, double q)
 {
     return s->factor * sqrt(2 * M_PI * wt_roughness_moment(s->roughness, 3, q));
 }

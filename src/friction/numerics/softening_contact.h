@@ -34,8 +34,6 @@ typedef struct strain_law {
 wt_status softening_new(const wt_softening *table, double factor, const wt_material *material,
                         const wt_roughness *roughness, arena *memory, strain_law **made,
                         wt_error *err) WT_NODISCARD;
-/* Strain at a wavenumber. */
-double softening_strain(const strain_law *s, double q);
 /* f and g at n wavenumbers q = q0 e^t. */
 void softening_factors(const strain_law *s, const double *q, const double *t, size_t n, double *f,
                        double *g);

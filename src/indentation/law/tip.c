@@ -6,7 +6,6 @@
 #include "indentation/law/tip.h"
 
 #include "core/base/quantity.h"
-#include "core/base/spell_suggest.h"
 #include "core/base/text.h"
 
 #include <float.h>

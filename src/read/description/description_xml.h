@@ -41,10 +41,4 @@ void *parse_alloc_children(description_parser *p, const xmlNode *node, const cha
 void parse_pattern(description_parser *p, const xmlNode *node, const char *name,
                    line_pattern *pattern, size_t groups);
 
-/* description_parts.c: parse a document that follows the schema, as a whole or up to
- * DESCRIPTION_DETECT. */
-void parse_format(description_parser *p, const xmlNode *root);
-void parse_detect(description_parser *p, const xmlNode *root);
-unsigned parse_kinds(const char *choices);
-
 #endif

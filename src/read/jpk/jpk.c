@@ -252,12 +252,12 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
     return status;
 }
 
-const force_stream jpk_force = {.size = sizeof(jpk_source),
-                                .open = open_source,
-                                .next = next_curve,
-                                .decode = decode,
-                                .seek = seek_curve,
-                                .close = close_source};
+static const force_stream jpk_force = {.size = sizeof(jpk_source),
+                                       .open = open_source,
+                                       .next = next_curve,
+                                       .decode = decode,
+                                       .seek = seek_curve,
+                                       .close = close_source};
 
 static bool jpk_peek_contains(const file_peek *peek, const char *text)
 {

@@ -154,10 +154,4 @@ wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segme
 /* Returns NULL if there is none. */
 const jpk_channel *jpk_segment_channel(const jpk_segment *segment, const char *name);
 
-/* ---- calibration: jpk_calibration.c ------------------------------------------------------- */
-
-/* ---- curves: jpk_force.c ------------------------------------------------------------------ */
-
-extern const force_stream jpk_force;
-
 #endif

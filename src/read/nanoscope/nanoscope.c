@@ -276,11 +276,11 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
     return status;
 }
 
-const force_stream nanoscope_force = {.size = sizeof(nanoscope_source),
-                                      .open = open_source,
-                                      .next = next_curve,
-                                      .decode = decode,
-                                      .close = close_source};
+static const force_stream nanoscope_force = {.size = sizeof(nanoscope_source),
+                                             .open = open_source,
+                                             .next = next_curve,
+                                             .decode = decode,
+                                             .close = close_source};
 
 static recognition detect(const file_reader *self, file_peek *peek)
 {

@@ -99,12 +99,4 @@ wt_status nanoscope_read_curve(const nanoscope_file *file, const nanoscope_chann
 double nanoscope_sample(const nanoscope_file *file, const nanoscope_channel *channel,
                         const unsigned char *stored, size_t i);
 
-/* ---- nanoscope_force.c ------------------------------------------------------------------------
- */
-
-extern const force_stream nanoscope_force;
-
-/* ---- nanoscope_image.c ------------------------------------------------------------------------
- */
-
 #endif

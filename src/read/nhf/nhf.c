@@ -188,6 +188,13 @@ static bool is_supported_channel(const char *name)
            strcmp(name, "Time") == 0;
 }
 
+static void nhf_channel_close(nhf_channel *c)
+{
+    hdf5_close(c->data);
+    free(c->values);
+    *c = (nhf_channel){.data = -1};
+}
+
 /* Opens a channel with a known name, type and unit; the caller closes it. Returns false otherwise,
  * and sets *problem if the channel is required but not understood. */
 static bool nhf_channel_open(const nhf_file *f, hid_t segment, const char *name, nhf_channel *c,
@@ -230,13 +237,6 @@ static wt_status nhf_channel_read(nhf_channel *c, size_t from, size_t n, wt_erro
     }
     convert_to_units(c->values, n, c->missing, c->factor, c->scaling);
     return WT_OK;
-}
-
-void nhf_channel_close(nhf_channel *c)
-{
-    hdf5_close(c->data);
-    free(c->values);
-    *c = (nhf_channel){.data = -1};
 }
 
 /* Reads lateral positions [m]; the caller frees them. NULL if the numbers are not understood.

@@ -30,6 +30,4 @@ typedef struct nhf_channel {
     size_t capacity;
 } nhf_channel;
 
-void nhf_channel_close(nhf_channel *channel);
-
 #endif

@@ -261,12 +261,12 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
     return WT_OK;
 }
 
-const force_stream nid_force = {.size = sizeof(nid_source),
-                                .open = open_source,
-                                .next = next_curve,
-                                .decode = decode,
-                                .seek = seek,
-                                .close = close_source};
+static const force_stream nid_force = {.size = sizeof(nid_source),
+                                       .open = open_source,
+                                       .next = next_curve,
+                                       .decode = decode,
+                                       .seek = seek,
+                                       .close = close_source};
 
 /* Maximum part of the header that the detection examines; the reader checks the rest [byte]. */
 #define HEADER_PEEK_MAX ((size_t)1 << 18)

@@ -103,8 +103,6 @@ typedef struct nid_spectroscopy {
     long columns, rows;       /* 0 if there is no grid */
 } nid_spectroscopy;
 
-extern const force_stream nid_force;
-
 /* ---- positions of the curves: ---------------------------------------------------------------- */
 
 /* Returns the grid of a map; 0 and 0 if the file states none. */

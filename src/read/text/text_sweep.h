@@ -56,7 +56,7 @@ void sweep_format_source(const sweep_builder *b, char *source, size_t size);
  * the value of the header or the user. */
 wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, double *spread);
 
-/* ---- text_sweep_check.c: warns of inconsistent rows. ----------------------------------------- */
+/* Warns of inconsistent rows. */
 void sweep_check_table(const text_file *file, text_table *table, wt_log *log);
 
 /* Fails if the user states one temperature for tables that state different ones, and warns of

@@ -1,11 +1,16 @@
-/* weartrack run: runs a whole case. SPDX-License-Identifier: GPL-3.0-or-later */
+/* weartrack run, view, validate and accuracy: a case, its page and its comparisons.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cmd/table_output.h"
+
+#include "core/table/registry.h"
+
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cmd/table_output.h"
-#include "core/table/registry.h"
+/* ---- run ------------------------------------------------------------------------------------- */
 
 static bool plan_runs_stage(const wt_table *plan)
 {
@@ -245,4 +250,168 @@ int cmd_run(int argc, char **argv)
     wt_table_free(r.plan);
     wt_case_free(r.case_file);
     return cmd_session_free(&r.s);
+}
+
+/* ---- view ------------------------------------------------------------------------------------ */
+
+typedef struct view_flags {
+    bool no_open;
+} view_flags;
+
+static const wt_param flag_rows[] = {
+    {PARAM_FLAG_OF("no-open", view_flags, no_open),
+     .help = "only print the address of the page, do not open it in a browser"},
+};
+CMD_OPTIONS(view_flag_params, view_flags, flag_rows)
+
+/* Returns the path of this program, which the server starts for whole runs. */
+static const char *own_path(char *path, size_t size)
+{
+    const ssize_t length = readlink("/proc/self/exe", path, size - 1);
+    path[length > 0 ? length : 0] = '\0';
+    return length > 0 ? path : "weartrack";
+}
+
+int cmd_view(int argc, char **argv)
+{
+    static const cmd_usage usage = {
+        .name = "view",
+        .arguments = "[OPTION]... [FOLDER|CASE.xml|RESULT.h5|FILE...]",
+        .description =
+            "Opens a page in the browser on which a case is looked at and changed: its files, "
+            "force curves with their fits, master curve, surface, friction and answer. The page "
+            "edits the case file and its manual overrides and computes nothing; weartrack run "
+            "gives the same numbers. Only this computer can reach the page, through the address "
+            "that is printed. The program ends with the last page, or with Ctrl-C.",
+        .common = "formats"};
+    cmd_session s = cmd_session_defaults();
+    wt_view_options options = wt_view_defaults();
+    view_flags own = {0};
+    char path[4096];
+    wt_view *view = NULL;
+    cmd_option_group parts[] = {{wt_view_params(), &options, NULL, 0},
+                                {view_flag_params(), &own, NULL, 0}};
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
+        return cmd_session_free(&s);
+    options.paths = s.files;
+    options.n_paths = s.n_files;
+    options.formats = s.common.formats;
+    options.program = own_path(path, sizeof path);
+    wt_status status = wt_view_open(&options, &view, &s.err);
+    if (status == WT_OK) {
+        printf("%s\n", wt_view_address(view));
+        fflush(stdout);
+        if (!own.no_open && !wt_view_show(view))
+            cmd_message("weartrack view: no browser found; open the address by hand\n");
+        s.common.quiet = true; /* serving has no progress */
+        wt_progress progress = cmd_progress_start(&s);
+        cmd_catch_interruptions();
+        status = wt_view_serve(view, &progress, &s.err);
+    }
+    wt_view_close(view);
+    cmd_progress_end(&s);
+    if (status != WT_OK)
+        cmd_fail(&s);
+    return cmd_session_free(&s);
+}
+
+/* ---- validate -------------------------------------------------------------------------------- */
+
+static wt_status run_validation_case(cmd_session *s, wt_run_options *run,
+                                     const cmd_option_group *job)
+{
+    const cmd_case_tables requested = {
+        .tables = "validation validation_running_in validation_course validation_sources wear",
+        .main = "validation",
+        .missing = "nothing could be compared with the record",
+        .expected = "a case with a material, a counter surface and sliding conditions, "
+                    "and a record",
+        .records = job};
+    const wt_status status = cmd_run_case_tables(s, &requested, run);
+    return status == WT_OK && !cmd_shows_short_table(s) ? cmd_write_result(s) : status;
+}
+
+int cmd_validate(int argc, char **argv)
+{
+    static const cmd_usage usage = {
+        .name = "validate",
+        .arguments = "[OPTION]... CASE.xml [RECORD]...",
+        .description =
+            "Does the theory explain the friction that was measured? Records of a tribometer, "
+            "or results of weartrack record, are compared with what a case predicts at their "
+            "velocities, with and without the layer: yes, no, or inconclusive; the "
+            "shear stress that the record asks for; and where the error comes from.",
+        .common = "output formats columns provenance",
+        .notes = "Without a RECORD those of the case (<record>) are taken."};
+    cmd_session s = cmd_session_defaults();
+    wt_run_options run = wt_run_defaults();
+    wt_validation_job job = wt_validation_job_defaults();
+    cmd_option_group parts[] = {{wt_validation_job_params(), &job, NULL, 0},
+                                {wt_run_params(), &run, NULL, 0}};
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
+        return cmd_session_free(&s);
+    bool good = s.n_files > 0 || cmd_usage_error(&s, "one case file is needed");
+    good = good && (s.common.n_columns == 0 || cmd_read_formats(&s));
+    if (good) {
+        s.log = wt_log_new();
+        cmd_end(&s, run_validation_case(&s, &run, &parts[0]));
+    }
+    return cmd_session_free(&s);
+}
+
+/* ---- accuracy -------------------------------------------------------------------------------- */
+
+static void print_text_keys(const cmd_session *s, const wt_table *table)
+{
+    for (size_t i = 0; i < wt_table_n_keys(table) && !s->common.quiet; i++) {
+        const char *name = wt_table_key_name(table, i);
+        wt_estimate number;
+        if (!wt_table_estimate(table, name, &number))
+            cmd_message("%s: %s\n", name, wt_table_key(table, name));
+    }
+}
+
+/* Runs a case with requests for only its error budget and error against run time. */
+static wt_status run_accuracy_case(cmd_session *s, wt_run_options *run)
+{
+    static const cmd_case_tables requested = {
+        .tables = "error_budget work_precision",
+        .main = "error_budget",
+        .missing = "the case has no error budget",
+        .expected = "a material, a counter surface and sliding conditions"};
+    const wt_status status = cmd_run_case_tables(s, &requested, run);
+    if (status == WT_OK && !cmd_is_brief(s)) {
+        print_text_keys(s, wt_result_find(s->result, "error_budget"));
+        if (wt_result_find(s->result, "work_precision") != NULL)
+            print_text_keys(s, wt_result_find(s->result, "work_precision"));
+    }
+    return status == WT_OK && !cmd_shows_short_table(s) ? cmd_write_result(s) : status;
+}
+
+int cmd_accuracy(int argc, char **argv)
+{
+    static const cmd_usage usage = {
+        .name = "accuracy",
+        .arguments = "CASE.xml [OPTION]...",
+        .description = "Reports which error costs each number of a case most, what would make it "
+                       "smaller, and the error against run time for several tolerances, numbers of "
+                       "replicates and numbers of isotherms.",
+        .common = "output formats columns provenance"};
+    cmd_session s = cmd_session_defaults();
+    wt_accuracy_job job = wt_accuracy_job_defaults();
+    wt_run_options run = wt_run_defaults();
+    cmd_option_group parts[] = {{wt_accuracy_job_params(), &job, NULL, 0},
+                                {wt_run_params(), &run, NULL, 0}};
+    if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv))
+        return cmd_session_free(&s);
+    bool good = true;
+    if (s.n_files != 1)
+        good = cmd_usage_error(&s, "give the case file");
+    good = good && (s.common.n_columns == 0 || cmd_read_formats(&s));
+    if (good) {
+        s.log = wt_log_new();
+        run.precision = job;
+        cmd_end(&s, run_accuracy_case(&s, &run));
+    }
+    return cmd_session_free(&s);
 }
