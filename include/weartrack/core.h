@@ -385,6 +385,8 @@ WT_API void wt_params_clear(const wt_params *params, void *structure, uint64_t *
 /* Formats the default, "0.5", or its description if there is no value, "the middle isotherm"; "" if
  * there is neither. Returns the length as snprintf does. */
 WT_API size_t wt_params_default(const wt_params *params, size_t i, char *buffer, size_t size);
+/* True for a parameter of yes or no whose default is yes. */
+WT_API bool wt_params_default_flag(const wt_params *params, size_t i);
 
 /* ---- paths, files --------------------------------------------------------------------------- */
 

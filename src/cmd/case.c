@@ -72,8 +72,7 @@ typedef struct run_flags {
 
 static const wt_param output_rows[] = {
     {PARAM_TEXT_OF("output", cmd_common_options, output), .value = "FILE", .letter = 'o',
-     .flags = PARAM_WRITTEN, .unset = "the name of the case with .h5, in the current folder",
-     .help = "the result, HDF5"},
+     .unset = "the name of the case with .h5, in the current folder", .help = "the result, HDF5"},
 };
 PARAM_LOCAL_TABLE(output_params, cmd_common_options, output_rows, cmd_common_defaults, NO_PARTS)
 

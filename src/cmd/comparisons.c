@@ -29,6 +29,7 @@ typedef struct compare_dma_options {
 
 static const wt_param rows[] = {
     {PARAM_TEXT_OF("master", compare_dma_options, master), .value = "FILE", .unset = "",
+     .flags = PARAM_READ,
      .help = "output of weartrack master, to compare with DMA at the frequency of the indentation"},
 };
 CMD_OPTIONS(compare_dma_params, compare_dma_options, rows)

@@ -13,12 +13,13 @@ typedef struct saved_shifts {
 
 static const wt_param saved_rows[] = {
     {PARAM_TEXT_OF("shifts", saved_shifts, read), .value = "FILE", .unset = "fitted",
+     .flags = PARAM_READ,
      .help =
          "table with columns temperature and log_a, as --save-shifts writes it: these shifts are "
          "not fitted, those of other isotherms are, and with a column log_b so are the vertical "
          "ones; - is standard input"},
     {PARAM_TEXT_OF("save-shifts", saved_shifts, written), .value = "FILE", .unset = "",
-     .flags = PARAM_WRITTEN, .help = "write the table shift_factors there too, as a text stream"},
+     .help = "write the table shift_factors there too, as a text stream"},
     {PARAM_FLAG_OF("influence", saved_shifts, influence),
      .help =
          "fit again without each of the isotherms: the table influences says how far that moves "

@@ -10,6 +10,7 @@ typedef struct indent_dma_options {
 
 static const wt_param rows[] = {
     {PARAM_TEXT_OF("master", indent_dma_options, master), .value = "FILE", .unset = "",
+     .flags = PARAM_READ,
      .help = "output of weartrack master: a factor on its relaxation spectrum is fitted, so that "
              "curves of all rates are comparable"},
 };

@@ -16,7 +16,7 @@ cmd_common_options cmd_common_defaults(void)
 
 static const wt_param common_rows[] = {
     {PARAM_TEXT_OF("output", cmd_common_options, output), .value = "FILE", .letter = 'o',
-     .unset = "", .flags = PARAM_WRITTEN,
+     .unset = "",
      .help = "write the output to this file; the end of its name is the form: .h5 or .hdf5 (HDF5) "
              "and .json have all tables, .csv the main table under one header line, other names, "
              "such as .tsv, the text stream of all tables; default and -: standard output"},
@@ -29,6 +29,7 @@ static const wt_param common_rows[] = {
          "quantity of a column whose name is not known, such as \"Stor. "
          "Mod.=storage_modulus:MPa\"; the unit applies only if the file states none; repeatable"},
     {PARAM_TEXT_OF("files-from", cmd_common_options, files_from), .value = "FILE", .unset = "",
+     .flags = PARAM_READ,
      .help = "read the names of further files from this file, one in each line or separated by "
              "zero bytes; - is standard input"},
     {PARAM_FLAG_OF("provenance", cmd_common_options, provenance),
@@ -118,11 +119,8 @@ static void add_option_group(option_list *list, cmd_option_group *part)
         if ((param->flags & PARAM_NO_OPTION) != 0 ||
             (part->only != NULL && !cmd_names_contain(part->only, param->name)))
             continue;
-        char set[8];
-        wt_params_default(part->params, i, set, sizeof set);
         option_row *row = &list->rows[list->n++];
-        *row = (option_row){part,  i, param, param->kind == PARAM_FLAG && strcmp(set, "yes") == 0,
-                            false, ""};
+        *row = (option_row){part, i, param, wt_params_default_flag(part->params, i), false, ""};
         snprintf(row->name, sizeof row->name, "%s%s", row->negated ? "no-" : "", param->name);
         if (param->former != NULL && list->n < MAX_OPTIONS) {
             option_row *former = &list->rows[list->n++];
@@ -430,9 +428,7 @@ static bool parse_options(cmd_session *s, const option_list *list, int argc, cha
             return false;
         if (s->common.log == CMD_LOG_JSON)
             cmd_log_json(s->name);
-        const char *value = row->param->value;
-        if (value != NULL && (strcmp(value, "FILE") == 0 || strcmp(value, "R") == 0) &&
-            (row->param->flags & PARAM_WRITTEN) == 0)
+        if ((row->param->flags & PARAM_READ) != 0)
             inputs[(*n_inputs)++] = optarg;
     }
     return true;

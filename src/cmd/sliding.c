@@ -52,24 +52,29 @@ typedef struct cmd_sliding {
 
 static const wt_param contact_rows[] = {
     {PARAM_TEXT_OF("material", cmd_contact, material), .value = "FILE", .letter = 'm', .unset = "",
+     .flags = PARAM_READ,
      .help =
          "output of weartrack master (text stream or .h5; - is standard input), a text table of "
          "E' and E'' at one temperature, or fractional-zener:e0=..Pa,eg=..Pa,tau=..s,alpha=.."},
     {PARAM_TEXTS_OF("dma", cmd_contact, dma_files, n_dma), .value = "FILE", .unset = "",
-     .help = "DMA file, folder or pattern instead of --material; repeatable"},
-    {PARAM_TEXT_OF("roughness", cmd_contact, roughness), .value = "R", .flags = PARAM_REQUIRED,
+     .flags = PARAM_READ, .help = "DMA file, folder or pattern instead of --material; repeatable"},
+    {PARAM_TEXT_OF("roughness", cmd_contact, roughness), .value = "R",
+     .flags = PARAM_REQUIRED | PARAM_READ,
      .help = "counter surface: self-affine:q0=..rad/m,qr=..rad/m,q1=..rad/m,hurst=..,c0=..m^4, a "
              "spectrum file, or height maps of it: a file, or a folder or pattern of several"},
     {PARAM_TEXT_OF("strain-softening", cmd_contact, softening), .value = "FILE", .unset = "",
+     .flags = PARAM_READ,
      .help = "how the moduli soften with strain: output of weartrack payne, or a table with "
              "columns strain, f and g (and f_error, g_error), by which E' and E'' are multiplied"},
     {PARAM("softening-temperature", cmd_contact, softening_temperature, WT_Q_TEMPERATURE, ABOVE(0)),
      .value = "T", .unset = "they are of one",
      .help = "of strain sweeps at several temperatures take those nearest to this one"},
     {PARAM_TEXT_OF("layer-comparison", cmd_contact, layer_comparison), .value = "FILE", .unset = "",
+     .flags = PARAM_READ,
      .help = "output of weartrack compare, whose modulus ratios at several indentation rates are "
              "those of the layer, instead of --modulus-ratio"},
     {PARAM_TEXT_OF("wear-of", cmd_contact, wear_of), .value = "FILE", .unset = "",
+     .flags = PARAM_READ,
      .help = "output of weartrack record, whose specific wear rate is that of the layer unless "
              "--specific-wear-rate gives one"},
 };

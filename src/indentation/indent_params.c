@@ -108,7 +108,7 @@ static const wt_param rows[] = {
              "error of the modulus), all or FILE:N; median is the representative one, whole, as "
              "force_displacement and force_indentation"},
     {PARAM_TEXT_OF("overrides", wt_indent_job, choices), .former = "choices", .value = "FILE",
-     .unset = "", .flags = PARAM_NO_CASE,
+     .unset = "", .flags = PARAM_NO_CASE | PARAM_READ,
      .help = "what was chosen by hand: curves left out, contact points of curves, spring constant, "
              "sensitivity and tip of files"},
 };

@@ -43,7 +43,7 @@ static const wt_param rows[] = {
      .help = SUCH_AS("cross-section that the track has lost, ", "\"3e-11m^2 +- 20%\"",
                      ", for the specific wear rate")},
     {PARAM_TEXT_OF("profile", wt_record_job, profile), .value = "FILE", .unset = "",
-     .flags = PARAM_NO_CASE,
+     .flags = PARAM_NO_CASE | PARAM_READ,
      .help =
          "the same from profiles of heights across the track: a file, a folder or a pattern; of "
          "several the mean, with their scatter"},

@@ -525,6 +525,14 @@ static int format_member(const bound_member *s, char *buffer, size_t size)
     }
 }
 
+bool wt_params_default_flag(const wt_params *params, size_t i)
+{
+    alignas(max_align_t) unsigned char structure[PARAM_STRUCTURE_SIZE_MAX] = {0};
+    params->defaults(structure);
+    const bound_member s = bind_member(params, i, structure);
+    return s.param->kind == PARAM_FLAG && *(const bool *)s.member;
+}
+
 size_t wt_params_default(const wt_params *params, size_t i, char *buffer, size_t size)
 {
     alignas(max_align_t) unsigned char structure[PARAM_STRUCTURE_SIZE_MAX] = {0};

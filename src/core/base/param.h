@@ -51,8 +51,8 @@ typedef struct param_limits {
 #define PARAM_NO_OPTION 2u
 #define PARAM_NO_CASE 4u
 #define PARAM_ONLY_C (PARAM_NO_OPTION | PARAM_NO_CASE)
-/* Name of an output file, not of an input file. */
-#define PARAM_WRITTEN 8u
+/* Name of an input file. */
+#define PARAM_READ 8u
 
 struct wt_param {
     const char *name; /* option and case element; in a section of the same name, such as <sliding>,
