@@ -270,8 +270,8 @@ static size_t find_choice_range(const table_view *t, size_t row, what_if_column 
 {
     double low = what_if_get(t, 0, column), high = low;
     range->words = what_if_text(t, row, WHAT_IF_CHOICE);
-    for (; row < t->n_rows && strcmp(what_if_text(t, row, WHAT_IF_CHOICE), range->words) == 0;
-         row++) {
+    const int choice = what_if_enum(t, row, WHAT_IF_CHOICE);
+    for (; row < t->n_rows && what_if_enum(t, row, WHAT_IF_CHOICE) == choice; row++) {
         low = fmin(low, what_if_get(t, row, column)); /* fmin and fmax skip NaN */
         high = fmax(high, what_if_get(t, row, column));
     }

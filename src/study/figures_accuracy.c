@@ -394,7 +394,8 @@ enum { MOST_BARS = 16, TRIED = 256, PANELS = 3 };
 
 /* Range of a number over a choice. */
 typedef struct bar {
-    const char *choice;
+    int choice;
+    const char *words;
     char tried[TRIED];
     double low, high;
 } bar;
@@ -411,7 +412,7 @@ static int compare_widths(const void *a, const void *b)
 {
     const bar *p = a, *q = b;
     const double more = (p->high - p->low) - (q->high - q->low);
-    return more > 0 ? 1 : more < 0 ? -1 : strcmp(q->choice, p->choice);
+    return more > 0 ? 1 : more < 0 ? -1 : q->choice - p->choice;
 }
 
 /* Appends "2e5; 2e7 rad/m": the unit appears once. */
@@ -430,13 +431,16 @@ static void append_tried(bar *b, const char *tried)
 static void fill_panel(panel *p, const table_view *table)
 {
     for (size_t row = 1; row < table->n_rows; row++) {
-        const char *choice = what_if_text(table, row, WHAT_IF_CHOICE);
+        const int choice = what_if_enum(table, row, WHAT_IF_CHOICE);
         const double value = what_if_get(table, row, p->column);
-        const bool same = p->n > 0 && strcmp(p->bars[p->n - 1].choice, choice) == 0;
+        const bool same = p->n > 0 && p->bars[p->n - 1].choice == choice;
         if (!isfinite(value) || (!same && p->n == MOST_BARS))
             continue;
         if (!same)
-            p->bars[p->n++] = (bar){.choice = choice, .low = p->used.value, .high = p->used.value};
+            p->bars[p->n++] = (bar){.choice = choice,
+                                    .words = what_if_text(table, row, WHAT_IF_CHOICE),
+                                    .low = p->used.value,
+                                    .high = p->used.value};
         bar *b = &p->bars[p->n - 1];
         b->low = fmin(b->low, value);
         b->high = fmax(b->high, value);
@@ -512,14 +516,14 @@ static void draw_choice_panel(figure_drawing *d, const panel *p)
                 p->n - 1 + chance, d->stacked ? 9 : 6);
     begin_names(d);
     for (size_t i = 0; i < p->n; i++)
-        add_bar_name(d, i, p->bars[i].choice, p->bars[i].tried);
+        add_bar_name(d, i, p->bars[i].words, p->bars[i].tried);
     if (chance)
         add_bar_name(d, p->n, "errors that are known", "95 % interval");
     text_format(&d->script,
                 "set arrow from %s*x_unit, graph 0 to %s*x_unit, graph 1 nohead ls 12 back\n",
                 LITERAL(p->used.value), LITERAL(p->used.value));
     for (size_t i = 0; i < p->n; i++)
-        plot_item(d, add_bar_section(d, p, p->bars[i].choice, p->bars[i].low, p->bars[i].high),
+        plot_item(d, add_bar_section(d, p, p->bars[i].words, p->bars[i].low, p->bars[i].high),
                   "($1*x_unit):(%zu):($2*x_unit):($3*x_unit):(%zu-%s):(%zu+%s) with "
                   "boxxyerror ls 1",
                   i, i, half, i, half);

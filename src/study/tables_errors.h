@@ -64,14 +64,30 @@
 #define WORK_PRECISION_KEYS(X)                                                                     \
     X(WORK_PRECISION_KEY_ANSWER, "answer", TEXT, LABEL("What more work buys"), OPTIONAL)
 
+/* Choices of the model, with their names after "if the"; the first row of the table: none. */
+#define WHAT_IF_CHOICES(X)                                                                         \
+    X(CHOICE_AS_USED, "as used")                                                                   \
+    X(CHOICE_Q1, "largest wavenumber q1")                                                          \
+    X(CHOICE_SPECTRUM_END, "end of the measured spectrum")                                         \
+    X(CHOICE_Q0, "smallest wavenumber q0")                                                         \
+    X(CHOICE_GAMMA, "factor gamma of partial contact")                                             \
+    X(CHOICE_STRAIN, "strain over slope")                                                          \
+    X(CHOICE_FLASH, "flash temperature")                                                           \
+    X(CHOICE_CONDUCTIVITY, "heat conductivity of the rubber")                                      \
+    X(CHOICE_CONTACT_SIZE, "size of a macroscopic contact")                                        \
+    X(CHOICE_POISSON, "Poisson ratio")                                                             \
+    X(CHOICE_VERTICAL, "vertical shift")                                                           \
+    X(CHOICE_PROFILE, "depth profile")                                                             \
+    X(CHOICE_SHEAR, "shear stress of the layer")
+
 /* A number with its change relative to the first row. */
 #define WHAT_IF_NUMBER(X, ID, name, words, unit, heading)                                          \
     X(ID, name, words, unit, LABEL(heading))                                                       \
     X(ID##_CHANGE, name "_change", "its relative change", NUMBER, LABEL("change"))
 
 #define WHAT_IF_COLUMNS(X)                                                                         \
-    X(WHAT_IF_CHOICE, "choice", "the choice that is moved; the first row: none", TEXT,             \
-      LABEL("Choice"))                                                                             \
+    X(WHAT_IF_CHOICE, "choice", "the choice that is moved; the first row: none",                   \
+      ENUM(what_if_choice), LABEL("Choice"))                                                       \
     X(WHAT_IF_USED, "used", "what all other tables rest on", TEXT, LABEL("Used"))                  \
     X(WHAT_IF_TRIED, "alternative", "value in this row instead", TEXT, LABEL("Alternative"))       \
     WHAT_IF_NUMBER(X, WHAT_IF_HYSTERESIS, "hysteresis",                                            \

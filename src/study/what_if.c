@@ -20,7 +20,7 @@ enum { MOST_TRIED = 4, WORDS = 64 }; /* length of the longest list below; length
 
 /* A choice without a measurement. */
 typedef struct model_choice {
-    const char *words;  /* name in a sentence, after "if the" */
+    what_if_choice choice;
     const char *remedy; /* what to measure to settle it */
     const char *unit;   /* unit of its value; NULL if it is a text */
     const char *why;    /* reason of the range */
@@ -196,53 +196,53 @@ static void move_shear(const case_variant *used, double other, case_variant *s)
 }
 
 static const model_choice choices[] = {
-    {"largest wavenumber q1", "Compare with a friction record (weartrack validate).", "rad/m",
+    {CHOICE_Q1, "Compare with a friction record (weartrack validate).", "rad/m",
      "a decade down and up, as far as the counter surface is known: nothing measures which waves "
      "still reach the rubber",
      "", always_applies, offsetof(case_variant, surface.q1), NULL, move_q1, TRIED(0.1, 0.3, 3, 10)},
-    {"end of the measured spectrum", "Scan the counter surface with a finer step.", "rad/m",
+    {CHOICE_SPECTRUM_END, "Scan the counter surface with a finer step.", "rad/m",
      "where its reliable range ends, and where the rms slope reaches 1.3, by practice the last "
      "that rubber follows",
      NULL, is_measured_surface, offsetof(case_variant, surface.q1), NULL, move_measured_cutoff,
      TRIED(0, 1)},
-    {"smallest wavenumber q0", "Scan a larger part of the counter surface.", "rad/m",
+    {CHOICE_Q0, "Scan a larger part of the counter surface.", "rad/m",
      "half and twice, as far as the counter surface is known: the longest waves of a measured "
      "spectrum are its least certain",
      "the roughness has no roll-off", has_q0, offsetof(case_variant, surface.q0), NULL, move_q0,
      TRIED(0.5, 2)},
-    {"factor gamma of partial contact", "Compare with a friction record (weartrack validate).", "1",
+    {CHOICE_GAMMA, "Compare with a friction record (weartrack validate).", "1",
      "1 is Persson's theory of 2001, 0.5 its later correction for partial contact", "",
      always_applies, offsetof(case_variant, sliding.gamma), NULL, move_gamma, TRIED(0.5, 1)},
-    {"strain over slope", "Compare with a friction record (weartrack validate).", "1",
+    {CHOICE_STRAIN, "Compare with a friction record (weartrack validate).", "1",
      "half and twice: the strain at a wavenumber is of the order of the rms slope up to there, no "
      "more is known",
      NULL, has_strain, offsetof(case_variant, sliding.strain_factor), NULL, move_strain,
      TRIED(0.5, 2)},
-    {"flash temperature", "Measure friction at low velocity, where sliding does not heat.", NULL,
+    {CHOICE_FLASH, "Measure friction at low velocity, where sliding does not heat.", NULL,
      "counted or not: it is not validated against measured friction here, and the heat of shearing "
      "the contact is not in it",
      NULL, has_flash, 0, name_flash, move_flash, TRIED(0)},
-    {"heat conductivity of the rubber", "Measure the heat conductivity of the rubber.", "W/(m K)",
+    {CHOICE_CONDUCTIVITY, "Measure the heat conductivity of the rubber.", "W/(m K)",
      "half and twice: fillers make it up to some times that of the rubber alone, and it is seldom "
      "measured",
      NULL, has_flash, offsetof(case_variant, sliding.flash.diffusivity), NULL, NULL, TRIED(0.5, 2)},
-    {"size of a macroscopic contact", "Measure the length of the contact in the sliding direction.",
-     "m", "half and twice: how long a place is warmed is known by its order only", NULL, has_flash,
+    {CHOICE_CONTACT_SIZE, "Measure the length of the contact in the sliding direction.", "m",
+     "half and twice: how long a place is warmed is known by its order only", NULL, has_flash,
      offsetof(case_variant, sliding.flash.contact_size), NULL, NULL, TRIED(0.5, 2)},
-    {"Poisson ratio", "Measure the Poisson ratio, or the bulk modulus.", "1",
+    {CHOICE_POISSON, "Measure the Poisson ratio, or the bulk modulus.", "1",
      "0.5 is that of rubber, 0.4 that of a glass, as which the shortest waves feel it",
      "a transversely isotropic material has two others", has_poisson,
      offsetof(case_variant, rubber.poisson_ratio), NULL, move_poisson, TRIED(0.4, 0.5)},
-    {"vertical shift", "Measure the thermal expansion of the rubber.", NULL,
+    {CHOICE_VERTICAL, "Measure the thermal expansion of the rubber.", NULL,
      "all four; the isotherms do not determine which of them is right", "no isotherms to fit again",
      has_vertical, 0, name_vertical, move_vertical,
      TRIED(WT_VERTICAL_NONE, WT_VERTICAL_PHYSICAL, WT_VERTICAL_FREE, WT_VERTICAL_TIED)},
-    {"depth profile", "Measure the layer on a section by microscopy, or indent deeper.", NULL,
+    {CHOICE_PROFILE, "Measure the layer on a section by microscopy, or indent deeper.", NULL,
      "exponential, or of a half-space that keeps its volume, without local friction and with m = "
      "1: how energy falls off with depth is not measured",
      "no thickness is calculated from the energy", has_profile, 0, name_profile, move_profile,
      TRIED(-1, 0, 1)},
-    {"shear stress of the layer", "Measure friction on a run-in track.", NULL,
+    {CHOICE_SHEAR, "Measure friction on a run-in track.", NULL,
      "scaled by the modulus ratio or not: it is not measured on the layer",
      "no layer with a modulus ratio, or no shear stress", has_layer_shear, 0, name_shear,
      move_shear, TRIED(1)},
@@ -404,8 +404,9 @@ static const struct {
 static void add_outcome_row(const what_if_run *w, const outcome *o, table_writer *t)
 {
     table_row(t);
-    what_if_put_text(t, WHAT_IF_CHOICE,
-                     o->model_choice != NULL ? o->model_choice->words : "as used");
+    what_if_put_text(
+        t, WHAT_IF_CHOICE,
+        what_if_choice_text(o->model_choice != NULL ? o->model_choice->choice : CHOICE_AS_USED));
     what_if_put_text(t, WHAT_IF_USED, o->used);
     what_if_put_text(t, WHAT_IF_TRIED, o->tried);
     for (size_t k = 0; k < CASE_QUANTITIES; k++) {
@@ -425,7 +426,8 @@ static void set_excluded_choices(const case_variant *used, table_writer *t)
     for (size_t i = 0; i < COUNT_OF(choices) && length < sizeof words; i++)
         if (!choices[i].applies(used) && choices[i].lacks != NULL)
             length += (size_t)snprintf(words + length, sizeof words - length, "%s%s (%s)",
-                                       length > 0 ? "; " : "", choices[i].words, choices[i].lacks);
+                                       length > 0 ? "; " : "",
+                                       what_if_choice_text(choices[i].choice), choices[i].lacks);
     if (length > 0)
         what_if_set_text(t, WHAT_IF_KEY_LEFT_OUT, words);
 }

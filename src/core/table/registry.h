@@ -204,6 +204,7 @@
     X(rate_match, RATE_MATCHES, RATE_MATCH_UNKNOWN)                                                \
     X(cantilever_count, CANTILEVER_COUNTS, CANTILEVER_COUNT_UNKNOWN)                               \
     X(error_kind, ERROR_KINDS, ERROR_KIND_UNKNOWN)                                                 \
+    X(what_if_choice, WHAT_IF_CHOICES, CHOICE_UNKNOWN)                                             \
     X(precision_method, PRECISION_METHODS, PRECISION_METHOD_UNKNOWN)                               \
     X(validation_outcome, VALIDATION_OUTCOMES, VALIDATION_OUTCOME_UNKNOWN)                         \
     X(validation_source, VALIDATION_SOURCE_LIST, VALIDATION_SOURCE_UNKNOWN)                        \

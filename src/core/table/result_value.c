@@ -190,8 +190,8 @@ static void extend_range(const table_view *what_if, what_if_number *number, size
 /* The rows of a choice are adjacent. Returns the row after those of the choice of row i. */
 static size_t next_choice(const table_view *what_if, size_t i)
 {
-    const char *choice = what_if_text(what_if, i, WHAT_IF_CHOICE);
-    while (i < what_if->n_rows && strcmp(what_if_text(what_if, i, WHAT_IF_CHOICE), choice) == 0)
+    const int choice = what_if_enum(what_if, i, WHAT_IF_CHOICE);
+    while (i < what_if->n_rows && what_if_enum(what_if, i, WHAT_IF_CHOICE) == choice)
         i++;
     return i;
 }
