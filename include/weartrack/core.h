@@ -436,6 +436,7 @@ typedef struct wt_provenance_input {
     uint64_t bytes;
     char sha256[65];      /* "" if not requested */
     uint64_t fingerprint; /* hash of the bytes, equal for copies; 0 = unknown */
+    bool given_columns;   /* read by the columns that the caller named; false if read from a file */
 } wt_provenance_input;
 
 typedef struct wt_provenance wt_provenance;

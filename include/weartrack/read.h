@@ -61,6 +61,7 @@ typedef struct wt_format_info {
     const char *title;    /* "JPK force curves and maps (ZIP)" */
     unsigned kinds;       /* WT_KIND_* */
     bool verified;        /* checked on a genuine file of the instrument */
+    bool given_columns;   /* the description of wt_formats_add_columns */
     const char *evidence; /* source of the description: "measured files of software 1.7 to 3.10" */
     const char *version;  /* version of the description or of the library */
 } wt_format_info;

@@ -81,7 +81,7 @@ static void warn_unused_columns(cmd_session *s)
 {
     const wt_provenance *p = wt_result_provenance(s->result);
     for (size_t i = 0; i < wt_provenance_n_inputs(p); i++)
-        if (strncmp(wt_provenance_get_input(p, i)->format, "given-columns", 13) == 0)
+        if (wt_provenance_get_input(p, i)->given_columns)
             return;
     if (s->common.n_columns > 0)
         wt_log_add(s->log, WT_WARNING, NULL, NULL,

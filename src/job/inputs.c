@@ -447,8 +447,11 @@ wt_status flow_record_input(const wt_job *work, wt_input *input, const flow_file
     char format[128];
     snprintf(format, sizeof format, "%s %s", info->id, info->version != NULL ? info->version : "");
     char *const instrument = flow_instrument(work, input, info, &file->set->read);
-    const wt_provenance_input row = {
-        .path = file->name, .role = role, .format = format, .instrument = instrument};
+    const wt_provenance_input row = {.path = file->name,
+                                     .role = role,
+                                     .format = format,
+                                     .instrument = instrument,
+                                     .given_columns = info->given_columns};
     const wt_status status = wt_job_add_input(work, row, input, err);
     free(instrument);
     if (status != WT_OK)

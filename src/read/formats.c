@@ -326,8 +326,10 @@ wt_status wt_formats_add_columns(wt_formats *formats, const char *const *columns
         status = description_xsd_new(&schema, err);
     if (status == WT_OK)
         status = description_parse(schema, text, length, "the columns given", &d, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        d->given_columns = true;
         status = formats_add_description(formats, d, NULL, "the columns given", err);
+    }
     description_xsd_free(schema);
     free(text);
     free(parsed);

@@ -175,7 +175,7 @@ typedef struct text_description {
     char *id, *title, *evidence, *version;
     const char *xml; /* text of the document */
     unsigned kinds;
-    bool verified;
+    bool verified, given_columns;
 
     text_probe *probes;
     size_t n_probes;

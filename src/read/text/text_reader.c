@@ -158,6 +158,7 @@ file_reader text_reader(text_description *d)
                  .title = d->title,
                  .kinds = d->kinds,
                  .verified = d->verified,
+                 .given_columns = d->given_columns,
                  .evidence = d->evidence,
                  .version = d->version},
         .description = d,
