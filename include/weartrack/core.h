@@ -428,9 +428,34 @@ WT_API void wt_sha256(const void *bytes, size_t length, char hex[65]);
 
 /* ---- provenance ----------------------------------------------------------------------------- */
 
+/* What an input was used for: enum and text. Force curves are those of a group with a name. */
+#define WT_INPUT_ROLE_LIST(X)                                                                      \
+    X(WT_ROLE_INPUT, "input")                                                                      \
+    X(WT_ROLE_CASE, "case")                                                                        \
+    X(WT_ROLE_DMA, "dma")                                                                          \
+    X(WT_ROLE_MATERIAL, "material")                                                                \
+    X(WT_ROLE_SHIFTS, "shifts")                                                                    \
+    X(WT_ROLE_SOFTENING, "softening")                                                              \
+    X(WT_ROLE_ROUGHNESS, "roughness")                                                              \
+    X(WT_ROLE_TOPOGRAPHY, "topography")                                                            \
+    X(WT_ROLE_RECORD, "record")                                                                    \
+    X(WT_ROLE_PROFILE, "profile")                                                                  \
+    X(WT_ROLE_SPOT, "before")                                                                      \
+    X(WT_ROLE_SENSITIVITY, "sensitivity")                                                          \
+    X(WT_ROLE_OVERRIDES, "overrides")                                                              \
+    X(WT_ROLE_LAYER_MODULUS, "modulus of the layer")                                               \
+    X(WT_ROLE_LAYER_WEAR, "wear of the layer")                                                     \
+    X(WT_ROLE_RESULT, "result")
+typedef enum wt_input_role {
+#define WT_INPUT_ROLE_ENUM(name, text) name,
+    WT_INPUT_ROLE_LIST(WT_INPUT_ROLE_ENUM) WT_ROLE_GROUP
+#undef WT_INPUT_ROLE_ENUM
+} wt_input_role;
+
 typedef struct wt_provenance_input {
     const char *path;       /* as the user wrote it */
-    const char *role;       /* "bulk", "track", "dma", "case", ... */
+    wt_input_role role;     /* what it was used for */
+    const char *group;      /* "bulk", "track", ... of WT_ROLE_GROUP; "" otherwise */
     const char *format;     /* id of the reader or description, with its version */
     const char *instrument; /* as the file states it, and the title of the format; "" if unknown */
     uint64_t bytes;
@@ -451,6 +476,8 @@ WT_API const char *wt_provenance_version(const wt_provenance *p);
 WT_API const char *wt_provenance_command(const wt_provenance *p); /* "" if not set; borrowed */
 WT_API size_t wt_provenance_n_inputs(const wt_provenance *p);
 WT_API const wt_provenance_input *wt_provenance_get_input(const wt_provenance *p, size_t i);
+/* Returns the text of the role, or the name of the group; borrowed. */
+WT_API const char *wt_provenance_input_role(const wt_provenance_input *input);
 
 /* ---- threads and progress ------------------------------------------------------------------- */
 

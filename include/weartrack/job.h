@@ -76,16 +76,16 @@ typedef struct wt_file_set {
 } wt_file_set;
 WT_API const wt_params *wt_file_set_params(void);
 
-/* Adds a file that the caller has read itself to provenance and cost. `input` has its path, role
- * and format. */
+/* Adds a file that the caller has read itself to provenance and cost. `input` has its path, role,
+ * group and format. */
 WT_API wt_status wt_job_add_input(const wt_job *work, wt_provenance_input input, wt_input *file,
                                   wt_error *err) WT_NODISCARD;
 /* Reads the tables of a file that is an input of the work (NULL: no input), with a role that
  * depends on the content. The file is a text stream ("-" is standard input), a foreign text table
- * or an HDF5 result. Errors show `name`. wt_tables_role has the role of force-curve results and of
- * other tables. */
+ * or an HDF5 result. Errors show `name`. */
 typedef struct wt_tables_role {
-    const char *curve_role, *other_role;
+    const char *group; /* of force-curve results, which then have WT_ROLE_GROUP; NULL: `role` */
+    wt_input_role role;
     const char *instead; /* advice for a file of another kind; NULL: results of weartrack */
 } wt_tables_role;
 WT_API wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,

@@ -58,7 +58,7 @@
 
 #define INPUTS_COLUMNS(X)                                                                          \
     X(INPUTS_PATH, "path", "path as given", TEXT, LABEL("File"))                                   \
-    X(INPUTS_ROLE, "role", "what it was used for", TEXT, LABEL("Role"))                            \
+    X(INPUTS_ROLE, "role", "what it was used for", ENUM(input_role), LABEL("Role"))                \
     X(INPUTS_FORMAT, "format", "format it was read as", TEXT, LABEL("Format"))                     \
     X(INPUTS_INSTRUMENT, "instrument", "instrument that the file states, and the kind of export",  \
       TEXT, OPTIONAL, SPARSE, LABEL("Instrument"))                                                 \

@@ -142,7 +142,7 @@ static bool read_compare_inputs(compare_call *call)
     for (size_t i = 0; i < s->n_files; i++) {
         compare_input *input = &call->input[i];
         input->path = s->files[i];
-        const wt_tables_role role = {i == 0 ? "bulk" : "track", "material", NULL};
+        const wt_tables_role role = {i == 0 ? "bulk" : "track", WT_ROLE_MATERIAL, NULL};
         if (wt_tables_read(input->path, input->path, &s->work, role, &input->tables,
                            &input->failure) != WT_OK)
             input->tables = NULL;
@@ -198,8 +198,8 @@ static size_t read_collected_cases(cmd_session *s, wt_collected_result *cases, w
         if (progress->report != NULL)
             (void)progress->report(progress->user, "result", i + 1, s->n_files);
         wt_status read = wt_tables_read(
-            path, path, &s->work, (wt_tables_role){"result", "result", "what weartrack run wrote"},
-            &result, &s->err);
+            path, path, &s->work,
+            (wt_tables_role){NULL, WT_ROLE_RESULT, "what weartrack run wrote"}, &result, &s->err);
         if (read == WT_OK && wt_result_find(result, "answer") == NULL &&
             wt_result_find(result, "force_indentation") == NULL &&
             wt_result_find(result, "ramp") == NULL) {

@@ -145,7 +145,7 @@ static wt_status read_saved_shifts(cmd_session *s, const char *path, const char 
                                    wt_result **given, const wt_table **shifts)
 {
     static const wt_tables_role role = {
-        "shifts", "shifts",
+        NULL, WT_ROLE_SHIFTS,
         "what weartrack master wrote, or a text table that begins with a line such as "
         "\"# temperature[degC]<TAB>log_a[1]\""};
     const wt_status status = wt_tables_read(path, path, &s->work, role, given, &s->err);

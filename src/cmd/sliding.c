@@ -239,8 +239,7 @@ static wt_status read_layer_modulus(cmd_sliding *s, wt_error *err)
     const wt_table *comparison = NULL, *rates = NULL;
     wt_status status = WT_OK;
     status = wt_tables_read(c->layer_comparison, c->layer_comparison, &s->session.work,
-                            (wt_tables_role){"modulus of the layer", "modulus of the layer", NULL},
-                            &s->layer_tables, err);
+                            (wt_tables_role){.role = WT_ROLE_LAYER_MODULUS}, &s->layer_tables, err);
     if (status == WT_OK)
         status = cmd_table_find(s->layer_tables, c->layer_comparison, "comparison", "compare",
                                 &comparison, err);
@@ -257,9 +256,8 @@ static wt_status read_wear_rate(cmd_sliding *s, wt_error *err)
     const char *const path = s->contact.wear_of;
     const wt_table *wear = NULL;
     wt_result *result = NULL;
-    wt_status status = wt_tables_read(
-        path, path, &s->session.work,
-        (wt_tables_role){"wear of the layer", "wear of the layer", NULL}, &result, err);
+    wt_status status = wt_tables_read(path, path, &s->session.work,
+                                      (wt_tables_role){.role = WT_ROLE_LAYER_WEAR}, &result, err);
     if (status == WT_OK)
         status = cmd_table_find(result, path, "wear", "record", &wear, err);
     if (status == WT_OK && (!wt_table_estimate(wear, "specific_wear_rate", &s->measured_wear) ||

@@ -13,7 +13,7 @@ bool cmd_tables_contain(const wt_result *tables, const char *prefix)
 
 wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
 {
-    return wt_tables_read(path, path, NULL, (wt_tables_role){NULL, NULL, NULL}, tables, err);
+    return wt_tables_read(path, path, NULL, (wt_tables_role){.role = WT_ROLE_INPUT}, tables, err);
 }
 
 size_t cmd_count_remarks(const wt_result *tables)
@@ -137,8 +137,8 @@ static wt_status create_rubber(const wt_result *tables, const char *path, const 
 wt_status cmd_rubber_read(const char *path, const char *sample, double poisson_ratio,
                           const wt_job *work, wt_result **tables, wt_rubber *rubber, wt_error *err)
 {
-    wt_status status = wt_tables_read(path, path, work,
-                                      (wt_tables_role){"material", "material", NULL}, tables, err);
+    wt_status status =
+        wt_tables_read(path, path, work, (wt_tables_role){.role = WT_ROLE_MATERIAL}, tables, err);
     if (status == WT_OK)
         status = create_rubber(*tables, path, sample, poisson_ratio, rubber, err);
     if (status == WT_OK && rubber->superposition != WT_SUPERPOSITION_HOLDS)

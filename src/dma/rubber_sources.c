@@ -102,7 +102,7 @@ wt_status flow_rubber_read(flow_file *file, double poisson_ratio, const wt_job *
 {
     wt_input *input = NULL;
     wt_rubber made = new_rubber(WT_RUBBER_TABLE, poisson_ratio);
-    wt_status status = flow_open(work, file, "material", WT_KIND_SWEEP, &input, err);
+    wt_status status = flow_open(work, file, WT_ROLE_MATERIAL, WT_KIND_SWEEP, &input, err);
     wt_read_options read = flow_read_options(file);
     read.allow_missing_temperature = true;
     if (status == WT_OK)

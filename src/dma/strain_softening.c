@@ -397,7 +397,7 @@ wt_status wt_strain_softening_read(const char *path, const char *name,
                                    wt_strain_softening *softening, wt_error *err)
 {
     static const wt_tables_role role = {
-        "softening", "softening",
+        NULL, WT_ROLE_SOFTENING,
         "what weartrack payne wrote, or a text table that begins with a line such as "
         "\"# strain[1]<TAB>f[1]<TAB>g[1]\""};
     wt_result *tables = NULL;

@@ -102,7 +102,7 @@ static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_jo
             status = wt_fail(err, WT_E_CANCELLED, "cancelled");
             continue;
         }
-        status = flow_open(work, &files.file[i], "dma", WT_KIND_SWEEP, &input, &failure);
+        status = flow_open(work, &files.file[i], WT_ROLE_DMA, WT_KIND_SWEEP, &input, &failure);
         if (status == WT_OK) {
             const wt_read_options options = flow_read_options(&files.file[i]);
             status = wt_sweep_read(work->formats, input, &options, work->log, sweep, &failure);

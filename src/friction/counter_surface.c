@@ -189,9 +189,10 @@ static wt_status read_spectrum_errors(const flow_file *file, const wt_job *work,
     wt_result *tables = NULL;
     bool copied = false;
     const bool piped = strcmp(file->path, "-") == 0;
-    wt_status status = piped ? WT_OK
-                             : wt_tables_read(file->path, file->name, NULL,
-                                              (wt_tables_role){NULL, NULL, NULL}, &tables, err);
+    wt_status status =
+        piped ? WT_OK
+              : wt_tables_read(file->path, file->name, NULL,
+                               (wt_tables_role){.role = WT_ROLE_ROUGHNESS}, &tables, err);
     const wt_table *table =
         status == WT_OK && !piped ? wt_result_find(tables, power_spectrum_schema.name) : NULL;
     if (table != NULL)
@@ -230,7 +231,7 @@ static wt_status convert_profile_spectrum(const char *name, const wt_job *work,
 wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface, wt_error *err)
 {
     wt_input *input = NULL;
-    wt_status status = flow_open(work, file, "roughness", WT_KIND_SPECTRUM, &input, err);
+    wt_status status = flow_open(work, file, WT_ROLE_ROUGHNESS, WT_KIND_SPECTRUM, &input, err);
     const wt_read_options read = flow_read_options(file);
     if (status == WT_OK)
         status =

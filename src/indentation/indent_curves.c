@@ -255,7 +255,7 @@ static wt_status fit_curves(void *user, size_t i, unsigned worker)
     indent_task *task = user;
     queued_curve *it;
     if (i == 0 && task->paired_input != NULL)
-        return flow_record_input(task->work, task->paired_input, task->file, task->job->group,
+        return flow_record_input(task->work, task->paired_input, task->file, WT_ROLE_GROUP,
                                  task->paired_err);
     (void)pthread_mutex_lock(&task->lock);
     while ((it = read_next_curve(task)) != NULL) {
@@ -277,7 +277,7 @@ static wt_status read_curve_file(indent_task *task, wt_error *err)
     wt_input *input = NULL;
     wt_error failure = WT_ERROR_INIT;
     wt_status status =
-        flow_open_paired(task->work, task->file, task->job->group, WT_KIND_FORCE, &input,
+        flow_open_paired(task->work, task->file, WT_ROLE_GROUP, WT_KIND_FORCE, &input,
                          task->n_workers > 1 ? &task->paired_input : NULL, err);
     const wt_read_options options =
         indent_read_options(task, task->file, task->job->rates || task->options.spectrum != NULL);
@@ -322,8 +322,7 @@ static wt_status read_single_curve(indent_task *task, wt_single_curve *one, wt_e
 {
     wt_input *input = NULL;
     wt_force_source *source = NULL;
-    wt_status status =
-        flow_open(task->work, task->file, task->job->group, WT_KIND_FORCE, &input, err);
+    wt_status status = flow_open(task->work, task->file, WT_ROLE_GROUP, WT_KIND_FORCE, &input, err);
     const wt_read_options options =
         indent_read_options(task, task->file, task->job->rates || task->options.spectrum != NULL);
     if (status == WT_OK)
@@ -374,6 +373,7 @@ static wt_status process_curve_file(void *user, flow_file *file, size_t i, wt_er
 {
     indent_task *task = user;
     task->file = file;
+    file->group = task->job->group;
     task->file_number = i + 1;
     task->spot = file->set->spot != NULL ? file->set->spot : file->name;
     if (task->job->only == NULL)

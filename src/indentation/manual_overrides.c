@@ -151,8 +151,7 @@ static bool is_recorded(const wt_job *work, const char *path)
 wt_status manual_overrides_read(const wt_indent_job *job, const wt_job *work,
                                 manual_overrides *choices, wt_error *err)
 {
-    static const wt_tables_role role = {.curve_role = "overrides",
-                                        .other_role = "overrides",
+    static const wt_tables_role role = {.role = WT_ROLE_OVERRIDES,
                                         .instead = "a table of choices, as weartrack view writes "
                                                    "it: weartrack-indent(1)"};
     *choices = (manual_overrides){.path = job->choices, .group = job->group};

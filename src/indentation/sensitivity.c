@@ -146,7 +146,7 @@ static wt_status read_sensitivity_file(void *user, flow_file *file, size_t unit,
     static const wt_quantity signals[] = {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, WT_Q_FORCE};
     wt_input *input = NULL;
     bool no_signal = true;
-    wt_status status = flow_open(task->work, file, "sensitivity", WT_KIND_FORCE, &input, err);
+    wt_status status = flow_open(task->work, file, WT_ROLE_SENSITIVITY, WT_KIND_FORCE, &input, err);
     for (size_t i = 0; i < COUNT_OF(signals) && status == WT_OK && no_signal; i++)
         status =
             read_sensitivity_curves(task, file, (long)unit, input, signals[i], &no_signal, err);

@@ -38,7 +38,7 @@ static wt_status spot_image_read(const wt_spot_job *job, const char *path, const
 {
     const wt_file_set set = {.read = job->read};
     flow_file file = {.path = path, .name = path, .set = &set};
-    return flow_heights_read(&file, job->image, false, "before", work, image, err);
+    return flow_heights_read(&file, job->image, false, WT_ROLE_SPOT, work, image, err);
 }
 
 static spot_positions spot_positions_create(const wt_height_map *f, double radius)

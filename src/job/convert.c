@@ -354,7 +354,7 @@ wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_
                     .sink = sink,
                     .user = user};
     wt_error failure = WT_ERROR_INIT;
-    wt_status status = flow_open(work, &c.file, "input", job->kind, &c.input, err);
+    wt_status status = flow_open(work, &c.file, WT_ROLE_INPUT, job->kind, &c.input, err);
     if (status != WT_OK)
         return status;
     c.read = flow_read_options(&c.file);

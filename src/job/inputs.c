@@ -441,17 +441,16 @@ wt_status wt_job_add_input(const wt_job *work, wt_provenance_input input, wt_inp
 }
 
 wt_status flow_record_input(const wt_job *work, wt_input *input, const flow_file *file,
-                            const char *role, wt_error *err)
+                            wt_input_role role, wt_error *err)
 {
     const wt_format_info *info = file->format;
     char format[128];
     snprintf(format, sizeof format, "%s %s", info->id, info->version != NULL ? info->version : "");
     char *const instrument = flow_instrument(work, input, info, &file->set->read);
-    const wt_provenance_input row = {.path = file->name,
-                                     .role = role,
-                                     .format = format,
-                                     .instrument = instrument,
-                                     .given_columns = info->given_columns};
+    wt_provenance_input row = {.path = file->name, .role = role, .group = file->group};
+    row.format = format;
+    row.instrument = instrument;
+    row.given_columns = info->given_columns;
     const wt_status status = wt_job_add_input(work, row, input, err);
     free(instrument);
     if (status != WT_OK)
@@ -459,13 +458,13 @@ wt_status flow_record_input(const wt_job *work, wt_input *input, const flow_file
     return status;
 }
 
-wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
+wt_status flow_open(const wt_job *work, flow_file *file, wt_input_role role, unsigned kinds,
                     wt_input **result, wt_error *err)
 {
     return flow_open_paired(work, file, role, kinds, result, NULL, err);
 }
 
-wt_status flow_open_paired(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
+wt_status flow_open_paired(const wt_job *work, flow_file *file, wt_input_role role, unsigned kinds,
                            wt_input **result, wt_input **paired, wt_error *err)
 {
     if (work->formats == NULL)
@@ -568,7 +567,7 @@ static bool has_heights(const wt_image *image, const char *name, bool profiles)
            (name == NULL ? !is_cantilever_signal(image) : strstr(image->name, name) != NULL);
 }
 
-wt_status flow_heights_read(flow_file *file, const char *name, bool profiles, const char *role,
+wt_status flow_heights_read(flow_file *file, const char *name, bool profiles, wt_input_role role,
                             const wt_job *work, wt_image *image, wt_error *err)
 {
     const wt_read_options *read = &file->set->read;

@@ -37,6 +37,7 @@ typedef struct flow_file {
     size_t number;    /* in the order of the arguments */
     const wt_file_set *set; /* set with the options for this file */
     bool from_folder;       /* found in a folder, not named itself */
+    const char *group;      /* its name, if opened as WT_ROLE_GROUP */
     /* set by flow_open: */
     const wt_format_info *format;
     bool is_copy;     /* set by flow_check_copy */
@@ -66,15 +67,15 @@ typedef enum flow_name_match {
 flow_name_match flow_file_match(const flow_file *file, const char *named, size_t length);
 
 /* Opens a file, detects its format among `kinds` and adds it to the provenance under `role`. */
-wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
+wt_status flow_open(const wt_job *work, flow_file *file, wt_input_role role, unsigned kinds,
                     wt_input **input, wt_error *err) WT_NODISCARD;
 /* Variant for large files. If *paired is not NULL, the caller must add the file to the provenance
  * with flow_record_input, using this second input in another thread. */
-wt_status flow_open_paired(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
+wt_status flow_open_paired(const wt_job *work, flow_file *file, wt_input_role role, unsigned kinds,
                            wt_input **input, wt_input **paired, wt_error *err) WT_NODISCARD;
 /* Adds an opened file to the provenance. */
 wt_status flow_record_input(const wt_job *work, wt_input *input, const flow_file *file,
-                            const char *role, wt_error *err) WT_NODISCARD;
+                            wt_input_role role, wt_error *err) WT_NODISCARD;
 
 /* Returns `path` without the prefix `folder`. */
 const char *flow_relative_path(const char *folder, const char *path);
@@ -104,7 +105,7 @@ wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error 
 /* Reads the first image with heights in metres over an area in metres, or a profile with
  * `profiles`. Its name contains `name`, unless that is NULL. WT_E_NOT_FOUND without such an
  * image. */
-wt_status flow_heights_read(flow_file *file, const char *name, bool profiles, const char *role,
+wt_status flow_heights_read(flow_file *file, const char *name, bool profiles, wt_input_role role,
                             const wt_job *work, wt_image *image, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -74,13 +74,14 @@ wt_status wt_tables_read(const char *path, const char *name, const wt_job *work,
     if (status == WT_OK)
         status = store ? wt_store_read_memory(bytes, length, name, tables, err)
                        : read_stream_memory(bytes, length, name, role.instead, tables, err);
+    const bool of_group =
+        status == WT_OK && role.group != NULL && has_table_prefix(*tables, "indentation/");
     if (status == WT_OK && work != NULL)
         status = wt_job_add_input(
             work,
             (wt_provenance_input){.path = name,
-                                  .role = has_table_prefix(*tables, "indentation/")
-                                              ? role.curve_role
-                                              : role.other_role,
+                                  .role = of_group ? WT_ROLE_GROUP : role.role,
+                                  .group = of_group ? role.group : NULL,
                                   .format = store ? "weartrack-hdf5" : "weartrack-stream"},
             input, err);
     wt_input_close(input);

@@ -394,7 +394,7 @@ static void begin_wear(record_writers *w, wt_error *err)
 static wt_status read_stored_record(const wt_job *work, const flow_file *file, record_writers *w,
                                     wt_error *all, wt_error *err)
 {
-    const wt_tables_role role = {"record", "record", "what weartrack record wrote"};
+    const wt_tables_role role = {NULL, WT_ROLE_RECORD, "what weartrack record wrote"};
     wt_result *result = NULL;
     wt_status status = wt_tables_read(file->path, file->name, work, role, &result, err);
     if (status == WT_OK && wt_result_find(result, "record") == NULL) {
@@ -446,7 +446,7 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
     wt_record record = {.n = 0};
     wt_cycles cycles = {.n = 0};
     record_pauses pauses = {.n = 0};
-    wt_status status = flow_open(work, file, "record", WT_KIND_RECORD, &input, err);
+    wt_status status = flow_open(work, file, WT_ROLE_RECORD, WT_KIND_RECORD, &input, err);
     const wt_read_options read = flow_read_options(file);
     if (status == WT_OK)
         status = wt_record_read(work->formats, input, &read, work->log, &record, err);

@@ -42,7 +42,7 @@ static wt_status measure_profile(void *user, flow_file *file, size_t i, wt_error
     (void)i;
     wt_image image = {.values = NULL};
     wt_track track = {.found = false};
-    wt_status status = flow_heights_read(file, NULL, true, "profile", to->work, &image, err);
+    wt_status status = flow_heights_read(file, NULL, true, WT_ROLE_PROFILE, to->work, &image, err);
     if (status == WT_OK && image.n_rows > 1) {
         status = wt_fail(err, WT_E_ARG, "a height map, and the track is measured across it");
         wt_error_advice(err, "export profiles across the track, a file each");

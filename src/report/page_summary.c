@@ -148,15 +148,33 @@ static bool is_same_file(const char *path, const char *named)
            (n == m || path[n - m - 1] == '/');
 }
 
+/* Role of a file. Groups of force curves differ by name. */
+typedef struct file_role {
+    wt_input_role role;
+    const char *name;
+} file_role;
+
+static file_role role_of(const table_view *inputs, size_t row)
+{
+    return (file_role){(wt_input_role)inputs_enum(inputs, row, INPUTS_ROLE),
+                       inputs_text(inputs, row, INPUTS_ROLE)};
+}
+
+static bool has_role(const table_view *inputs, size_t row, file_role r)
+{
+    const file_role own = role_of(inputs, row);
+    return own.role == r.role && (r.role != WT_ROLE_GROUP || strcmp(own.name, r.name) == 0);
+}
+
 /* Number of warnings and losses of the files of a role. */
-static size_t count_warnings(const figure_tables *t, const char *role)
+static size_t count_warnings(const figure_tables *t, file_role role)
 {
     size_t n = 0;
     for (size_t i = 0; i < t->notes.n_rows; i++) {
         if (notes_enum(&t->notes, i, NOTES_SEVERITY) == WT_NOTE)
             continue;
         for (size_t k = 0; k < t->inputs.n_rows; k++)
-            if (strcmp(inputs_text(&t->inputs, k, INPUTS_ROLE), role) == 0 &&
+            if (has_role(&t->inputs, k, role) &&
                 is_same_file(inputs_text(&t->inputs, k, INPUTS_PATH),
                              notes_text(&t->notes, i, NOTES_FILE))) {
                 n++;
@@ -167,12 +185,12 @@ static size_t count_warnings(const figure_tables *t, const char *role)
 }
 
 /* Adds how many of the used curves of a group are not accepted without reserve. */
-static void add_reserves(text_buffer *out, const figure_tables *t, const char *role)
+static void add_reserves(text_buffer *out, const figure_tables *t, const char *group)
 {
     size_t wide = 0, doubtful = 0;
     for (size_t i = 0; i < t->n_indentation; i++) {
         const table_view *const curves = &t->indentation[i];
-        for (size_t row = 0; row < curves->n_rows && strcmp(curves->suffix, role) == 0; row++) {
+        for (size_t row = 0; row < curves->n_rows && strcmp(curves->suffix, group) == 0; row++) {
             const int verdict = indentation_enum(curves, row, INDENTATION_VERDICT);
             wide += verdict == WT_CURVE_WIDE;
             doubtful += verdict == WT_CURVE_DOUBTFUL;
@@ -182,16 +200,16 @@ static void add_reserves(text_buffer *out, const figure_tables *t, const char *r
         text_format(out, " (%zu wide, %zu doubtful)", wide, doubtful);
 }
 
-static bool write_group_use(text_buffer *out, const figure_tables *t, const char *role)
+static bool write_group_use(text_buffer *out, const figure_tables *t, const char *group)
 {
     const table_view *const groups = &t->modulus_groups;
     for (size_t row = 0; row < groups->n_rows; row++) {
-        if (strcmp(modulus_groups_text(groups, row, MODULUS_GROUPS_GROUP), role) != 0)
+        if (strcmp(modulus_groups_text(groups, row, MODULUS_GROUPS_GROUP), group) != 0)
             continue;
         const double spots = modulus_groups_get(groups, row, MODULUS_GROUPS_N_SPOTS),
                      rejected = modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED);
         text_format(out, "%.0f curves", modulus_groups_get(groups, row, MODULUS_GROUPS_N));
-        add_reserves(out, t, role);
+        add_reserves(out, t, group);
         text_format(out, " on %.0f spot%s, %.0f rejected", spots, spots == 1 ? "" : "s", rejected);
         return true;
     }
@@ -199,21 +217,21 @@ static bool write_group_use(text_buffer *out, const figure_tables *t, const char
 }
 
 /* Writes what came out of the files of a role. */
-static void write_use(text_buffer *out, const figure_tables *t, const char *role)
+static void write_use(text_buffer *out, const figure_tables *t, file_role role)
 {
-    if (write_group_use(out, t, role))
+    if (write_group_use(out, t, role.name))
         return;
-    if (strcmp(role, "dma") == 0 && t->shift_factors.n_rows > 0) {
+    if (role.role == WT_ROLE_DMA && t->shift_factors.n_rows > 0) {
         size_t used = 0;
         for (size_t i = 0; i < t->shift_factors.n_rows; i++)
             used += shift_factors_get(&t->shift_factors, i, SHIFT_FACTORS_DETERMINED) > 0;
         text_format(out, "%zu of %zu isotherms", used, t->shift_factors.n_rows);
-    } else if (strcmp(role, "record") == 0 && t->record.n_rows > 0)
+    } else if (role.role == WT_ROLE_RECORD && t->record.n_rows > 0)
         text_format(out, "%zu step%s", t->record.n_rows, t->record.n_rows == 1 ? "" : "s");
     else {
         size_t n = 0;
         for (size_t i = 0; i < t->inputs.n_rows; i++)
-            n += strcmp(inputs_text(&t->inputs, i, INPUTS_ROLE), role) == 0;
+            n += has_role(&t->inputs, i, role);
         text_format(out, "%zu file%s", n, n == 1 ? "" : "s");
     }
 }
@@ -221,20 +239,18 @@ static void write_use(text_buffer *out, const figure_tables *t, const char *role
 static void write_role_row(page_writer *page, size_t first)
 {
     const figure_tables *const t = page->tables;
-    const char *const role = inputs_text(&t->inputs, first, INPUTS_ROLE), *const format =
-                                                                              inputs_text(
-                                                                                  &t->inputs, first,
-                                                                                  INPUTS_FORMAT);
+    const file_role role = role_of(&t->inputs, first);
+    const char *const format = inputs_text(&t->inputs, first, INPUTS_FORMAT);
     size_t n = 0;
     bool one_format = true;
     for (size_t i = 0; i < t->inputs.n_rows; i++)
-        if (strcmp(inputs_text(&t->inputs, i, INPUTS_ROLE), role) == 0) {
+        if (has_role(&t->inputs, i, role)) {
             n++;
             one_format =
                 one_format && strcmp(inputs_text(&t->inputs, i, INPUTS_FORMAT), format) == 0;
         }
     const size_t warnings = count_warnings(t, role);
-    text_html(&page->out, "<tr><th scope=\"row\">%s</th><td data-label=\"Files\">", role);
+    text_html(&page->out, "<tr><th scope=\"row\">%s</th><td data-label=\"Files\">", role.name);
     text_format(&page->out, "%zu file%s", n, n == 1 ? "" : "s");
     text_html(&page->out, ", %s</td><td data-label=\"Used\">",
               one_format ? format : "several formats");
@@ -251,11 +267,11 @@ static void write_role_row(page_writer *page, size_t first)
 /* True for the first file of a role that holds data. */
 static bool is_first_of_role(const table_view *inputs, size_t row)
 {
-    const char *const role = inputs_text(inputs, row, INPUTS_ROLE);
+    const file_role role = role_of(inputs, row);
     size_t before = 0;
-    while (before < row && strcmp(inputs_text(inputs, before, INPUTS_ROLE), role) != 0)
+    while (before < row && !has_role(inputs, before, role))
         before++;
-    return before == row && strcmp(role, "case") != 0;
+    return before == row && role.role != WT_ROLE_CASE;
 }
 
 static void write_data_used(page_writer *page)
@@ -291,8 +307,8 @@ static void add_data_line(text_buffer *line, const figure_tables *t)
     const char *between = " ";
     for (size_t i = 0; i < t->inputs.n_rows; i++)
         if (is_first_of_role(&t->inputs, i)) {
-            const char *const role = inputs_text(&t->inputs, i, INPUTS_ROLE);
-            text_html(line, "%s%s ", between, role);
+            const file_role role = role_of(&t->inputs, i);
+            text_html(line, "%s%s ", between, role.name);
             write_use(line, t, role);
             between = "; ";
         }

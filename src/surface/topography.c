@@ -448,7 +448,8 @@ static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, 
                               size_t n_files, surface_scan *to, wt_error *err)
 {
     wt_image image = {.values = NULL};
-    wt_status status = flow_heights_read(file, job->image, true, "topography", work, &image, err);
+    wt_status status =
+        flow_heights_read(file, job->image, true, WT_ROLE_TOPOGRAPHY, work, &image, err);
     if (status == WT_OK)
         status = flow_check_copy(
             file, flow_hash_samples(0, image.values, image.n_columns * image.n_rows), work);

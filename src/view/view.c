@@ -39,7 +39,7 @@ static const char *case_of_result(const wt_result *result)
 {
     const wt_provenance *p = wt_result_provenance_const(result);
     for (size_t i = 0; i < wt_provenance_n_inputs(p); i++)
-        if (strcmp(wt_provenance_get_input(p, i)->role, "case") == 0)
+        if (wt_provenance_get_input(p, i)->role == WT_ROLE_CASE)
             return wt_path_base(wt_provenance_get_input(p, i)->path);
     return NULL;
 }

@@ -456,8 +456,11 @@ static void provenance(void **state)
     char name[] = "a.txt";
     for (int i = 0; i < 40; i++) {
         name[0] = (char)('a' + i % 26);
-        wt_provenance_input input = {
-            .path = name, .role = "bulk", .bytes = (uint64_t)i, .sha256 = "ff"};
+        wt_provenance_input input = {.path = name,
+                                     .role = WT_ROLE_GROUP,
+                                     .group = "bulk",
+                                     .bytes = (uint64_t)i,
+                                     .sha256 = "ff"};
         wt_provenance_add_input(p, &input);
     }
     assert_int_equal(wt_provenance_n_inputs(p), 40);

@@ -69,7 +69,7 @@ static wt_result *make_result(void)
     char *const argv[] = {"weartrack", "run", "a case.xml"};
     wt_provenance_set_command(p, 3, argv);
     wt_provenance_input input = {
-        .path = "a case.xml", .role = "case", .format = "weartrack-case 1", .bytes = 54321};
+        .path = "a case.xml", .role = WT_ROLE_CASE, .format = "weartrack-case 1", .bytes = 54321};
     wt_sha256("abc", 3, input.sha256);
     wt_provenance_add_input(p, &input);
     wt_result_set_case(result, case_text, sizeof case_text - 1);
@@ -198,7 +198,8 @@ static void round_trip(void **state)
     assert_int_equal(wt_provenance_n_inputs(p), 1);
     const wt_provenance_input *const input = wt_provenance_get_input(p, 0);
     assert_string_equal(input->path, "a case.xml");
-    assert_string_equal(input->role, "case");
+    assert_int_equal(input->role, WT_ROLE_CASE);
+    assert_string_equal(wt_provenance_input_role(input), "case");
     assert_string_equal(input->format, "weartrack-case 1");
     assert_int_equal(input->bytes, 54321);
     assert_int_equal(strlen(input->sha256), 64);

@@ -129,8 +129,11 @@ static void exact_text(void **state)
     wt_provenance *const p = wt_provenance_new();
     char *const argv[] = {"/opt/x/weartrack", "friction", "it's"};
     wt_provenance_set_command(p, 3, argv);
-    wt_provenance_input input = {
-        .path = "my file", .role = "dma", .format = "dma-text 1", .bytes = 12, .sha256 = "ab"};
+    wt_provenance_input input = {.path = "my file",
+                                 .role = WT_ROLE_DMA,
+                                 .format = "dma-text 1",
+                                 .bytes = 12,
+                                 .sha256 = "ab"};
     wt_provenance_add_input(p, &input);
     char *text = write_text(t, p);
     char expected[1000];

@@ -40,7 +40,8 @@ static void exit_handled(size_t size)
 static bool make_result(void)
 {
     char *const arguments[] = {(char *)(uintptr_t) "weartrack", (char *)(uintptr_t) "indent"};
-    const wt_provenance_input input = {.path = "curve.txt", .role = "force", .format = "tidy"};
+    const wt_provenance_input input = {
+        .path = "curve.txt", .role = WT_ROLE_GROUP, .group = "force", .format = "tidy"};
     double *values = NULL;
     size_t n = 0;
     wt_log *const log = wt_log_new();

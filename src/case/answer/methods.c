@@ -373,7 +373,8 @@ static void add_instruments(table_writer *writer, const wt_result *result)
     for (size_t i = 0; i < wt_provenance_n_inputs(provenance); i++) {
         const wt_provenance_input *const input = wt_provenance_get_input(provenance, i);
         char text[512];
-        snprintf(text, sizeof text, "%s: The data come from %s.", input->role, input->instrument);
+        snprintf(text, sizeof text, "%s: The data come from %s.", wt_provenance_input_role(input),
+                 input->instrument);
         if (input->instrument[0] != '\0' && !has_sentence(writer->table, text))
             TABLE_ADD(methods, writer, "instrument", text, "", "");
     }

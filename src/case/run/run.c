@@ -324,10 +324,12 @@ static void warn_duplicate_inputs(const run_execution *d)
         const wt_provenance_input *a = wt_provenance_get_input(p, i);
         for (size_t k = i + 1; k < n; k++) {
             const wt_provenance_input *b = wt_provenance_get_input(p, k);
-            const bool again = strcmp(a->path, b->path) == 0 && strcmp(a->role, b->role) == 0;
+            const bool again = a->role == b->role && strcmp(a->path, b->path) == 0 &&
+                               strcmp(a->group, b->group) == 0;
             if (!again && a->bytes == b->bytes && a->fingerprint == b->fingerprint)
                 wt_log_action(d->run.job.log, WT_WARNING, WT_COPIED, 1, NULL, b->path, NULL,
-                              "the same bytes as %s (%s and %s)", a->path, a->role, b->role);
+                              "the same bytes as %s (%s and %s)", a->path,
+                              wt_provenance_input_role(a), wt_provenance_input_role(b));
         }
     }
 }
@@ -425,7 +427,7 @@ static void add_case_input(run_execution *d)
 {
     const wt_case *c = d->run.c;
     wt_provenance_input input = {.path = wt_path_base(c->path),
-                                 .role = "case",
+                                 .role = WT_ROLE_CASE,
                                  .format = "weartrack-case 1",
                                  .bytes = c->xml_length};
     if (!d->run.no_provenance)

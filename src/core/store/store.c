@@ -21,7 +21,7 @@ wt_status wt_provenance_table(const wt_provenance *provenance, const char *name,
         const wt_provenance_input *const input = wt_provenance_get_input(provenance, i);
         table_row(&t);
         inputs_put_text(&t, INPUTS_PATH, input->path);
-        inputs_put_text(&t, INPUTS_ROLE, input->role);
+        inputs_put_text(&t, INPUTS_ROLE, wt_provenance_input_role(input));
         inputs_put_text(&t, INPUTS_FORMAT, input->format);
         inputs_put_text(&t, INPUTS_INSTRUMENT, input->instrument);
         inputs_put(&t, INPUTS_BYTES, (double)input->bytes);
@@ -41,9 +41,11 @@ static wt_status store_inputs_read(const wt_table *table, wt_provenance *provena
     }
     for (size_t row = 0; row < t.n_rows; row++) {
         wt_provenance_input input = {.path = inputs_text(&t, row, INPUTS_PATH),
-                                     .role = inputs_text(&t, row, INPUTS_ROLE),
+                                     .role = (wt_input_role)inputs_enum(&t, row, INPUTS_ROLE),
                                      .format = inputs_text(&t, row, INPUTS_FORMAT),
                                      .instrument = inputs_text(&t, row, INPUTS_INSTRUMENT)};
+        if (input.role == WT_ROLE_GROUP)
+            input.group = inputs_text(&t, row, INPUTS_ROLE);
         const double bytes = inputs_get(&t, row, INPUTS_BYTES);
         const char *const sha256 = inputs_text(&t, row, INPUTS_SHA256);
         /* 2^63 is exact; a larger, negative or NaN size is invalid. */

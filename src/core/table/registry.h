@@ -176,6 +176,7 @@
 
 /* Closed lists of texts whose enum is public: name of the list, enum, rows. */
 #define PUBLIC_TEXT_LISTS(X)                                                                       \
+    X(input_role, wt_input_role, WT_INPUT_ROLE_LIST)                                               \
     X(severity, wt_severity, WT_SEVERITY_LIST)                                                     \
     X(action, wt_action, WT_ACTION_LIST)                                                           \
     X(deformation, wt_deformation, WT_DEFORMATION_LIST)                                            \

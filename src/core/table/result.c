@@ -17,12 +17,12 @@ wt_provenance *wt_provenance_new(void)
     return wt_alloc(1, sizeof(wt_provenance));
 }
 
-/* Consecutive inputs often have the same role and format and share these texts. */
+/* Consecutive inputs often have the same group and format and share these texts. */
 static void input_free(wt_provenance_input *input, const wt_provenance_input *before)
 {
     free((char *)input->path);
-    if (before == NULL || input->role != before->role)
-        free((char *)input->role);
+    if (before == NULL || input->group != before->group)
+        free((char *)input->group);
     if (before == NULL || input->format != before->format)
         free((char *)input->format);
     if (before == NULL || input->instrument != before->instrument)
@@ -107,11 +107,19 @@ void wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
     wt_provenance_input copy = *input;
     const wt_provenance_input *const before = p->n > 0 ? &p->inputs[p->n - 1] : NULL;
     copy.path = wt_strdup(input->path != NULL ? input->path : "");
-    copy.role = share_text(input->role, before != NULL ? before->role : NULL);
+    copy.group = share_text(input->group, before != NULL ? before->group : NULL);
     copy.format = share_text(input->format, before != NULL ? before->format : NULL);
     copy.instrument = share_text(input->instrument, before != NULL ? before->instrument : NULL);
     copy.sha256[sizeof copy.sha256 - 1] = '\0';
     p->inputs[p->n++] = copy;
+}
+
+const char *wt_provenance_input_role(const wt_provenance_input *input)
+{
+#define ROLE_TEXT(name, text) [name] = (text),
+    static const char *const texts[] = {WT_INPUT_ROLE_LIST(ROLE_TEXT)};
+#undef ROLE_TEXT
+    return input->role < WT_ROLE_GROUP ? texts[input->role] : input->group;
 }
 
 const char *wt_provenance_version(const wt_provenance *p)

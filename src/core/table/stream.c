@@ -104,7 +104,7 @@ static void write_stream_provenance(FILE *out, const wt_provenance *provenance)
         (void)fprintf(out, "## input: ");
         stream_write_text(out, input->path);
         (void)putc('\t', out);
-        stream_write_text(out, input->role);
+        stream_write_text(out, wt_provenance_input_role(input));
         (void)putc('\t', out);
         stream_write_text(out, input->format);
         (void)fprintf(out, "\t%" PRIu64 "\t%s\n", input->bytes,
