@@ -34,8 +34,11 @@ enum { LEAST_STEADY = 7 };
  * pole has no visible curvature, its constants are meaningless, and the law is rejected. */
 #define POLE_ERROR 2.0
 /* Positions of the pole in the scan, a factor 1.5 apart, and parabolas through three positions
- * about the best one, each a tenth of the former apart. The last two are 4e-4 and 4e-5 off. */
+ * about the best one, each a tenth of the former apart. The last one is less than 1e-6 off. */
 enum { POLE_GRID = 20, POLE_PARABOLAS = 4 };
+/* Maximum move of a parabola, in its distances: the minimum may be as far away as the former
+ * positions. */
+static const double most_move = 10.0;
 
 double law_spread(size_t i)
 {
@@ -352,8 +355,9 @@ static bool fit_pole(const struct gls *g, double *at, double *constant)
         const double before = pole_chi_square(g, *at - step, &one),
                      after = pole_chi_square(g, *at + step, &one);
         const double bend = before - 2.0 * best + after;
-        const double move = bend > 0.0 ? 0.5 * step * (before - after) / bend : 0.0;
-        const double p = fmax(nearest, fmin(farthest, *at + fmax(-step, fmin(move, step))));
+        const double move = bend > 0.0 ? 0.5 * (before - after) / bend : 0.0; /* [steps] */
+        const double p =
+            fmax(nearest, fmin(farthest, *at + step * fmax(-most_move, fmin(move, most_move))));
         const double chi = pole_chi_square(g, p, &one);
         if (chi < best) {
             best = chi;
