@@ -34,8 +34,11 @@ enum { LEAST_STEADY = 7 };
  * pole has no visible curvature, its constants are meaningless, and the law is rejected. */
 #define POLE_ERROR 2.0
 /* Positions of the pole in the scan, a factor 1.5 apart, and parabolas through three positions
- * about the best one, each a tenth of the former apart. The last two are 4e-4 and 4e-5 off. */
+ * about the best one, each a tenth of the former apart. The last one is less than 1e-6 off. */
 enum { POLE_GRID = 20, POLE_PARABOLAS = 4 };
+/* Maximum move of a parabola, in its distances: the minimum may be as far away as the former
+ * positions. */
+static const double most_move = 10.0;
 
 double law_spread(size_t i)
 {
@@ -320,8 +323,8 @@ static bool solve_at_pole(struct gls *g, double distance, double main_factor, si
 }
 
 /* Returns the change of chi^2 by the main column with this pole, HUGE_VAL if the law rises with
- * temperature. *constant: its factor. */
-static double pole_chi_square(const struct gls *g, double log_distance, double *constant)
+ * temperature. */
+static double pole_chi_square(const struct gls *g, double log_distance)
 {
     const size_t n = g->data->n;
     const double distance = exp(log_distance);
@@ -330,41 +333,42 @@ static double pole_chi_square(const struct gls *g, double log_distance, double *
         column[i] = main_law_factor(g->shape, distance, g->data->temperature[i], &by_pole);
     dense_forward(g->root, column);
     project_out_fixed(g, column);
-    const double with = product(column, g->left, n), square = product(column, column, n);
-    *constant = with / square;
-    return *constant > 0.0 ? -with * *constant : HUGE_VAL; /* also handles NaN */
+    const double with = product(column, g->left, n);
+    return with > 0.0 ? -with * with / product(column, column, n) : HUGE_VAL; /* also NaN */
 }
 
-/* Finds the best ln of the pole distance by a scan and parabolas. Returns false without one. */
-static bool fit_pole(const struct gls *g, double *at, double *constant)
+/* Finds the best ln of the pole distance by parabolas, from the given one if that is better than
+ * its neighbours, otherwise from a scan. Returns false without one. */
+static bool fit_pole(const struct gls *g, double *at)
 {
     const double nearest = log(POLE_NEAREST), farthest = log(POLE_FARTHEST);
-    double step = (farthest - nearest) / POLE_GRID, best = HUGE_VAL, one;
-    *at = farthest;
-    for (int i = 0; i <= POLE_GRID; i++) {
-        const double p = nearest + i * step, chi = pole_chi_square(g, p, &one);
-        if (chi < best) {
-            best = chi;
-            *at = p;
+    double step = (farthest - nearest) / POLE_GRID;
+    double best = *at >= nearest ? pole_chi_square(g, *at) : HUGE_VAL;
+    if (!(best < HUGE_VAL && best <= pole_chi_square(g, fmax(nearest, *at - step)) &&
+          best <= pole_chi_square(g, fmin(farthest, *at + step)))) {
+        best = HUGE_VAL;
+        for (int i = 0; i <= POLE_GRID; i++) {
+            const double p = nearest + i * step, chi = pole_chi_square(g, p);
+            *at = chi < best ? p : *at;
+            best = fmin(best, chi);
         }
     }
     for (int i = 0; i < POLE_PARABOLAS; i++, step *= 0.1) {
-        const double before = pole_chi_square(g, *at - step, &one),
-                     after = pole_chi_square(g, *at + step, &one);
+        const double before = pole_chi_square(g, *at - step),
+                     after = pole_chi_square(g, *at + step);
         const double bend = before - 2.0 * best + after;
-        const double move = bend > 0.0 ? 0.5 * step * (before - after) / bend : 0.0;
-        const double p = fmax(nearest, fmin(farthest, *at + fmax(-step, fmin(move, step))));
-        const double chi = pole_chi_square(g, p, &one);
-        if (chi < best) {
-            best = chi;
-            *at = p;
-        }
+        const double move = bend > 0.0 ? 0.5 * (before - after) / bend : 0.0; /* [steps] */
+        const double p =
+            fmax(nearest, fmin(farthest, *at + step * fmax(-most_move, fmin(move, most_move))));
+        const double chi = pole_chi_square(g, p);
+        *at = chi < best ? p : *at;
+        best = fmin(best, chi);
     }
-    return pole_chi_square(g, *at, constant) < HUGE_VAL;
+    return best < HUGE_VAL;
 }
 
-wt_status law_fit_gls(const law_data *data, const law_shape *shape, const gsl_matrix *root,
-                      law_fit *fit, wt_error *err)
+wt_status law_fit_gls(law_data *data, const law_shape *shape, const gsl_matrix *root, law_fit *fit,
+                      wt_error *err)
 {
     struct gls g = gls_new(data, shape, root);
     const size_t k = law_unknowns(shape), pole = law_pole_index(shape);
@@ -373,12 +377,12 @@ wt_status law_fit_gls(const law_data *data, const law_shape *shape, const gsl_ma
     if (pole == LAW_MAX_UNKNOWNS) {
         good = solve_at_pole(&g, 1.0, 1.0, k, fit);
     } else {
-        double p = 0.0, constant = 0.0;
-        good = fit_pole(&g, &p, &constant) && solve_at_pole(&g, exp(p), 1.0, k - 1, fit);
+        double p = data->pole;
+        good = fit_pole(&g, &p) && solve_at_pole(&g, exp(p), 1.0, k - 1, fit);
         const law_fit linear = *fit;
-        good = good && solve_at_pole(&g, exp(p), constant, k, fit);
+        good = good && solve_at_pole(&g, exp(p), linear.unknown[1], k, fit);
         memcpy(fit->unknown, linear.unknown, sizeof linear.unknown);
-        fit->unknown[pole] = p;
+        fit->unknown[pole] = data->pole = p;
         fit->chi_square = linear.chi_square;
     }
     if (!good || !(fit->unknown[1] > 0.0)) {

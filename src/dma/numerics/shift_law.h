@@ -38,6 +38,7 @@ typedef struct law_data {
     gsl_matrix *covariance;    /* [n * n] of log_a */
     double *slope;             /* [n] slope of the law [decade/K], set by law_select */
     double *scratch;           /* [n * LAW_SCRATCH] */
+    double pole;               /* ln of the pole distance of the last fit; 0: none */
 } law_data;
 
 typedef struct law_fit {
@@ -70,8 +71,9 @@ wt_status law_gls_covariance(const law_data *data, double spread, gsl_matrix *ro
                              wt_error *err) WT_NODISCARD;
 /* Computes the design matrix x[n * law_unknowns]. */
 void law_design(const law_data *data, const law_shape *shape, const double *unknown, gsl_matrix *x);
-wt_status law_fit_gls(const law_data *data, const law_shape *shape, const gsl_matrix *root,
-                      law_fit *fit, wt_error *err) WT_NODISCARD;
+/* Fits the law; the search of its pole starts from that of the fit before. */
+wt_status law_fit_gls(law_data *data, const law_shape *shape, const gsl_matrix *root, law_fit *fit,
+                      wt_error *err) WT_NODISCARD;
 double law_reml(const law_fit *fit);
 /* Returns the prior density of a temperature error times the width of its grid cell. */
 double law_spread_prior(const law_data *data, double spread);

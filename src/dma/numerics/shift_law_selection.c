@@ -191,7 +191,7 @@ static wt_status try_all_laws(struct search *search, const law_shape *start, wt_
 static wt_status outlier_gains(struct search *search, const law_shape *shape, double *gain,
                                wt_error *err)
 {
-    const law_data *data = search->data;
+    law_data *data = search->data;
     const size_t n = data->n, k = law_unknowns(shape);
     arena *m = &search->memory;
     gsl_matrix *scratch = arena_matrix(m, n, n), *inverse = arena_matrix(m, n, n),
