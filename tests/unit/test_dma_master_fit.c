@@ -376,7 +376,7 @@ static wt_status choose(size_t n, const double *temperature, const double *varia
     double slope[FEW], scratch[FEW * LAW_SCRATCH], covariance[FEW * FEW] = {0}, root[FEW * FEW];
     gsl_matrix_view c = gsl_matrix_view_array(covariance, n, n);
     gsl_matrix_view r = gsl_matrix_view_array(root, n, n);
-    law_data data = {n, temperature, log_a, &c.matrix, slope, scratch};
+    law_data data = {n, temperature, log_a, &c.matrix, slope, scratch, 0};
     wt_error err = WT_ERROR_INIT;
     for (size_t i = 0; i < n; i++)
         covariance[i * n + i] = variance[i];
