@@ -49,11 +49,15 @@ static void print_plan(const wt_table *plan)
 enum { LINES_OF_PLACES = 2 };
 
 /* Prints the findings on standard output, as they are the data of this subcommand. A pipe gets
- * their reasons and the limits, too; a terminal gets these with --verbose. */
+ * their reasons and the limits, too; a terminal gets these with --verbose, and nothing with
+ * --quiet. */
 static void print_answer(cmd_session *s)
 {
     const wt_table *const limits = wt_result_find(s->result, "limits");
-    const bool verbose = s->common.verbose, whole = verbose || isatty(STDOUT_FILENO) == 0;
+    const bool verbose = s->common.verbose, is_pipe = isatty(STDOUT_FILENO) == 0,
+               whole = verbose || is_pipe;
+    if (s->common.quiet && !is_pipe)
+        return;
     s->lines_left -= LINES_OF_PLACES;
     s->common.verbose = whole;
     cmd_print_short_table(s, true);

@@ -99,6 +99,9 @@ grep -q '\.\.\.' screen && fail "a line of summary is cut"
   [ $? = 3 ] || fail "no partial result"
 short summary part.h5
 grep -qx 'failed   1, see the table failures' screen || fail "the list of summary hides a failure"
+terminal run -q --no-report --replicates 10 "$case/case.xml" -o quiet.h5
+[ -s screen ] && fail "run -q prints on a terminal"
+[ -s quiet.h5 ] || fail "run -q writes no result"
 terminal summary -q part.h5
 grep -q modulus_bulk screen || fail "no number by summary -q"
 "$program" summary case.h5 > pipe
