@@ -128,10 +128,11 @@ static void test_what_to_measure(void **state)
         const char *choice, *remedy;
         double thickness;
     } rows[] = {{"as used", "", 3e-6},
-                {"one", "Measure one.", 2e-6},
-                {"other", "Measure other.", 12e-6},
-                {"other", "Measure other.", 6e-6},
-                {"third", "Measure third.", 4e-6}};
+                {"smallest wavenumber q0", "Measure one.", 2e-6},
+                {"largest wavenumber q1", "Measure other.", 12e-6},
+                {"largest wavenumber q1", "Measure other.", 6e-6},
+                {"of a later version", "Measure third.", 4e-6},
+                {"of another", "Measure third.", 3.5e-6}};
     wt_error err = WT_ERROR_INIT;
     table_writer w = table_begin(&what_if_schema, &err);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -161,7 +162,7 @@ static void test_what_to_measure(void **state)
     finding findings[FINDING_QUESTIONS];
     assert_true(findings_compute(&tables, findings));
     const finding *f = &findings[FINDING_LAYER_THICKNESS];
-    assert_string_equal(f->value.range.widest, "other");
+    assert_string_equal(f->value.range.widest, "largest wavenumber q1");
     assert_near(f->value.range.rest_low, 2e-6, 0);
     assert_near(f->value.range.rest_high, 4e-6, 0);
     assert_near(f->rest, 0.2, 1e-12);

@@ -187,12 +187,15 @@ static void extend_range(const table_view *what_if, what_if_number *number, size
     }
 }
 
-/* The rows of a choice are adjacent. Returns the row after those of the choice of row i. */
+/* The rows of a choice are adjacent. Returns the row after those of the choice of row i. A choice
+ * that this version does not know has one row. */
 static size_t next_choice(const table_view *what_if, size_t i)
 {
     const int choice = what_if_enum(what_if, i, WHAT_IF_CHOICE);
-    while (i < what_if->n_rows && what_if_enum(what_if, i, WHAT_IF_CHOICE) == choice)
+    do
         i++;
+    while (choice != CHOICE_UNKNOWN && i < what_if->n_rows &&
+           what_if_enum(what_if, i, WHAT_IF_CHOICE) == choice);
     return i;
 }
 
