@@ -7,7 +7,7 @@
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
 #include "record/layer_growth.h"
-#include "record/numerics/course_fit.h"
+#include "record/numerics/running_in_curve.h"
 #include "record/validation.h"
 
 #include <math.h>
@@ -143,7 +143,7 @@ static size_t add_finite(double *x, size_t n, double value)
 
 /* The course of each draw is fitted to the nominal one at times of the record, so that the errors
  * hold that of the shape of the course, too. */
-static void fit_drawn_courses(running_in *run, const course_mean *mean)
+static void fit_drawn_courses(running_in *run, const running_in_mean *mean)
 {
     /* The courses are without scatter, so that more times add nothing. */
     enum { MOST_TIMES = 256 };
@@ -152,19 +152,20 @@ static void fit_drawn_courses(running_in *run, const course_mean *mean)
     const size_t every = (run->rec->n + MOST_TIMES - 1) / MOST_TIMES, n = run->rec->n / every,
                  n_draws = run->growth->n_draws;
     const drawn_course nominal = {run->growth, 0};
-    course_mean *const at = wt_alloc(n, sizeof *at);
+    running_in_mean *const at = wt_alloc(n, sizeof *at);
     double *const log_factor = wt_alloc(n_draws, sizeof *log_factor), *const log_time = wt_alloc(
                                                                           n_draws,
                                                                           sizeof *log_time);
     size_t n_factors = 0, n_times = 0;
     for (size_t i = 0; i < n; i++) {
         at[i] = mean[i * every];
-        at[i].friction = course_mean_of(drawn_friction, &nominal, at[i].begin / run->factor.value,
-                                        at[i].end / run->factor.value);
+        at[i].friction =
+            running_in_mean_of(drawn_friction, &nominal, at[i].begin / run->factor.value,
+                               at[i].end / run->factor.value);
     }
     for (size_t k = 1; k <= n_draws; k++) {
         const drawn_course drawn = {run->growth, k};
-        const double factor = course_fit_between(
+        const double factor = running_in_curve_root(
             at, n, drawn_friction, &drawn, run->factor.value / range, run->factor.value * range);
         n_factors = add_finite(log_factor, n_factors, log(factor));
         n_times = add_finite(log_time, n_times,
@@ -183,12 +184,12 @@ static void fit_drawn_courses(running_in *run, const course_mean *mean)
 static void fit_course(running_in *run)
 {
     const recorded_run *const rec = run->rec;
-    course_mean *const mean = wt_alloc(rec->n, sizeof *mean);
+    running_in_mean *const mean = wt_alloc(rec->n, sizeof *mean);
     for (size_t i = 0; i < rec->n; i++)
         mean[i] =
-            (course_mean){i > 0 ? rec->end[i - 1] : rec->begin, rec->end[i], rec->friction[i]};
+            (running_in_mean){i > 0 ? rec->end[i - 1] : rec->begin, rec->end[i], rec->friction[i]};
     const drawn_course nominal = {run->growth, 0};
-    run->factor = course_fit_factor(mean, rec->n, drawn_friction, &nominal);
+    run->factor = running_in_curve_factor(mean, rec->n, drawn_friction, &nominal);
     run->factor_error = run->time_error = (double)NAN;
     if (!isnan(run->factor.value))
         fit_drawn_courses(run, mean);

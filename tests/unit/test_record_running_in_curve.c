@@ -2,12 +2,12 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 
-#include "record/numerics/course_fit.h"
+#include "record/numerics/running_in_curve.h"
 
 #include <math.h>
 
 enum { N = 400 };
-static course_mean mean[N];
+static running_in_mean mean[N];
 
 /* A change that is over in the first mean, and an exponential of 50 s. */
 static double course(const void *user, double time)
@@ -22,13 +22,14 @@ static void fill(double factor, double ratio, double scatter)
     const double slow = 50 * factor, fast = 3 * factor;
     for (size_t i = 0; i < N; i++) {
         const double from = 5.0 * (double)i, until = from + 5;
-        mean[i] = (course_mean){from, until,
-                                0.1 +
-                                    ratio *
-                                        (-0.05 * slow * (exp(-from / slow) - exp(-until / slow)) +
-                                         0.1 * fast * (exp(-from / fast) - exp(-until / fast))) /
-                                        5 +
-                                    scatter * cos(2.4 * (double)i)};
+        mean[i] =
+            (running_in_mean){from, until,
+                              0.1 +
+                                  ratio *
+                                      (-0.05 * slow * (exp(-from / slow) - exp(-until / slow)) +
+                                       0.1 * fast * (exp(-from / fast) - exp(-until / fast))) /
+                                      5 +
+                                  scatter * cos(2.4 * (double)i)};
     }
 }
 
@@ -38,10 +39,10 @@ static void test_factor(void **state)
     static const double factors[] = {0.3, 1, 4};
     for (size_t i = 0; i < sizeof factors / sizeof *factors; i++) {
         fill(factors[i], i == 1 ? -2 : 1, 1e-4);
-        const wt_interval found = course_fit_factor(mean, N, course, NULL);
+        const wt_interval found = running_in_curve_factor(mean, N, course, NULL);
         assert_near(found.value, factors[i], 0.02 * factors[i]);
         assert_true(found.low < factors[i] && factors[i] < found.high);
-        assert_near(course_fit_between(mean, N, course, NULL, factors[i] / 4, factors[i] * 3),
+        assert_near(running_in_curve_root(mean, N, course, NULL, factors[i] / 4, factors[i] * 3),
                     factors[i], 0.03 * factors[i]);
     }
 }
@@ -51,15 +52,15 @@ static void test_limit(void **state)
 {
     (void)state;
     fill(4, 1, 0);
-    assert_true(isnan(course_fit_between(mean, N, course, NULL, 0.5, 2)));
+    assert_true(isnan(running_in_curve_root(mean, N, course, NULL, 0.5, 2)));
 }
 
 static void test_scatter_alone(void **state)
 {
     (void)state;
     fill(1, 0, 1e-3);
-    assert_true(isnan(course_fit_factor(mean, N, course, NULL).value));
-    assert_true(isnan(course_fit_factor(mean, 3, course, NULL).value));
+    assert_true(isnan(running_in_curve_factor(mean, N, course, NULL).value));
+    assert_true(isnan(running_in_curve_factor(mean, 3, course, NULL).value));
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 /* Time of a measured course against a predicted one, by least squares.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "record/numerics/course_fit.h"
+#include "record/numerics/running_in_curve.h"
 
 #include "core/base/memory.h"
 #include "core/math/students_t.h"
@@ -20,7 +20,7 @@ static double log_factor_at(size_t k)
     return last_log * ((double)k - STEPS) / STEPS;
 }
 
-double course_mean_of(course_function *course, const void *user, double begin, double end)
+double running_in_mean_of(running_in_function *course, const void *user, double begin, double end)
 {
     /* Eight points give the mean of a course that is linear in the logarithm of time to 2 % of its
      * change over a decade; within a tenth of the time it hardly changes. */
@@ -34,12 +34,12 @@ double course_mean_of(course_function *course, const void *user, double begin, d
 
 /* Fits level and ratio at a factor and returns the sum of squares. x: [n] scratch. residual: [n],
  * or NULL. */
-static double sum_of_squares(const course_mean *mean, size_t n, course_function *course,
+static double sum_of_squares(const running_in_mean *mean, size_t n, running_in_function *course,
                              const void *user, double factor, double *x, double *residual)
 {
     double mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
     for (size_t i = 0; i < n; i++) {
-        x[i] = course_mean_of(course, user, mean[i].begin / factor, mean[i].end / factor);
+        x[i] = running_in_mean_of(course, user, mean[i].begin / factor, mean[i].end / factor);
         mean_x += x[i] / (double)n;
         mean_y += mean[i].friction / (double)n;
     }
@@ -66,8 +66,8 @@ static double correlation_factor(const double *residual, size_t n)
     return (1 + r) / (1 - r);
 }
 
-wt_interval course_fit_factor(const course_mean *mean, size_t n, course_function *course,
-                              const void *user)
+wt_interval running_in_curve_factor(const running_in_mean *mean, size_t n,
+                                    running_in_function *course, const void *user)
 {
     wt_interval found = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     if (n < 4) /* one more than the constants */
@@ -106,8 +106,8 @@ wt_interval course_fit_factor(const course_mean *mean, size_t n, course_function
     return found;
 }
 
-double course_fit_between(const course_mean *mean, size_t n, course_function *course,
-                          const void *user, double low, double high)
+double running_in_curve_root(const running_in_mean *mean, size_t n, running_in_function *course,
+                             const void *user, double low, double high)
 {
     /* steps of 3 % for a range of a factor of 16, far below the errors of a running-in */
     enum { BETWEEN = 100 };
