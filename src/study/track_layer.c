@@ -333,7 +333,7 @@ static void read_depth_curves(const table_view *t, double k, depth_group *g)
 
 /* Smallest Poisson's ratio. The law of a layer holds for incompressible rubber. At 0.45, a thin
  * sample on a rigid base is 8 % less stiff than at 0.5 (Dimitriadis et al., Biophys. J. 82 (2002)
- * 2798). A layer on rubber has less contrast and a smaller error. */
+ * 2798). A layer on rubber has less effect and a smaller error. */
 static const double least_poisson_ratio = 0.45;
 
 /* Finds the reason why the curves cannot be used. tip: its description; NULL if it is not

@@ -112,7 +112,8 @@ static wt_status answer_report(view_call *call, wt_error *err)
     return status;
 }
 
-/* ---- trials ---------------------------------------------------------------------------------- */
+/* ---- previews ----------------------------------------------------------------------------------
+ */
 
 static wt_status answer_check(view_call *call, wt_error *err)
 {
@@ -124,7 +125,7 @@ static wt_status answer_check(view_call *call, wt_error *err)
 }
 
 /* Runs the text of a case for the requested tables, as `weartrack run` does. */
-static wt_status answer_trial(view_call *call, wt_error *err)
+static wt_status answer_preview(view_call *call, wt_error *err)
 {
     const wt_view *view = call->view;
     wt_result *result = NULL;
@@ -357,7 +358,7 @@ const view_route view_routes[] = {{"", 0, answer_file},
                                   {"report", 0, answer_report},
                                   {"progress", 0, answer_progress},
                                   {"check", VIEW_BODY_LIMIT, answer_check},
-                                  {"trial", VIEW_BODY_LIMIT, answer_trial},
+                                  {"preview", VIEW_BODY_LIMIT, answer_preview},
                                   {"curve", VIEW_BODY_LIMIT, answer_curve},
                                   {"save", VIEW_FILE_LIMIT, answer_save},
                                   {"new-case", VIEW_BODY_LIMIT, start_new_case},

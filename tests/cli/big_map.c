@@ -2,8 +2,8 @@
  * converted in every format. The peak, extrapolated to 65,536 curves, must be below 100 MB; moduli
  * and files must be identical in all formats.
  *
- * Usage: big_map PROGRAM WORK NAME [CURVES [SAMPLES]]. NAME is the trial. With CURVES one map of
- * this size, with SAMPLES in each of two segments, is used instead and its peaks are printed.
+ * Usage: big_map PROGRAM WORK NAME [CURVES [SAMPLES]]. NAME is one of the runs. With CURVES one map
+ * of this size, with SAMPLES in each of two segments, is used instead and its peaks are printed.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "big_map_files.h"
 
@@ -87,14 +87,14 @@ static double peak(const char *program, const char *const *arguments)
 /* Some formats store no spring constant. */
 #define FIT INDENT, "--spring-constant", "2N/m"
 /* Calls in their order, and the files that must be identical afterwards. */
-typedef struct trial {
+typedef struct big_map_run {
     const char *name;
     void (*write)(size_t n, size_t samples); /* writes the map or maps */
     size_t small, large, samples;
     const char *calls[MOST_CALLS][14];
     const char *moduli[4];   /* files with the moduli of moduli.txt */
     const char *files[2][2]; /* pairs of identical files */
-} trial;
+} big_map_run;
 
 /* One file of a format, read and converted. */
 #define ONE_FILE(map, n)                                                                           \
@@ -105,7 +105,7 @@ typedef struct trial {
               {FIT, "map.tsv", "-o", "text.txt"}},                                                 \
     .moduli = {"text.txt"}
 
-static const trial trials[] = {
+static const big_map_run big_map_runs[] = {
     {.name = "files",
      .write = write_map,
      .small = 1024,
@@ -150,7 +150,7 @@ static const trial trials[] = {
      .calls = {{INDENT, "map.waves", "-o", "moduli.txt"}},
      .moduli = {"moduli.txt"}},
 };
-enum { TRIALS = sizeof trials / sizeof *trials };
+enum { BIG_MAP_RUNS = sizeof big_map_runs / sizeof *big_map_runs };
 
 static bool next_row(FILE *in, char *row, size_t size)
 {
@@ -230,7 +230,7 @@ static void compare_bytes(const char *const names[2])
     }
 }
 
-static void run(const char *program, const trial *t, size_t n, double peaks[MOST_CALLS])
+static void run(const char *program, const big_map_run *t, size_t n, double peaks[MOST_CALLS])
 {
     /* Runs in its own process, because the peak of a program includes that of its parent. */
     const pid_t writer = fork();
@@ -264,7 +264,8 @@ static void print_call(const char *const *call)
 }
 
 /* Returns the number of calls that exceed the limit. */
-static size_t count_above(const trial *t, size_t only, const double *small, const double *large)
+static size_t count_above(const big_map_run *t, size_t only, const double *small,
+                          const double *large)
 {
     size_t n = 0;
     for (size_t i = 0; i < MOST_CALLS && t->calls[i][0] != NULL; i++) {
@@ -284,12 +285,12 @@ int main(int argc, char **argv)
 {
     double small[MOST_CALLS] = {0}, large[MOST_CALLS] = {0};
     size_t which = 0, n_above = 0;
-    while (which < TRIALS && (argc < 4 || strcmp(argv[3], trials[which].name) != 0))
+    while (which < BIG_MAP_RUNS && (argc < 4 || strcmp(argv[3], big_map_runs[which].name) != 0))
         which++;
-    if (which == TRIALS || (mkdir(argv[2], 0777) != 0 && access(argv[2], W_OK) != 0) ||
+    if (which == BIG_MAP_RUNS || (mkdir(argv[2], 0777) != 0 && access(argv[2], W_OK) != 0) ||
         chdir(argv[2]) != 0)
         return 2;
-    trial t = trials[which];
+    big_map_run t = big_map_runs[which];
     const size_t only = argc > 4 ? strtoul(argv[4], NULL, 10) : 0;
     const size_t samples = argc > 5 ? strtoul(argv[5], NULL, 10) : 0;
     if (samples > 1 && samples <= MOST_SAMPLES)

@@ -301,26 +301,27 @@ static void test_added_files(const char *case_text)
 /* The fit of one curve has the same digits by the server, by its preview and by `run`. */
 static void test_digits(const char *case_text)
 {
-    char of_curve[64], of_trial[64], of_run[64], contact[64], moved[64], error[64];
+    char of_curve[64], of_preview[64], of_run[64], contact[64], moved[64], error[64];
     expect(200, "POST", "curve?group=bulk&file=bulk-1.jpk-force-map&number=0", case_text,
            "\"curves\"");
     member("\"rows\"", "modulus", of_curve, sizeof of_curve);
     member("\"rows\"", "contact_point", contact, sizeof contact);
-    expect(200, "POST", "trial?name=indentation/bulk&replicates=0", case_text, "bulk-1");
-    member("\"rows\"", "modulus", of_trial, sizeof of_trial);
+    expect(200, "POST", "preview?name=indentation/bulk&replicates=0", case_text, "bulk-1");
+    member("\"rows\"", "modulus", of_preview, sizeof of_preview);
     /* draws are made where the page asks for them, and only there */
-    expect(200, "POST", "trial?name=friction&replicates=0", case_text, "friction_at_reference");
+    expect(200, "POST", "preview?name=friction&replicates=0", case_text, "friction_at_reference");
     member("\"friction_at_reference\"", "standard_error", error, sizeof error);
     check(strcmp(error, "null") == 0, "no draws");
-    expect(200, "POST", "trial?name=friction&replicates=20", case_text, "friction_at_reference");
+    expect(200, "POST", "preview?name=friction&replicates=20", case_text, "friction_at_reference");
     member("\"friction_at_reference\"", "standard_error", error, sizeof error);
     check(strtod(error, NULL) > 0, "draws");
     char *const words[] = {(char *)(size_t)program, "run", "-q", "--no-report", "case.xml", NULL};
     check(run(words) == 0, "run");
     expect(200, "GET", "table?name=indentation/bulk", "", "bulk-1");
     member("\"rows\"", "modulus", of_run, sizeof of_run);
-    printf("modulus of the curve %s, of the trial %s, of the run %s\n", of_curve, of_trial, of_run);
-    check(strcmp(of_curve, of_run) == 0 && strcmp(of_trial, of_run) == 0, "digits");
+    printf("modulus of the curve %s, of the preview %s, of the run %s\n", of_curve, of_preview,
+           of_run);
+    check(strcmp(of_curve, of_run) == 0 && strcmp(of_preview, of_run) == 0, "digits");
     /* another contact point, as an override that the shell repeats */
     char target[256], overrides[512];
     (void)snprintf(
@@ -424,7 +425,7 @@ static void test_latency(const char *case_text)
                "curves");
     const double curve = (now() - start) / 20;
     start = now();
-    expect(200, "POST", "trial?name=friction&replicates=0", case_text, "friction_at_reference");
+    expect(200, "POST", "preview?name=friction&replicates=0", case_text, "friction_at_reference");
     const double friction = now() - start;
     printf("one curve %.1f ms, friction %.0f ms\n", 1e3 * curve, 1e3 * friction);
     check(curve < 5 && friction < 60, "latency");

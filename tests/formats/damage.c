@@ -335,11 +335,11 @@ static byte_block damage_entry(const damageable *f, damage d, uint64_t *seed)
     return packed;
 }
 
-byte_block damage_draw(const damageable *f, uint64_t seed, size_t trial, damage *kind)
+byte_block damage_draw(const damageable *f, uint64_t seed, size_t number, damage *kind)
 {
-    uint64_t state = 88172645463325252u + 1000003 * seed + 7919 * trial;
+    uint64_t state = 88172645463325252u + 1000003 * seed + 7919 * number;
     (void)draw(&state, 2);
-    *kind = (damage)(trial % N_DAMAGES);
+    *kind = (damage)(number % N_DAMAGES);
     if (f->n_entries == 0)
         return damage_whole(f->whole,
                             *kind == ENTRY_GONE ? DELETED

@@ -47,7 +47,7 @@ typedef struct damageable {
 damageable damageable_load(const char *path);
 void damageable_free(damageable *d);
 
-/* Damage number `trial` of the seed: returns new bytes and the kind of damage. */
-byte_block damage_draw(const damageable *d, uint64_t seed, size_t trial, damage *kind);
+/* Damage `number` of the seed: returns new bytes and the kind of damage. */
+byte_block damage_draw(const damageable *d, uint64_t seed, size_t number, damage *kind);
 
 #endif

@@ -55,7 +55,7 @@ static const afm_sample *make_sample(spots *to, int i, const afm_sample *common,
 }
 
 static int make_spots(spots *to, const afm_sample *sample, const afm_scene *s,
-                      random_source *random, trial *t)
+                      random_source *random, scene_draw *t)
 {
     int bad = sample == NULL;
     *to = (spots){.n = SPOTS};
@@ -63,7 +63,7 @@ static int make_spots(spots *to, const afm_sample *sample, const afm_scene *s,
         char name[24];
         afm_scene here = *s;
         snprintf(name, sizeof name, "curves%d.tsv", i + 1);
-        to->path[i] = trial_file(t, name);
+        to->path[i] = scene_draw_file(t, name);
         to->sample[i] = make_sample(to, i, sample, &here, random);
         bad =
             to->sample[i] == NULL || write_curves(to->sample[i], &here, random, i * CURVES / to->n,
@@ -94,12 +94,12 @@ static int write_spectrum(const afm_scene *s, const char *path)
 
 /* True if most curves are accepted and all curves together show no lack of fit. */
 static void read_curves(const char *path, const afm_scene *s, const afm_sample *sample,
-                        const spots *from, trial *t)
+                        const spots *from, scene_draw *t)
 {
     stream *found = stream_read(path);
     const bool drawn = s->calibration == CALIBRATION_DRAWN;
     if (found == NULL || stream_rows(found, place_modulus.table) != CURVES) {
-        trial_broke(t, "not as many curves as there were");
+        scene_draw_broke(t, "not as many curves as there were");
     } else {
         int accepted = 0;
         for (int i = 0; i < CURVES; i++) {
@@ -111,13 +111,13 @@ static void read_curves(const char *path, const afm_scene *s, const afm_sample *
                 !stream_is(found, table, PLACE_CURVE, i, PLACE_DOUBTFUL))
                 e.value = e.low = e.high = (double)NAN;
             if (!drawn) /* the errors of a curve do not hold those that all curves share */
-                trial_add(t, Q_MODULUS, from->sample[i * from->n / CURVES]->modulus, e);
+                scene_draw_add(t, Q_MODULUS, from->sample[i * from->n / CURVES]->modulus, e);
             if (s->dma > 0)
-                trial_add(t, Q_FACTOR, s->dma, place_row(found, &place_factor, i));
+                scene_draw_add(t, Q_FACTOR, s->dma, place_row(found, &place_factor, i));
         }
         const estimate group = place_key(found, &place_budget[0]);
         if (!(s->spots > 0) && group.value > 0) /* otherwise the positions share no modulus */
-            trial_add(t, Q_GROUP_MODULUS, from->sample[0]->modulus, group);
+            scene_draw_add(t, Q_GROUP_MODULUS, from->sample[0]->modulus, group);
         const double chance = stream_number(found, place_modulus.table, PLACE_POOLED_CHANCE, NULL);
         const char *changes = stream_key(found, PLACE_DEPTH, PLACE_DEPTH_CHANGES);
         const bool silent = changes != NULL &&
@@ -127,8 +127,8 @@ static void read_curves(const char *path, const afm_scene *s, const afm_sample *
                            : isnan(chance) || silent ? INCONCLUSIVE
                                                      : YES;
         for (int i = 0; i < AFM_DEPTHS && changes != NULL && s->tip != TIP_PUNCH && !drawn; i++)
-            trial_add(t, Q_DEPTH, afm_apparent(s, sample, (i + 1.0) / AFM_DEPTHS),
-                      place_row(found, &place_depth, i));
+            scene_draw_add(t, Q_DEPTH, afm_apparent(s, sample, (i + 1.0) / AFM_DEPTHS),
+                           place_row(found, &place_depth, i));
     }
     stream_free(found);
 }
@@ -143,7 +143,7 @@ static void *prepare(int scene)
     return afm_sample_make(&afm_scenes[scene]);
 }
 
-static void observe(int scene, const void *prepared, random_source *random, trial *t)
+static void observe(int scene, const void *prepared, random_source *random, scene_draw *t)
 {
     static const char *const tip[] = {[TIP_PYRAMID] = "pyramid:half-angle=35deg,radius=20nm",
                                       [TIP_SHARP] = "pyramid:half-angle=35deg,radius=0nm",
@@ -156,8 +156,8 @@ static void observe(int scene, const void *prepared, random_source *random, tria
                                       [TIP_PUNCH] = "punch:radius=100nm"};
     const afm_scene *s = &afm_scenes[scene];
     const afm_sample *sample = prepared;
-    const char *made = trial_file(t, "indentation.tsv");
-    const char *spectrum = s->dma > 0 ? trial_file(t, "spectrum.tsv") : NULL;
+    const char *made = scene_draw_file(t, "indentation.tsv");
+    const char *spectrum = s->dma > 0 ? scene_draw_file(t, "spectrum.tsv") : NULL;
     char told[128], cantilever[32];
     snprintf(told, sizeof told, "%s", tip[s->tip]);
     if (s->radius_stated > 0) /* at a depth of 50 nm */
@@ -171,7 +171,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     int n = 1;
     if (make_spots(&from, sample, s, random, t) != 0 ||
         (spectrum != NULL && write_spectrum(s, spectrum) != 0)) {
-        trial_broke(t, "the curves cannot be written");
+        scene_draw_broke(t, "the curves cannot be written");
     } else {
         const char *const options[] = {
             "--tip", told, "--group",         "bulk",
@@ -202,7 +202,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
             for (size_t i = 0; i < sizeof exact / sizeof exact[0]; i++)
                 arguments[n++] = exact[i];
         }
-        if (trial_run(t, arguments))
+        if (scene_draw_run(t, arguments))
             read_curves(made, s, sample, &from, t);
     }
     for (int i = 0; i < from.n; i++)

@@ -2,7 +2,7 @@
 #ifndef STUDY_AFM_OBSERVE_H
 #define STUDY_AFM_OBSERVE_H
 
-#include "trial.h"
+#include "scene_draw.h"
 
 family afm_family(void);
 

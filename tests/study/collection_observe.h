@@ -3,7 +3,7 @@
 #ifndef STUDY_COLLECTION_OBSERVE_H
 #define STUDY_COLLECTION_OBSERVE_H
 
-#include "trial.h"
+#include "scene_draw.h"
 
 family collection_family(void);
 

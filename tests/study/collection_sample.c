@@ -340,7 +340,7 @@ static const char *base_name(const char *path)
 
 /* Curves of a zone, and their element in the case; `of` names the case. */
 static int write_zone(const study_case *s, const study_compound_truth *compound, const char *of,
-                      const char *zone, double true_lever, random_source *random, trial *t,
+                      const char *zone, double true_lever, random_source *random, scene_draw *t,
                       FILE *out)
 {
     const double ratio = strcmp(zone, "bulk") == 0 ? 1 : s->ratio;
@@ -349,7 +349,7 @@ static int write_zone(const study_case *s, const study_compound_truth *compound,
     for (int i = 0; i < s->spots && !bad; i++) {
         char name[32];
         snprintf(name, sizeof name, "%s-%s%d.tsv", of, zone, i + 1);
-        const char *path = trial_file(t, name);
+        const char *path = scene_draw_file(t, name);
         bad = write_spot(compound, ratio * exp(s->spot_scatter * random_normal(random)), true_lever,
                          random, path);
         fprintf(out, "<files spot=\"%s%d\">%s</files>\n", zone, i + 1, base_name(path));
@@ -391,14 +391,14 @@ static void write_sections(const collection_scene *s, const study_truth *truth,
 }
 
 int study_write_case(const collection_scene *s, const study_prepared *p, const study_truth *truth,
-                     const study_files *files, int c, int k, random_source *random, trial *t,
+                     const study_files *files, int c, int k, random_source *random, scene_draw *t,
                      const char *path)
 {
     char of[16], name[24];
     const study_case *here = &s->cases[c][k];
     snprintf(of, sizeof of, "%s-%s", study_compound[c], study_severity[k]);
     snprintf(name, sizeof name, "%s.csv", of);
-    const char *record = trial_file(t, name);
+    const char *record = scene_draw_file(t, name);
     FILE *out = fopen(path, "w");
     if (out == NULL ||
         write_record(s, truth->with_layer[c][k], &truth->growth[c][k], random, record) != 0)

@@ -9,7 +9,7 @@
 #include "dma_scene.h"
 #include "growth.h"
 #include "material.h"
-#include "trial.h"
+#include "scene_draw.h"
 
 enum { STUDY_RATES = 3, STUDY_VELOCITIES = 4 };
 extern const double study_velocity[STUDY_VELOCITIES]; /* [m/s] */
@@ -55,6 +55,6 @@ int study_write_common(const study_prepared *p, random_source *random, const stu
 /* Writes the case file of a compound and a severity, its curves and its record; returns 0 or -1. */
 int study_write_case(const collection_scene *s, const study_prepared *p, const study_truth *truth,
                      const study_files *files, int compound, int severity, random_source *random,
-                     trial *t, const char *path);
+                     scene_draw *t, const char *path);
 
 #endif

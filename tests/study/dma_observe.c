@@ -52,7 +52,8 @@ static double true_shift(const dma_scene *s, double temperature, double referenc
     return fmax(fmin(shift[0], shift[1]), fmin(found, fmax(shift[0], shift[1])));
 }
 
-static void compare_shifts(const stream *t, const dma_scene *s, const sample *measured, trial *to)
+static void compare_shifts(const stream *t, const dma_scene *s, const sample *measured,
+                           scene_draw *to)
 {
     double reference = s->reference;
     for (int i = 0; i < measured->n; i++)
@@ -65,26 +66,26 @@ static void compare_shifts(const stream *t, const dma_scene *s, const sample *me
             if (fabs(m->temperature - at) > 0.01 || fabs(at - s->reference) < 0.01)
                 continue;
             const estimate shift = place_row(t, &place_shift, row);
-            trial_add(to, Q_SHIFT, true_shift(s, m->true_temperature, reference, shift.value),
-                      shift);
+            scene_draw_add(to, Q_SHIFT, true_shift(s, m->true_temperature, reference, shift.value),
+                           shift);
             if (is_failing(s))
                 continue;
             const estimate law = place_row(t, &place_law, row);
-            trial_add(to, Q_LAW, law_shift(&s->law, s->reference, at),
-                      isnan(law.low) ? law_of_constants(t, s, at) : law);
+            scene_draw_add(to, Q_LAW, law_shift(&s->law, s->reference, at),
+                           isnan(law.low) ? law_of_constants(t, s, at) : law);
         }
     }
 }
 
-static void compare_constants(const stream *t, const dma_scene *s, trial *to)
+static void compare_constants(const stream *t, const dma_scene *s, scene_draw *to)
 {
     const double reach = s->reference - s->law.t_inf;
-    trial_add(to, Q_C1, s->law.b / reach, place_key(t, &place_c1));
-    trial_add(to, Q_C2, reach, place_key(t, &place_c2));
+    scene_draw_add(to, Q_C1, s->law.b / reach, place_key(t, &place_c1));
+    scene_draw_add(to, Q_C2, reach, place_key(t, &place_c2));
     const double outside[] = {s->first - 10, s->last + 10};
     for (int i = 0; i < 2; i++)
-        trial_add(to, Q_LAW_OUTSIDE, law_shift(&s->law, s->reference, outside[i]),
-                  law_of_constants(t, s, outside[i]));
+        scene_draw_add(to, Q_LAW_OUTSIDE, law_shift(&s->law, s->reference, outside[i]),
+                       law_of_constants(t, s, outside[i]));
 }
 
 static int ascending(const void *a, const void *b)
@@ -103,7 +104,7 @@ static rubber_state stated_state(const dma_scene *s, const rubber *r)
 
 /* Stated interval of the row with the nearest frequency. */
 static void compare_row(const stream *t, const dma_scene *s, const rubber *r, double omega,
-                        trial *to)
+                        scene_draw *to)
 {
     const rubber_state state = stated_state(s, r);
     int nearest = 0;
@@ -117,13 +118,13 @@ static void compare_row(const stream *t, const dma_scene *s, const rubber *r, do
     }
     state_moduli(&state, stream_cell(t, place_storage.table, PLACE_FREQUENCY, nearest), &storage,
                  &loss);
-    trial_add(to, Q_STORAGE, storage, place_row(t, &place_storage, nearest));
-    trial_add(to, Q_LOSS, loss, place_row(t, &place_loss, nearest));
+    scene_draw_add(to, Q_STORAGE, storage, place_row(t, &place_storage, nearest));
+    scene_draw_add(to, Q_LOSS, loss, place_row(t, &place_loss, nearest));
 }
 
 /* Sum of the terms; its error is that of the curve with it, if stated. */
 static void compare_prony(const stream *t, const dma_scene *s, const rubber *r, double omega,
-                          trial *to)
+                          scene_draw *to)
 {
     if (stream_rows(t, PLACE_PRONY) == 0)
         return; /* one modulus alone determines no series */
@@ -141,13 +142,13 @@ static void compare_prony(const stream *t, const dma_scene *s, const rubber *r, 
     const estimate es = curve[0].found, el = curve[1].found;
     const double ds = (es.high - es.low) / 2 * sum_storage / es.value;
     const double dl = (el.high - el.low) / 2 * sum_loss / el.value;
-    trial_add(to, Q_PRONY_STORAGE, storage,
-              (estimate){sum_storage, sum_storage - ds, sum_storage + ds});
-    trial_add(to, Q_PRONY_LOSS, loss, (estimate){sum_loss, sum_loss - dl, sum_loss + dl});
+    scene_draw_add(to, Q_PRONY_STORAGE, storage,
+                   (estimate){sum_storage, sum_storage - ds, sum_storage + ds});
+    scene_draw_add(to, Q_PRONY_LOSS, loss, (estimate){sum_loss, sum_loss - dl, sum_loss + dl});
 }
 
 /* Frequencies at equal logarithmic distances over the master curve, with both ends. */
-static void compare_curve(const stream *t, const dma_scene *s, const rubber *r, trial *to)
+static void compare_curve(const stream *t, const dma_scene *s, const rubber *r, scene_draw *to)
 {
     const int n = stream_rows(t, place_storage.table);
     double *omega = malloc((size_t)(n + 1) * sizeof *omega);
@@ -165,8 +166,8 @@ static void compare_curve(const stream *t, const dma_scene *s, const rubber *r, 
         compare_row(t, s, r, w, to);
         compare_prony(t, s, r, w, to);
     }
-    trial_add(to, Q_EQUILIBRIUM, stated_state(s, r).factor * r->equilibrium,
-              place_key(t, &place_equilibrium));
+    scene_draw_add(to, Q_EQUILIBRIUM, stated_state(s, r).factor * r->equilibrium,
+                   place_key(t, &place_equilibrium));
     free(omega);
 }
 
@@ -189,11 +190,11 @@ static verdict read_verdict(const stream *t)
 }
 
 static void compare_master(const char *path, const dma_scene *s, const rubber *r,
-                           const sample *measured, trial *to)
+                           const sample *measured, scene_draw *to)
 {
     stream *t = stream_read(path);
     if (t == NULL || stream_rows(t, place_shift.table) == 0) {
-        trial_broke(to, "no shift factors in what was written");
+        scene_draw_broke(to, "no shift factors in what was written");
         stream_free(t);
         return;
     }
@@ -207,11 +208,11 @@ static void compare_master(const char *path, const dma_scene *s, const rubber *r
 }
 
 static void compare_friction(const char *path, const contact *c, const contact_truth *truth,
-                             bool kept, trial *to)
+                             bool kept, scene_draw *to)
 {
     stream *t = stream_read(path);
     if (t == NULL) {
-        trial_broke(to, "no friction in what was written");
+        scene_draw_broke(to, "no friction in what was written");
         return;
     }
     for (int i = 0; i < c->velocities; i++)
@@ -219,23 +220,24 @@ static void compare_friction(const char *path, const contact *c, const contact_t
             const double v = stream_cell(t, place_hysteresis.table, PLACE_VELOCITY, row);
             if (fabs(v / c->velocity[i] - 1) > 1e-6)
                 continue;
-            trial_add(to, kept ? Q_HYSTERESIS_KEPT : Q_HYSTERESIS, truth->hysteresis[i],
-                      place_row(t, &place_hysteresis, row));
-            trial_add(to, kept ? Q_AREA_KEPT : Q_AREA, truth->area[i],
-                      place_row(t, &place_area, row));
+            scene_draw_add(to, kept ? Q_HYSTERESIS_KEPT : Q_HYSTERESIS, truth->hysteresis[i],
+                           place_row(t, &place_hysteresis, row));
+            scene_draw_add(to, kept ? Q_AREA_KEPT : Q_AREA, truth->area[i],
+                           place_row(t, &place_area, row));
             if (!kept)
-                trial_add(to, Q_FRICTION, truth->friction[i], place_row(t, &place_friction, row));
+                scene_draw_add(to, Q_FRICTION, truth->friction[i],
+                               place_row(t, &place_friction, row));
         }
     stream_free(t);
 }
 
-static void compare_layer(const char *path, const contact_truth *truth, trial *to)
+static void compare_layer(const char *path, const contact_truth *truth, scene_draw *to)
 {
     stream *t = stream_read(path);
     if (t == NULL)
-        trial_broke(to, "no layer in what was written");
+        scene_draw_broke(to, "no layer in what was written");
     else
-        trial_add(to, Q_THICKNESS, truth->thickness, place_key(t, &place_thickness));
+        scene_draw_add(to, Q_THICKNESS, truth->thickness, place_key(t, &place_thickness));
     stream_free(t);
 }
 
@@ -313,21 +315,22 @@ static void append_isotherms(line *l, const dma_scene *s, const char *sweep)
     append_argument(l, "--vertical-shift", s->vertical);
 }
 
-static bool run(line *l, const char *output, trial *t)
+static bool run(line *l, const char *output, scene_draw *t)
 {
     append_argument(l, "-o", output);
     l->words[l->n++] = "--no-provenance";
     l->words[l->n] = NULL;
-    return trial_run(t, l->words);
+    return scene_draw_run(t, l->words);
 }
 
 /* Friction from the isotherms and from the stored master curve, and the layer. */
 static void observe_contact(const dma_scene *s, const contact_truth *truth, const char *sweep,
-                            const char *master, trial *t)
+                            const char *master, scene_draw *t)
 {
     const contact *c = s->contact;
-    const char *friction = trial_file(t, "friction.tsv"), *kept = trial_file(t, "kept.tsv");
-    const char *layer = trial_file(t, "layer.tsv");
+    const char *friction = scene_draw_file(t, "friction.tsv"),
+               *kept = scene_draw_file(t, "kept.tsv");
+    const char *layer = scene_draw_file(t, "layer.tsv");
     line from_sweep = {.words = {"friction"}, .n = 1}, from_master = from_sweep;
     append_contact(&from_sweep, c);
     append_uncertain(&from_sweep, "--shear-stress", c->shear_stress, "Pa", c->error);
@@ -387,11 +390,11 @@ static void *prepare(int scene)
     return p;
 }
 
-static void observe(int scene, const void *what, random_source *random, trial *t)
+static void observe(int scene, const void *what, random_source *random, scene_draw *t)
 {
     const dma_scene *s = &dma_scenes[scene];
     const prepared *p = what;
-    const char *sweep = trial_file(t, "sweep.csv"), *master = trial_file(t, "master.tsv");
+    const char *sweep = scene_draw_file(t, "sweep.csv"), *master = scene_draw_file(t, "master.tsv");
     sample *measured = calloc(1, sizeof *measured);
     line l = {.words = {"master", sweep}, .n = 2};
     if (measured == NULL)
@@ -401,7 +404,7 @@ static void observe(int scene, const void *what, random_source *random, trial *t
     append_argument(&l, "--vertical-shift", s->vertical);
     append_argument(&l, "--shift-by", s->by);
     if (sample_write(s, measured, sweep) != 0) {
-        trial_broke(t, "the isotherms cannot be written");
+        scene_draw_broke(t, "the isotherms cannot be written");
     } else if (run(&l, master, t)) {
         compare_master(master, s, &p->rubber, measured, t);
         contact_truth truth = p->truth;

@@ -3,7 +3,7 @@
 #ifndef STUDY_DMA_OBSERVE_H
 #define STUDY_DMA_OBSERVE_H
 
-#include "trial.h"
+#include "scene_draw.h"
 
 family dma_family(void);
 

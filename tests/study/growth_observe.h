@@ -2,7 +2,7 @@
 #ifndef STUDY_GROWTH_OBSERVE_H
 #define STUDY_GROWTH_OBSERVE_H
 
-#include "trial.h"
+#include "scene_draw.h"
 
 family growth_family(void);
 

@@ -33,24 +33,26 @@ static void *prepare(int scene)
     return NULL;
 }
 
-static void read_found(const contact *truth, const char *path, trial *t)
+static void read_found(const contact *truth, const char *path, scene_draw *t)
 {
     enum { BY_WEAR = 1 }; /* the first row uses the thickness alone */
     stream *found = stream_read(path);
     if (found == NULL || stream_rows(found, place_energy.table) != 2) {
-        trial_broke(t, "another number of rows");
+        scene_draw_broke(t, "another number of rows");
     } else {
-        trial_add(t, Q_CRITICAL_ENERGY, truth->critical_energy,
-                  place_row(found, &place_energy, BY_WEAR));
-        trial_add(t, Q_WEAR_RATE, truth->wear_rate, place_row(found, &place_energy_wear, BY_WEAR));
+        scene_draw_add(t, Q_CRITICAL_ENERGY, truth->critical_energy,
+                       place_row(found, &place_energy, BY_WEAR));
+        scene_draw_add(t, Q_WEAR_RATE, truth->wear_rate,
+                       place_row(found, &place_energy_wear, BY_WEAR));
     }
     stream_free(found);
 }
 
-static void observe(int scene, const void *prepared, random_source *random, trial *t)
+static void observe(int scene, const void *prepared, random_source *random, scene_draw *t)
 {
     const identify_scene *s = &identify_scenes[scene];
-    const char *material = trial_file(t, "material.tsv"), *made = trial_file(t, "found.tsv");
+    const char *material = scene_draw_file(t, "material.tsv"),
+               *made = scene_draw_file(t, "found.tsv");
     const rubber lines = rubber_make(RUBBER_LINES);
     const rubber_state state = {.rubber = &lines, .a = {1, 1}, .factor = 1};
     char surface[160], pressure[64], thickness[64], wear[64];
@@ -80,10 +82,10 @@ static void observe(int scene, const void *prepared, random_source *random, tria
                                      made,       "--no-provenance",
                                      NULL};
     if (!(layer.thickness > 0))
-        trial_broke(t, "there is no layer");
+        scene_draw_broke(t, "there is no layer");
     else if (!rubber_write(&lines, material))
-        trial_broke(t, "the material cannot be written");
-    else if (trial_run(t, arguments))
+        scene_draw_broke(t, "the material cannot be written");
+    else if (scene_draw_run(t, arguments))
         read_found(&truth, made, t);
 }
 

@@ -2,7 +2,7 @@
 #ifndef STUDY_IDENTIFY_OBSERVE_H
 #define STUDY_IDENTIFY_OBSERVE_H
 
-#include "trial.h"
+#include "scene_draw.h"
 
 family identify_family(void);
 

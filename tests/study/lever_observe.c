@@ -75,7 +75,7 @@ static int write_zone(const lever_scene *s, int zone, const calibration *c, rand
 }
 
 static bool run_indent(const lever_scene *s, int zone, const calibration *c,
-                       const char *const *paths, const char *made, trial *t)
+                       const char *const *paths, const char *made, scene_draw *t)
 {
     char tip[128], cantilever[64], sensitivity[32];
     const char *arguments[SPOTS + 20] = {
@@ -92,37 +92,37 @@ static bool run_indent(const lever_scene *s, int zone, const calibration *c,
     }
     for (int i = 0; i < SPOTS; i++)
         arguments[n++] = paths[i];
-    return trial_run(t, arguments);
+    return scene_draw_run(t, arguments);
 }
 
-static void read_budget(const lever_scene *s, int zone, const char *path, trial *t)
+static void read_budget(const lever_scene *s, int zone, const char *path, scene_draw *t)
 {
     const double ratio = s->ratio > 0 ? s->ratio : usual_ratio;
     stream *found = stream_read(path);
     const estimate e = found != NULL ? place_key(found, &place_budget[zone]) : (estimate){0};
     /* without an accepted curve there is none: every curve reveals so wrong a tip */
     if (found == NULL)
-        trial_broke(t, "nothing was written");
+        scene_draw_broke(t, "nothing was written");
     else if (!(e.value > 0))
         t->draw->outcome = OUTCOME_REFUSED;
     else
-        trial_add(t, Q_GROUP_MODULUS, bulk_modulus * (zone > 0 ? ratio : 1), e);
+        scene_draw_add(t, Q_GROUP_MODULUS, bulk_modulus * (zone > 0 ? ratio : 1), e);
     stream_free(found);
 }
 
-static void read_ratio(const lever_scene *s, const char *path, trial *t)
+static void read_ratio(const lever_scene *s, const char *path, scene_draw *t)
 {
     stream *found = stream_read(path);
     if (found == NULL || stream_rows(found, place_ratio.table) == 0) {
-        trial_broke(t, "no comparison in what was written");
+        scene_draw_broke(t, "no comparison in what was written");
     } else {
         const char *said = stream_key(found, place_ratio.table, PLACE_DIFFERS);
         t->draw->verdict = said == NULL                                       ? NO_VERDICT
                            : strncmp(said, PLACE_YES, strlen(PLACE_YES)) == 0 ? YES
                            : strncmp(said, PLACE_NO, strlen(PLACE_NO)) == 0   ? NO
                                                                               : INCONCLUSIVE;
-        trial_add(t, Q_RATIO, s->ratio > 0 ? s->ratio : usual_ratio,
-                  place_row(found, &place_ratio, 0));
+        scene_draw_add(t, Q_RATIO, s->ratio > 0 ? s->ratio : usual_ratio,
+                       place_row(found, &place_ratio, 0));
     }
     stream_free(found);
 }
@@ -138,23 +138,23 @@ static void *prepare(int scene)
     return NULL;
 }
 
-static void observe(int scene, const void *prepared, random_source *random, trial *t)
+static void observe(int scene, const void *prepared, random_source *random, scene_draw *t)
 {
     const lever_scene *s = &lever_scenes[scene];
-    const char *compared = trial_file(t, "comparison.tsv"), *paths[SPOTS],
-               *made[2] = {trial_file(t, "bulk.tsv"), trial_file(t, "track.tsv")};
+    const char *compared = scene_draw_file(t, "comparison.tsv"), *paths[SPOTS],
+               *made[2] = {scene_draw_file(t, "bulk.tsv"), scene_draw_file(t, "track.tsv")};
     calibration c = draw_calibration(s, 0, random);
     char name[24];
     (void)prepared;
     for (int i = 0; i < SPOTS; i++) {
         snprintf(name, sizeof name, "spot%d.tsv", i + 1);
-        paths[i] = trial_file(t, name);
+        paths[i] = scene_draw_file(t, name);
     }
     for (int zone = 0; zone < 2; zone++) {
         if (zone > 0 && s->two)
             c = draw_calibration(s, zone, random);
         if (write_zone(s, zone, &c, random, paths) != 0) {
-            trial_broke(t, "the curves cannot be written");
+            scene_draw_broke(t, "the curves cannot be written");
             return;
         }
         if (!run_indent(s, zone, &c, paths, made[zone], t))
@@ -164,7 +164,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     }
     const char *const arguments[] = {"compare", made[0],           made[1], "-o",
                                      compared,  "--no-provenance", NULL};
-    if (trial_run(t, arguments))
+    if (scene_draw_run(t, arguments))
         read_ratio(s, compared, t);
 }
 

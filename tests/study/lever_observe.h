@@ -2,7 +2,7 @@
 #ifndef STUDY_LEVER_OBSERVE_H
 #define STUDY_LEVER_OBSERVE_H
 
-#include "trial.h"
+#include "scene_draw.h"
 
 family lever_family(void);
 

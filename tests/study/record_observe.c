@@ -143,23 +143,23 @@ static void *prepare(int scene)
 }
 
 static void read_step(const record_scene *s, const made_record *r, const stream *found, int row,
-                      trial *t)
+                      scene_draw *t)
 {
     const double truth = r->steady * pow(per_step, row);
     const estimate drift = place_row(found, &place_drift, row);
     if (s->drift > 0) { /* the mean is that of a part */
         const double cycles = stream_cell(found, place_steady.table, PLACE_STEADY_CYCLES, row);
-        trial_add(t, Q_DRIFT, r->drift * (cycles - 1), drift);
+        scene_draw_add(t, Q_DRIFT, r->drift * (cycles - 1), drift);
         return;
     }
-    trial_add(t, Q_STEADY, truth, place_row(found, &place_steady, row));
+    scene_draw_add(t, Q_STEADY, truth, place_row(found, &place_steady, row));
     if (s->form == NO_RUNNING_IN)
-        trial_add(t, Q_DRIFT, 0, drift);
+        scene_draw_add(t, Q_DRIFT, 0, drift);
     else if (s->pause != NO_PAUSE) /* time of sliding */
-        trial_add(t, Q_RUNNING_IN, lap_time * r->end,
-                  place_row(found, &place_running_in_time, row));
+        scene_draw_add(t, Q_RUNNING_IN, lap_time * r->end,
+                       place_row(found, &place_running_in_time, row));
     else if (s->form != EXPONENTIAL)
-        trial_add(t, Q_RUNNING_IN, r->end, place_row(found, &place_running_in, row));
+        scene_draw_add(t, Q_RUNNING_IN, r->end, place_row(found, &place_running_in, row));
 }
 
 /* Measured value with its stated error. */
@@ -189,7 +189,7 @@ static int add_wear(const record_scene *s, const made_record *r, random_source *
 }
 
 static void read_record(const record_scene *s, const made_record *r, double rate, const char *path,
-                        trial *t)
+                        scene_draw *t)
 {
     stream *found = stream_read(path);
     const int rows = found != NULL ? stream_rows(found, place_steady.table) : 0,
@@ -198,22 +198,22 @@ static void read_record(const record_scene *s, const made_record *r, double rate
                               ? stream_cell(found, place_steady.table, PLACE_PAUSED, 0)
                               : 0;
     if (rows != steps) {
-        trial_broke(t, "another number of steps");
+        scene_draw_broke(t, "another number of steps");
     } else if (s->pause != NO_PAUSE && !(fabs(paused - r->paused) < 0.2 * lap_time)) {
-        trial_broke(t, "another time of rest");
+        scene_draw_broke(t, "another time of rest");
     } else {
         for (int row = 0; row < rows; row++)
             read_step(s, r, found, row, t);
         if (s->area_error > 0 || s->mass_error > 0)
-            trial_add(t, Q_WEAR_RATE, rate, place_row(found, &place_wear_rate, 0));
+            scene_draw_add(t, Q_WEAR_RATE, rate, place_row(found, &place_wear_rate, 0));
     }
     stream_free(found);
 }
 
-static void observe(int scene, const void *prepared, random_source *random, trial *t)
+static void observe(int scene, const void *prepared, random_source *random, scene_draw *t)
 {
     const record_scene *s = &record_scenes[scene];
-    const char *path = trial_file(t, "record.csv"), *made = trial_file(t, "found.tsv");
+    const char *path = scene_draw_file(t, "record.csv"), *made = scene_draw_file(t, "found.tsv");
     const char *arguments[16] = {"record",         path,  "-o", made, "--no-provenance",
                                  "--track-radius", "12mm"};
     char words[2][64];
@@ -223,10 +223,10 @@ static void observe(int scene, const void *prepared, random_source *random, tria
     (void)add_wear(s, &r, random, words, arguments + 7, &rate);
     FILE *out = r.lap != NULL ? fopen(path, "w") : NULL;
     if (out == NULL) {
-        trial_broke(t, "the record cannot be written");
+        scene_draw_broke(t, "the record cannot be written");
     } else {
         (s->strokes ? write_strokes : s->pause != NO_PAUSE ? write_paused : write_disc)(s, &r, out);
-        if (ferror(out) == 0 && fclose(out) == 0 && trial_run(t, arguments))
+        if (ferror(out) == 0 && fclose(out) == 0 && scene_draw_run(t, arguments))
             read_record(s, &r, rate, made, t);
     }
     free(r.lap);

@@ -2,7 +2,7 @@
 #ifndef STUDY_RECORD_OBSERVE_H
 #define STUDY_RECORD_OBSERVE_H
 
-#include "trial.h"
+#include "scene_draw.h"
 
 family record_family(void);
 

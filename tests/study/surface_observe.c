@@ -90,18 +90,18 @@ static double true_rms(const synthetic_surface *truth, double first, double last
 }
 
 static void read_spectrum(const char *path, const surface_scene *s, const synthetic_surface *truth,
-                          trial *t)
+                          scene_draw *t)
 {
     stream *found = stream_read(path);
     const int n = found != NULL ? stream_rows(found, place_density.table) : 0;
     if (n < 1)
-        trial_broke(t, "no spectrum of a surface");
+        scene_draw_broke(t, "no spectrum of a surface");
     for (int i = 0; i < n; i++) {
         const bool by_law =
             stream_is(found, place_density.table, PLACE_SOURCE, i, PLACE_BY_LAW) != 0;
         if (by_law && i + 1 < n)
             continue; /* the errors of all rows of the law are correlated; the last row is tested */
-        trial_add(
+        scene_draw_add(
             t, by_law ? Q_BEYOND : Q_DENSITY,
             surface_density(truth, stream_cell(found, place_density.table, PLACE_WAVENUMBER, i)),
             place_row(found, &place_density, i));
@@ -109,28 +109,28 @@ static void read_spectrum(const char *path, const surface_scene *s, const synthe
     if (n > 0) {
         const double first = stream_cell(found, place_density.table, PLACE_WAVENUMBER, 0),
                      last = stream_cell(found, place_density.table, PLACE_WAVENUMBER, n - 1);
-        trial_add(t, Q_RMS_HEIGHT, true_rms(truth, first, last, 1),
-                  place_key(found, &place_rms_height));
-        trial_add(t, Q_RMS_SLOPE, true_rms(truth, first, last, 3),
-                  place_key(found, &place_rms_slope));
-        trial_add(t, Q_HURST, truth->hurst, place_key(found, &place_hurst));
+        scene_draw_add(t, Q_RMS_HEIGHT, true_rms(truth, first, last, 1),
+                       place_key(found, &place_rms_height));
+        scene_draw_add(t, Q_RMS_SLOPE, true_rms(truth, first, last, 3),
+                       place_key(found, &place_rms_slope));
+        scene_draw_add(t, Q_HURST, truth->hurst, place_key(found, &place_hurst));
         /* profiles have too few bins for a roll-off */
         if (!(s->roll_off > 0) && s->profiles == 0) {
-            trial_add(t, Q_ROLL_OFF, truth->roll_off, place_key(found, &place_roll_off));
-            trial_add(t, Q_C0, truth->c0, place_key(found, &place_c0));
+            scene_draw_add(t, Q_ROLL_OFF, truth->roll_off, place_key(found, &place_roll_off));
+            scene_draw_add(t, Q_C0, truth->c0, place_key(found, &place_c0));
         }
     }
     if (n > 0 && s->stretch > 0) {
-        trial_add(t, Q_ANISOTROPY, s->stretch, place_key(found, &place_anisotropy));
-        trial_add(t, Q_TEXTURE, s->texture, place_key(found, &place_texture));
+        scene_draw_add(t, Q_ANISOTROPY, s->stretch, place_key(found, &place_anisotropy));
+        scene_draw_add(t, Q_TEXTURE, s->texture, place_key(found, &place_texture));
     }
     stream_free(found);
 }
 
-static void observe(int scene, const void *prepared, random_source *random, trial *t)
+static void observe(int scene, const void *prepared, random_source *random, scene_draw *t)
 {
     const surface_scene *s = &surface_scenes[scene];
-    const char *made = trial_file(t, "spectrum.tsv");
+    const char *made = scene_draw_file(t, "spectrum.tsv");
     const char *arguments[MOST_SCANS + 7] = {"psd", "-o", made, "--no-provenance"};
     const int wide = s->profiles > 0 ? s->profiles
                      : s->places > 0 ? s->places
@@ -147,9 +147,9 @@ static void observe(int scene, const void *prepared, random_source *random, tria
                                                           : side / (smaller * smaller));
         here.c0 *= exp(s->scatter * random_normal(random));
         snprintf(name, sizeof name, "scan%d.gsf", i + 1);
-        arguments[4 + i] = trial_file(t, name);
+        arguments[4 + i] = scene_draw_file(t, name);
         if (write_scan(s, &here, random, arguments[4 + i]) != 0) {
-            trial_broke(t, "the scan cannot be written");
+            scene_draw_broke(t, "the scan cannot be written");
             return;
         }
     }
@@ -159,7 +159,7 @@ static void observe(int scene, const void *prepared, random_source *random, tria
         arguments[4 + all] = "--end";
         arguments[5 + all] = end;
     }
-    if (trial_run(t, arguments))
+    if (scene_draw_run(t, arguments))
         read_spectrum(made, s, &truth, t);
 }
 

@@ -3,7 +3,7 @@
 #ifndef STUDY_SURFACE_OBSERVE_H
 #define STUDY_SURFACE_OBSERVE_H
 
-#include "trial.h"
+#include "scene_draw.h"
 
 family surface_family(void);
 

@@ -3,7 +3,7 @@
 #ifndef STUDY_TALLY_H
 #define STUDY_TALLY_H
 
-#include "trial.h"
+#include "scene_draw.h"
 
 #include <stdio.h>
 

@@ -33,17 +33,17 @@ static int write_spot(const thickness_scene *s, const thin_sample *layer, int zo
 
 /* Table of a zone; NULL if the command failed. */
 static const char *indent_zone(const thickness_scene *s, const thin_sample *layer, int zone,
-                               random_source *random, trial *t)
+                               random_source *random, scene_draw *t)
 {
     char name[32];
     const char *paths[SPOTS];
     snprintf(name, sizeof name, "%s.tsv", zones[zone]);
-    const char *const made = trial_file(t, name);
+    const char *const made = scene_draw_file(t, name);
     for (int spot = 0; spot < SPOTS; spot++) {
         snprintf(name, sizeof name, "%s-%d.tsv", zones[zone], spot + 1);
-        paths[spot] = trial_file(t, name);
+        paths[spot] = scene_draw_file(t, name);
         if (write_spot(s, layer, zone, spot, random, paths[spot]) != 0) {
-            trial_broke(t, "the curves cannot be written");
+            scene_draw_broke(t, "the curves cannot be written");
             return NULL;
         }
     }
@@ -64,7 +64,7 @@ static const char *indent_zone(const thickness_scene *s, const thin_sample *laye
                                      paths[2],
                                      paths[3],
                                      NULL};
-    return trial_run(t, arguments) ? made : NULL;
+    return scene_draw_run(t, arguments) ? made : NULL;
 }
 
 /* ---- output ---------------------------------------------------------------------------------- */
@@ -88,14 +88,14 @@ static estimate range_of(const stream *found, const char *low, const char *high)
     return e;
 }
 
-static void read_layer(const char *path, const thickness_scene *s, trial *t)
+static void read_layer(const char *path, const thickness_scene *s, scene_draw *t)
 {
     stream *found = stream_read(path);
     const char *allowed =
         found != NULL ? stream_key(found, PLACE_LAYER, PLACE_LAYER_ALLOWED) : NULL;
     const char *agree = found != NULL ? stream_key(found, PLACE_LAYER, PLACE_LAYER_AGREE) : NULL;
     if (allowed == NULL || agree == NULL) {
-        trial_broke(t, "no thickness in what was written");
+        scene_draw_broke(t, "no thickness in what was written");
     } else {
         /* a track of one rubber is thicker than any indentation */
         const double whole = 15, truth = s->thickness > 0 ? log(s->thickness / nanometre) : whole;
@@ -104,12 +104,12 @@ static void read_layer(const char *path, const thickness_scene *s, trial *t)
             e.low = e.high = e.value = -1;
         if (begins(allowed, PLACE_INCONCLUSIVE))
             e.low = e.high = (double)NAN;
-        trial_add(t, Q_ALLOWED, truth, e);
+        scene_draw_add(t, Q_ALLOWED, truth, e);
         if (s->other == 1) /* range in which the other source is right */
-            trial_add(t, Q_BOTH, truth,
-                      stream_key(found, PLACE_LAYER, PLACE_LAYER_BOTH_LOW) != NULL
-                          ? range_of(found, PLACE_LAYER_BOTH_LOW, PLACE_LAYER_BOTH_HIGH)
-                          : (estimate){-1, -1, -1});
+            scene_draw_add(t, Q_BOTH, truth,
+                           stream_key(found, PLACE_LAYER, PLACE_LAYER_BOTH_LOW) != NULL
+                               ? range_of(found, PLACE_LAYER_BOTH_LOW, PLACE_LAYER_BOTH_HIGH)
+                               : (estimate){-1, -1, -1});
         t->draw->verdict = begins(agree, PLACE_YES)            ? YES
                            : begins(agree, PLACE_INCONCLUSIVE) ? INCONCLUSIVE
                            : begins(agree, PLACE_NO)           ? NO
@@ -136,7 +136,7 @@ static void *prepare(int scene)
                             : NULL;
 }
 
-static void observe(int scene, const void *prepared, random_source *random, trial *t)
+static void observe(int scene, const void *prepared, random_source *random, scene_draw *t)
 {
     const thickness_scene *s = &thickness_scenes[scene];
     const double mean = s->thickness > 0 ? s->other * s->thickness : s->other_thickness;
@@ -148,11 +148,11 @@ static void observe(int scene, const void *prepared, random_source *random, tria
             return;
     snprintf(told, sizeof told, "%.9gnm +- %.9gnm", other / nanometre,
              s->other_error * other / nanometre);
-    const char *compared = trial_file(t, "layer.tsv");
+    const char *compared = scene_draw_file(t, "layer.tsv");
     const char *const arguments[] = {
         "compare", made[0], made[1],  "--expected-thickness", told, "--indentation-temperature",
         "23degC",  "-o",    compared, "--no-provenance",      NULL};
-    if (trial_run(t, arguments))
+    if (scene_draw_run(t, arguments))
         read_layer(compared, s, t);
 }
 

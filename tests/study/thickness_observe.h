@@ -3,7 +3,7 @@
 #ifndef STUDY_THICKNESS_OBSERVE_H
 #define STUDY_THICKNESS_OBSERVE_H
 
-#include "trial.h"
+#include "scene_draw.h"
 
 family thickness_family(void);
 

@@ -159,12 +159,12 @@ static void append_argument(words *w, const char *option, const char *value)
         w->word[w->n++] = value;
 }
 
-static bool run(words *w, const char *output, trial *t)
+static bool run(words *w, const char *output, scene_draw *t)
 {
     append_argument(w, "-o", output);
     append_argument(w, "--no-provenance", NULL);
     w->word[w->n] = NULL;
-    return trial_run(t, w->word);
+    return scene_draw_run(t, w->word);
 }
 
 /* The rubber as in a DMA: the same rise of the moduli with the rate, and a shift law. */
@@ -220,7 +220,8 @@ static int write_rubber(const track_scene *s, const char *path)
     return fclose(file) != 0 || bad ? -1 : 0;
 }
 
-static bool run_compare(const track_scene *s, const char *const *files, const char *made, trial *t)
+static bool run_compare(const track_scene *s, const char *const *files, const char *made,
+                        scene_draw *t)
 {
     words w = {.word = {"compare", files[0], files[1]}, .n = 3};
     char sensitivity[32];
@@ -232,9 +233,9 @@ static bool run_compare(const track_scene *s, const char *const *files, const ch
     if (s->scatter_is_stated)
         append_argument(&w, "--between-spot-sd", scatter);
     if (s->warmth == WARMER_UNSAID) {
-        const char *rubber = trial_file(t, "rubber.tsv");
+        const char *rubber = scene_draw_file(t, "rubber.tsv");
         if (write_rubber(s, rubber) != 0)
-            trial_broke(t, "the rubber cannot be written");
+            scene_draw_broke(t, "the rubber cannot be written");
         append_argument(&w, "--master", rubber);
     } else if (s->warmth != WARMER_UNSAID_ALONE && s->warmth != NOT_WARMER_UNSAID) {
         append_argument(&w, "--indentation-temperature", "20degC");
@@ -271,9 +272,9 @@ static int write_material(const char *path)
 
 /* Friction with a layer of this modulus ratio; nan if the result has none. */
 static estimate layered_friction(const char *material, const char *ratio, const char *degrees,
-                                 trial *t)
+                                 scene_draw *t)
 {
-    const char *made = trial_file(t, degrees != NULL ? "friction.tsv" : "truth.tsv");
+    const char *made = scene_draw_file(t, degrees != NULL ? "friction.tsv" : "truth.tsv");
     words w = {.word = {"friction", "--material", material, "--pressure", "0.3MPa", "--velocity",
                         "1cm/s", "--shear-stress", "2MPa", "--layer-thickness", "2um",
                         "--replicates", "200", "--threads", "1", "--roughness",
@@ -292,9 +293,9 @@ static estimate layered_friction(const char *material, const char *ratio, const 
     return found;
 }
 
-static void compare_friction(const track_scene *s, const stream *comparison, trial *t)
+static void compare_friction(const track_scene *s, const stream *comparison, scene_draw *t)
 {
-    const char *material = trial_file(t, "material.tsv");
+    const char *material = scene_draw_file(t, "material.tsv");
     const double ratio = stream_number(comparison, place_ratio.table, PLACE_MODULUS_RATIO, NULL);
     const double error =
         stream_number(comparison, place_ratio.table, PLACE_MODULUS_RATIO, "standard_error");
@@ -305,9 +306,9 @@ static void compare_friction(const track_scene *s, const stream *comparison, tri
     snprintf(measured, sizeof measured, "%.15g +- %.15g", ratio, error);
     snprintf(df, sizeof df, "%.15g", degrees);
     if (write_material(material) != 0)
-        trial_broke(t, "the material cannot be written");
+        scene_draw_broke(t, "the material cannot be written");
     const estimate is = layered_friction(material, truth, NULL, t);
-    trial_add(t, Q_LAYERED_FRICTION, is.value, layered_friction(material, measured, df, t));
+    scene_draw_add(t, Q_LAYERED_FRICTION, is.value, layered_friction(material, measured, df, t));
 }
 
 /* ---- output ---------------------------------------------------------------------------------- */
@@ -324,16 +325,16 @@ static verdict read_verdict(const stream *found)
     return strncmp(said, PLACE_NO, strlen(PLACE_NO)) == 0 ? NO : NO_VERDICT;
 }
 
-static void compare_ratio(const char *path, const track_scene *s, trial *t)
+static void compare_ratio(const char *path, const track_scene *s, scene_draw *t)
 {
     stream *found = stream_read(path);
     if (found == NULL || stream_rows(found, place_ratio.table) == 0) {
-        trial_broke(t, "no comparison in what was written");
+        scene_draw_broke(t, "no comparison in what was written");
     } else {
         t->draw->verdict = read_verdict(found);
         /* a ratio for each rate leaves no common ratio */
         if (s->ratio_slope == 0 && !is_unstated_warmer(s->warmth))
-            trial_add(t, Q_RATIO, s->ratio, place_row(found, &place_ratio, 0));
+            scene_draw_add(t, Q_RATIO, s->ratio, place_row(found, &place_ratio, 0));
         if (s->through_friction)
             compare_friction(s, found, t);
     }
@@ -351,17 +352,17 @@ static void *prepare(int scene)
     return NULL;
 }
 
-static void observe(int scene, const void *prepared, random_source *random, trial *t)
+static void observe(int scene, const void *prepared, random_source *random, scene_draw *t)
 {
     const track_scene *s = &track_scenes[scene];
-    const char *made = trial_file(t, "comparison.tsv"), *files[2];
+    const char *made = scene_draw_file(t, "comparison.tsv"), *files[2];
     sample drawn;
     (void)prepared;
     draw_sample(s, random, &drawn);
     for (int zone = 0; zone < 2; zone++) {
-        files[zone] = trial_file(t, zone == 0 ? "bulk.tsv" : "track.tsv");
+        files[zone] = scene_draw_file(t, zone == 0 ? "bulk.tsv" : "track.tsv");
         if (write_zone(s, &drawn, zone, files[zone]) != 0)
-            trial_broke(t, "the curves cannot be written");
+            scene_draw_broke(t, "the curves cannot be written");
     }
     if (t->draw->outcome != OUTCOME_GOOD)
         return;

@@ -3,7 +3,7 @@
 #ifndef STUDY_TRACK_OBSERVE_H
 #define STUDY_TRACK_OBSERVE_H
 
-#include "trial.h"
+#include "scene_draw.h"
 
 family track_family(void);
 

@@ -101,35 +101,35 @@ static void *prepare(int scene)
 }
 
 static void read_found(const validation_scene *s, const made_friction *m, const char *path,
-                       trial *t)
+                       scene_draw *t)
 {
     stream *found = stream_read(path);
     if (found == NULL || stream_rows(found, PLACE_VALIDATION) != m->steps) {
-        trial_broke(t, "another number of steps");
+        scene_draw_broke(t, "another number of steps");
     } else {
         t->draw->verdict = place_friction_verdict(found, PLACE_VALIDATION);
         if (!s->unsaid)
-            trial_add(t, Q_FRICTION_RATIO, s->off > 0 ? s->off : 1,
-                      place_key(found, &place_friction_ratio));
+            scene_draw_add(t, Q_FRICTION_RATIO, s->off > 0 ? s->off : 1,
+                           place_key(found, &place_friction_ratio));
         if (!(s->off > 0) && !(fabs(s->trend) > 0))
-            trial_add(t, Q_NEEDED_SHEAR, m->truth.shear_stress,
-                      place_key(found, &place_needed_shear));
+            scene_draw_add(t, Q_NEEDED_SHEAR, m->truth.shear_stress,
+                           place_key(found, &place_needed_shear));
     }
     stream_free(found);
 }
 
-static void observe(int scene, const void *prepared, random_source *random, trial *t)
+static void observe(int scene, const void *prepared, random_source *random, scene_draw *t)
 {
     const validation_scene *s = &validation_scenes[scene];
-    const char *the_case = trial_file(t, "case.xml"), *record = trial_file(t, "record.csv"),
-               *made = trial_file(t, "found.tsv");
+    const char *the_case = scene_draw_file(t, "case.xml"),
+               *record = scene_draw_file(t, "record.csv"), *made = scene_draw_file(t, "found.tsv");
     const char *const arguments[] = {"validate", the_case,          record, "-o",
                                      made,       "--no-provenance", NULL};
     (void)prepared;
     const made_friction m = make_friction(s, random);
     if (!write_case(s, the_case) || !write_record(s, &m, record, random))
-        trial_broke(t, "case or record cannot be written");
-    else if (trial_run(t, arguments))
+        scene_draw_broke(t, "case or record cannot be written");
+    else if (scene_draw_run(t, arguments))
         read_found(s, &m, made, t);
 }
 

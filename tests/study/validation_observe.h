@@ -2,7 +2,7 @@
 #ifndef STUDY_VALIDATION_OBSERVE_H
 #define STUDY_VALIDATION_OBSERVE_H
 
-#include "trial.h"
+#include "scene_draw.h"
 
 family validation_family(void);
 

@@ -334,12 +334,12 @@ static void test_drawn(void **state)
 static void test_covered(void **state)
 {
     (void)state;
-    enum { TRIALS = 200, POINTS = 7 };
+    enum { RUNS = 200, POINTS = 7 };
     uint64_t seed = 11;
     static const size_t n_sweeps[] = {3, 6};
     for (size_t c = 0; c < 2; c++) {
         size_t held = 0;
-        for (size_t trial = 0; trial < TRIALS; trial++) {
+        for (size_t run = 0; run < RUNS; run++) {
             table_writer t = table_begin(&payne_sweep_schema, NULL);
             wt_table *table = NULL;
             wt_strain_softening s = {0};
@@ -373,7 +373,7 @@ static void test_covered(void **state)
                                  table, wt_strain_softening_choice_defaults(), &s, NULL),
                              WT_OK);
             sliding_set_up(velocity, 1);
-            work.seed = trial + 1;
+            work.seed = run + 1;
             work.replicates = 64;
             work.tolerance = 1e-4;
             sliding.strain_softening = &s;
@@ -394,8 +394,8 @@ static void test_covered(void **state)
             wt_strain_softening_clear(&s);
             wt_table_free(table);
         }
-        print_message("%zu sweeps: %g\n", n_sweeps[c], (double)held / TRIALS);
-        assert_true(100 * held >= 92 * TRIALS && 100 * held <= 98 * TRIALS);
+        print_message("%zu sweeps: %g\n", n_sweeps[c], (double)held / RUNS);
+        assert_true(100 * held >= 92 * RUNS && 100 * held <= 98 * RUNS);
     }
 }
 

@@ -450,9 +450,9 @@ static bool law_force_difference(const curve_fitting *f, bool constant_pull, dou
     return true;
 }
 
-enum { SCORES = 1 + COUNT_OF(trial_pulls) }; /* a constant pull and the trial pulls */
+enum { SCORES = 1 + COUNT_OF(trial_pulls) }; /* a constant pull and the pulls to try */
 
-/* Score tests with means of the samples: a constant pull, then trial pulls of the JKR law. Returns
+/* Score tests with means of the samples: a constant pull, then some pulls of the JKR law. Returns
  * their number. */
 static size_t score_laws(curve_fitting *f, double most, curve_score_result step[SCORES])
 {

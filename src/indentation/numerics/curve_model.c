@@ -175,7 +175,7 @@ static void evaluate_branch_block(const adhesion *law, const double *bare, size_
 
 /* Equilibrium with adhesive contact on the branch of large radii. A sample is on it from its jump
  * on, or from first contact. */
-/* Depth beyond which a trial of the fit is refused instead of evaluated: no tip is as large. */
+/* Depth beyond which a step of the fit is refused instead of evaluated: no tip is as large. */
 static const double max_bare_depth = 1e-4;
 
 static void balance_adhesive(const curve_law *m, const double p[N], size_t first)

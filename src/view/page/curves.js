@@ -332,7 +332,7 @@
       return;
     }
     ui.cards.classList.add('busy');
-    const made = await View.trial(wanted, 0);
+    const made = await View.preview(wanted, 0);
     if (made === null) return;
     ui.cards.classList.remove('busy');
     ui.refit.hidden = true;

@@ -138,7 +138,7 @@
     document.documentElement.dataset.shifts = found.shift_factors.rows.map((r) => `${r.origin} ${r.log_a}`).join(', ');
   };
   const compute = async (source) => {
-    const made = source === undefined ? await View.results(tables) : await View.trial(tables, 0, source);
+    const made = source === undefined ? await View.results(tables) : await View.preview(tables, 0, source);
     if (made === null) return;
     if (!made.master_curve) throw new Error(made.failures && made.failures.n > 0 ?
       made.failures.rows.map((row) => `${row.file}: ${row.message}`).join('\n') :

@@ -300,7 +300,7 @@ const Plot = (() => {
       unit === '1' ? '' : prefix + unit].join(' ').trim();
   };
   const colors = ['var(--s0)', 'var(--s1)', 'var(--s2)', 'var(--s3)', 'var(--s4)'];
-  /* Cold to warm; the lightness of each hue gives contrast on light and dark. */
+  /* Cold to warm; the lightness of each hue differs from light and dark pages. */
   const lightness = [66, 31, 31, 28, 52];
   const heat = (share) => {
     const at = 4 * share, k = Math.min(3, Math.floor(at));

@@ -64,7 +64,7 @@
       View.changed(values);
   };
   const compute = View.guard(async (values) => {
-    const made = values ? await View.trial(names(), 0, quick(values)) : await View.results(names());
+    const made = values ? await View.preview(names(), 0, quick(values)) : await View.results(names());
     if (made === null) return;
     if (!made.friction) throw new Error(made.failures && made.failures.n ? made.failures.rows.map((r) =>
       `${r.file}: ${r.message}`).join('\n') : 'Friction needs <dma>, <roughness> and <sliding>.');
@@ -73,7 +73,7 @@
   });
   const errors = View.guard(async () => {
     ui.full.disabled = true;
-    const made = await View.trial(names(), 200);
+    const made = await View.preview(names(), 200);
     ui.full.disabled = false;
     if (made && made.friction) {
       found = made;
@@ -126,7 +126,7 @@
     const root = document.documentElement.dataset;
     root.mu = k.friction_at_reference ? k.friction_at_reference.value : '';
     root.thickness = l && l.keys.balance_thickness ? l.keys.balance_thickness.value : '';
-    root.trialtime = found.time || '';
+    root.previewtime = found.time || '';
   };
   View.add({
     id: 'sliding', title: 'Friction and layer',

@@ -37,7 +37,7 @@
   });
   const friction = async (source) => {
     if (!View.has('sliding')) return;
-    const made = source === undefined ? await View.results('friction') : await View.trial('friction', 0, source);
+    const made = source === undefined ? await View.results('friction') : await View.preview('friction', 0, source);
     if (made === null || !made.friction) return;
     const at = made.friction.keys.friction_at_reference, area = made.friction.keys.area_ratio_at_reference;
     if (!at) return;

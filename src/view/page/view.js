@@ -17,7 +17,7 @@ const View = (() => {
 
   /* ---- server -------------------------------------------------------------------------------- */
 
-  const posts = new Set(['check', 'trial', 'curve', 'save', 'new-case', 'run', 'page']);
+  const posts = new Set(['check', 'preview', 'curve', 'save', 'new-case', 'run', 'page']);
   const address = (action, parameters) => {
     const query = new URLSearchParams(parameters || {}).toString();
     return action + (query === '' ? '' : '?' + query);
@@ -392,15 +392,15 @@ const View = (() => {
     clearTimeout(resized);
     resized = setTimeout(() => current && select(current), 150);
   });
-  const trial = latest(async (names, replicates, source) =>
-    tables(await call('trial', {name: names, replicates}, source === undefined ? text : source)));
+  const preview = latest(async (names, replicates, source) =>
+    tables(await call('preview', {name: names, replicates}, source === undefined ? text : source)));
 
-  /* Tables of the result if it is that of the text, else of a trial without draws. */
+  /* Tables of the result if it is that of the text, else of a preview without draws. */
   const stored = async (names) => tables(await call('table', {name: names}));
-  const results = async (names) => state.current && text === state.case.text ? stored(names) : trial(names, 0);
+  const results = async (names) => state.current && text === state.case.text ? stored(names) : preview(names, 0);
 
   return {$, call, results, stored, latest, tables, table, element, show, get, all: texts, has, edit, editDocument, madeDocument, changed, replace,
-    text: () => text, state: () => state, add, guard, trial, create, run, save, quote, command, load, fail, wait,
+    text: () => text, state: () => state, add, guard, preview, create, run, save, quote, command, load, fail, wait,
     setOverrides: (value, digest) => { state.overrides.text = value; state.overrides.digest = digest;
       state.current = false; showChanged(); }};
 })();

@@ -1,7 +1,7 @@
 /* One draw of a scene through the command; each stated interval is compared with the truth.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef STUDY_TRIAL_H
-#define STUDY_TRIAL_H
+#ifndef STUDY_SCENE_DRAW_H
+#define STUDY_SCENE_DRAW_H
 
 #include "facts.h"
 #include "places.h"
@@ -33,33 +33,33 @@ typedef struct stage {
     bool keep; /* keeps the files */
 } stage;
 
-#define TRIAL_FILES_MAX 80 /* enough for a whole study */
-typedef struct trial {
+#define SCENE_DRAW_FILES_MAX 80 /* enough for a whole study */
+typedef struct scene_draw {
     const stage *stage;
     const char *scene;
     int number;
-    char files[TRIAL_FILES_MAX][512];
+    char files[SCENE_DRAW_FILES_MAX][512];
     int n_files;
     draw *draw;
-} trial;
+} scene_draw;
 
 /* Scenes of one kind, with functions that draw and observe them. */
 typedef struct family {
     int n;
     const facts *(*facts)(int scene);
     void *(*prepare)(int scene); /* allocated data that all draws of a scene share */
-    void (*observe)(int scene, const void *prepared, random_source *random, trial *t);
+    void (*observe)(int scene, const void *prepared, random_source *random, scene_draw *t);
 } family;
 
 void model_variant_fit(const family *f, int scene, const void *prepared, const stage *st,
                        int number, draw *to);
 
-/* Path of a file of this trial, which is removed with it. */
-const char *trial_file(trial *t, const char *name);
+/* Path of a file of this draw, which is removed with it. */
+const char *scene_draw_file(scene_draw *t, const char *name);
 /* Arguments after the program; the last one is NULL. Returns true on success. */
-bool trial_run(trial *t, const char *const *arguments);
-void trial_add(trial *t, quantity q, double truth, estimate found);
+bool scene_draw_run(scene_draw *t, const char *const *arguments);
+void scene_draw_add(scene_draw *t, quantity q, double truth, estimate found);
 /* Reports output other than requested. */
-void trial_broke(trial *t, const char *words);
+void scene_draw_broke(scene_draw *t, const char *words);
 
 #endif

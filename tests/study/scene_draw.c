@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "trial.h"
+#include "scene_draw.h"
 #include "program.h"
 
 #include <stdio.h>
@@ -12,7 +12,7 @@ void model_variant_fit(const family *f, int scene, const void *prepared, const s
                        int number, draw *to)
 {
     const char *name = f->facts(scene)->name;
-    trial t = {.stage = st, .scene = name, .number = number, .draw = to};
+    scene_draw t = {.stage = st, .scene = name, .number = number, .draw = to};
     random_source random = random_for(st->seed, name, (uint64_t)number);
     *to = (draw){.verdict = NO_VERDICT};
     f->observe(scene, prepared, &random, &t);
@@ -20,16 +20,16 @@ void model_variant_fit(const family *f, int scene, const void *prepared, const s
         unlink(t.files[i]);
 }
 
-const char *trial_file(trial *t, const char *name)
+const char *scene_draw_file(scene_draw *t, const char *name)
 {
-    if (t->n_files == TRIAL_FILES_MAX)
+    if (t->n_files == SCENE_DRAW_FILES_MAX)
         abort();
     char *path = t->files[t->n_files++];
     snprintf(path, sizeof t->files[0], "%s/%s-%d-%s", t->stage->folder, t->scene, t->number, name);
     return path;
 }
 
-void trial_broke(trial *t, const char *words)
+void scene_draw_broke(scene_draw *t, const char *words)
 {
     t->draw->outcome = OUTCOME_BROKEN;
     if (t->draw->words[0] == '\0')
@@ -38,7 +38,7 @@ void trial_broke(trial *t, const char *words)
 
 /* 1: explained error of data; 3: an explained error of a part; others: wrong use of the command, or
  * a crash. */
-static void note_failure(trial *t, int status, const char *errors)
+static void note_failure(scene_draw *t, int status, const char *errors)
 {
     char line[sizeof t->draw->words];
     FILE *words = fopen(errors, "r");
@@ -56,10 +56,10 @@ static void note_failure(trial *t, int status, const char *errors)
         fclose(words);
 }
 
-bool trial_run(trial *t, const char *const *arguments)
+bool scene_draw_run(scene_draw *t, const char *const *arguments)
 {
     struct timespec before, after;
-    const char *errors = trial_file(t, "errors.txt");
+    const char *errors = scene_draw_file(t, "errors.txt");
     clock_gettime(CLOCK_MONOTONIC, &before);
     const int status = program_run(t->stage->program, arguments, errors);
     clock_gettime(CLOCK_MONOTONIC, &after);
@@ -72,7 +72,7 @@ bool trial_run(trial *t, const char *const *arguments)
     return status == 0;
 }
 
-void trial_add(trial *t, quantity q, double truth, estimate found)
+void scene_draw_add(scene_draw *t, quantity q, double truth, estimate found)
 {
     if (t->draw->n == OBSERVATIONS_MAX)
         abort();
