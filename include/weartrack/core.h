@@ -159,7 +159,7 @@ wt_severity_name(wt_severity severity); /* Returns "note", "warning" or "loss". 
 /* Subject of an entry, for code that acts on it. */
 typedef enum wt_log_topic {
     WT_TOPIC_NONE,
-    WT_TOPIC_SUPERPOSITION /* the verdict on time-temperature superposition of a sample */
+    WT_TOPIC_WORST_LIMIT /* the first limit of the answers of a result */
 } wt_log_topic;
 
 /* What was done to data, or found in them, between reading and computing. */
@@ -192,6 +192,7 @@ typedef struct wt_log_entry {
     const char *text;
     size_t
         count; /* number of entries with this text for this file; place is that of the first one */
+    size_t like; /* index of the first entry with this severity and text, for any file */
 } wt_log_entry;
 
 /* Log of notes and warnings of reading and fitting. Equal texts for one file are counted, not

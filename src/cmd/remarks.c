@@ -12,40 +12,6 @@ typedef struct log_group {
     size_t first, n_files, n;
 } log_group;
 
-static int compare_log_text(const void *a, const void *b)
-{
-    const log_group *p = a, *q = b;
-    if (p->entry.severity != q->entry.severity)
-        return p->entry.severity < q->entry.severity ? -1 : 1;
-    const int order = strcmp(p->entry.text, q->entry.text);
-    return order != 0 ? order : p->first < q->first ? -1 : 1;
-}
-
-static int compare_first(const void *a, const void *b)
-{
-    return ((const log_group *)a)->first < ((const log_group *)b)->first ? -1 : 1;
-}
-
-/* Groups n entries with equal texts, in the order of the first of each; returns the number of
- * groups. */
-static size_t group_equal_entries(log_group *folds, size_t n)
-{
-    size_t kept = 0;
-    qsort(folds, n, sizeof *folds, compare_log_text);
-    for (size_t i = 0; i < n; i++) {
-        const log_group *last = &folds[kept > 0 ? kept - 1 : 0];
-        if (kept > 0 && last->entry.severity == folds[i].entry.severity &&
-            wt_text_repeats(folds[i].entry.text, last->entry.text)) {
-            folds[kept - 1].n_files++;
-            folds[kept - 1].n += folds[i].n;
-        } else {
-            folds[kept++] = folds[i];
-        }
-    }
-    qsort(folds, kept, sizeof *folds, compare_first);
-    return kept;
-}
-
 /* ---- on a terminal --------------------------------------------------------------------------- */
 
 enum { LINES_OF_REMARKS = 2, LINES_OF_NEXT_CALL = 2 };
@@ -132,30 +98,16 @@ static char *describe_group(const log_group *f)
     return text;
 }
 
-/* The remarks on a result, which are worse, come after those on its data. */
+/* The worst limit of a result is the first warning. The other remarks on a result, which are worse,
+ * come after those on its data. */
 static int compare_severity(const void *a, const void *b)
 {
     const log_group *p = a, *q = b;
     if (p->entry.severity != q->entry.severity)
         return p->entry.severity > q->entry.severity ? -1 : 1;
-    return -compare_first(a, b);
-}
-
-/* Puts the first limit of the answers, the worst, before the other warnings. `groups` has room for
- * one more, as a limit may have other words than its remark. */
-static void put_worst_limit_first(const cmd_session *s, log_group *groups, size_t *n)
-{
-    const wt_table *const limits = s->result != NULL ? wt_result_find(s->result, "limits") : NULL;
-    if (limits == NULL || wt_table_n_rows(limits) == 0 ||
-        wt_table_severity(limits, 0) != WT_WARNING)
-        return;
-    const char *const text = wt_table_text(limits, 0, LIMITS_LIMIT);
-    size_t i = 0;
-    while (i < *n && !wt_text_repeats(text, groups[i].entry.text))
-        i++;
-    if (i == *n)
-        groups[(*n)++] = (log_group){{WT_WARNING, .file = "", .place = "", .text = text}, 0, 1, 1};
-    groups[i].first = SIZE_MAX; /* later remarks come first, see compare_severity */
+    if (p->entry.topic != q->entry.topic)
+        return p->entry.topic > q->entry.topic ? -1 : 1;
+    return p->first > q->first ? -1 : 1;
 }
 
 /* The worst first. */
@@ -222,18 +174,23 @@ void cmd_print_log(cmd_session *s, const wt_log *log, bool notes)
     const size_t n = wt_log_count(log);
     size_t n_folds = 0, n_remarks = 0, n_losses = 0;
     log_group *folds = wt_alloc(n + 1, sizeof *folds);
+    size_t *fold = wt_alloc(n + 1, sizeof *fold); /* of each entry */
     for (size_t i = 0; i < n; i++) {
         const wt_log_entry e = wt_log_get(log, i);
         n_remarks += e.severity != WT_NOTE;
         n_losses += e.severity == WT_LOSS;
-        if (e.severity == WT_LOSS || (!quiet && (e.severity == WT_WARNING || notes)))
-            folds[n_folds++] = (log_group){e, i, 1, e.count};
+        if (e.severity != WT_LOSS && (quiet || (e.severity == WT_NOTE && !notes)))
+            continue;
+        fold[i] = e.like < i ? fold[e.like] : n_folds++;
+        log_group *const group = &folds[fold[i]];
+        if (e.like == i)
+            *group = (log_group){.entry = e, .first = i};
+        group->n_files++;
+        group->n += e.count;
     }
-    n_folds = group_equal_entries(folds, n_folds);
-    if (cmd_is_brief(s)) {
-        put_worst_limit_first(s, folds, &n_folds);
+    free(fold);
+    if (cmd_is_brief(s))
         print_groups_briefly(s, folds, n_folds);
-    }
     for (size_t i = 0; i < n_folds && !cmd_is_brief(s); i++)
         print_log_group(s->name, &folds[i]);
     free(folds);

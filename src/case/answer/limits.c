@@ -402,9 +402,14 @@ void wt_result_log_remarks(const wt_result *result, wt_log *log)
     if (answer_context_bind(&context, result, NULL) != WT_OK)
         return; /* the command that wrote the table has failed already */
     const limit_list list = find_limits(&context);
-    for (size_t i = 0; i < list.n; i++)
+    wt_log_topic topic = WT_TOPIC_WORST_LIMIT;
+    for (size_t i = 0; i < list.n; i++) {
+        if (list.limit[i].severity != WT_WARNING)
+            continue;
         /* the fit of the material has told its own limits */
-        if (list.limit[i].severity == WT_WARNING && list.limit[i].subject != LIMITS_MATERIAL)
-            wt_log_add(log, WT_WARNING, NULL, NULL, "%s", list.limit[i].text);
+        if (list.limit[i].subject != LIMITS_MATERIAL || topic == WT_TOPIC_WORST_LIMIT)
+            wt_log_add_topic(log, WT_WARNING, topic, NULL, NULL, "%s", list.limit[i].text);
+        topic = WT_TOPIC_NONE;
+    }
     free(list.limit);
 }

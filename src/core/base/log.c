@@ -16,22 +16,27 @@ typedef struct log_entry {
     size_t n_values;
     char *option; /* NULL if none */
     char *file, *place, *text;
-    size_t count;
+    size_t count, like;
 } log_entry;
 
 struct wt_log {
     log_entry **entries; /* in order of arrival */
     size_t n;
-    void *tree; /* the same entries, for tsearch */
+    void *tree, *texts; /* for tsearch: the same entries, and the first one of each text */
 };
+
+static int compare_log_texts(const void *a, const void *b)
+{
+    const log_entry *const p = a, *const q = b;
+    return p->severity != q->severity ? (p->severity < q->severity ? -1 : 1)
+                                      : strcmp(p->text, q->text);
+}
 
 static int compare_log_entries(const void *a, const void *b)
 {
     const log_entry *const p = a, *const q = b;
-    if (p->severity != q->severity)
-        return p->severity < q->severity ? -1 : 1;
     const int by_file = strcmp(p->file, q->file);
-    return by_file != 0 ? by_file : strcmp(p->text, q->text);
+    return by_file != 0 ? by_file : compare_log_texts(p, q);
 }
 
 static void entry_free(log_entry *e)
@@ -66,6 +71,7 @@ void wt_log_free(wt_log *log)
     if (log == NULL)
         return;
     tdestroy(log->tree, free_no_entry);
+    tdestroy(log->texts, free_no_entry);
     for (size_t i = 0; i < log->n; i++)
         entry_free(log->entries[i]);
     free(log->entries);
@@ -79,6 +85,10 @@ static void add_log_entry(wt_log *log, log_entry *new_entry)
     if (found == NULL)
         out_of_memory(sizeof *new_entry);
     if (*found == new_entry) {
+        log_entry *const *const first = tsearch(new_entry, &log->texts, compare_log_texts);
+        if (first == NULL)
+            out_of_memory(sizeof *new_entry);
+        new_entry->like = *first == new_entry ? log->n : (*first)->like;
         log->entries = array_grow(log->entries, log->n, sizeof *log->entries);
         log->entries[log->n++] = new_entry;
         return;
@@ -176,5 +186,6 @@ wt_log_entry wt_log_get(const wt_log *log, size_t i)
                           .file = e->file,
                           .place = e->place,
                           .text = e->text,
-                          .count = e->count};
+                          .count = e->count,
+                          .like = e->like};
 }

@@ -237,10 +237,9 @@ void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master 
                    "extrapolated");
     if (m->n_shifts > 1 && work->set.quantity == WT_SHIFT_MODULI &&
         m->superposition != WT_SUPERPOSITION_HOLDS)
-        wt_log_add_topic(log, WT_WARNING, WT_TOPIC_SUPERPOSITION, NULL, NULL,
-                         "time-temperature superposition %s%s%s",
-                         m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "is inconclusive",
-                         isnan(m->valid_from) ? ": " : " ", m->superposition_reason);
+        wt_log_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s%s%s",
+                   m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "is inconclusive",
+                   isnan(m->valid_from) ? ": " : " ", m->superposition_reason);
     if (m->law.kind != WT_LAW_NONE && m->law_rms > master_max_shift_error)
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "the law of the shift factors deviates from them by %.2g decade (rms): it "
@@ -389,14 +388,10 @@ void master_assess(const master_work *work, wt_master *m)
                       100.0 * expm1(lack->factor), format_probability(lack->kk).text);
     } else if (determined >= LEAST_ISOTHERMS && master_misfit_is_significant(lack)) {
         m->superposition = WT_SUPERPOSITION_FAILS;
-        char low[16], high[16];
-        clocale_print(low, sizeof low, "%.1f", 100.0 * lack->misfit_low);
-        clocale_print(high, sizeof high, "%.1f", 100.0 * lack->misfit_high);
-        const bool one = strcmp(low, high) == 0;
         clocale_print(m->superposition_reason, sizeof m->superposition_reason,
-                      "one spectrum deviates from the isotherms by %s%s%s %% (p %s): a second "
+                      "one spectrum deviates from the isotherms by %s %% (p %s): a second "
                       "process or a change of the material; treat the temperatures separately",
-                      one ? "about " : low, one ? "" : " to ", high,
+                      format_range(100.0 * lack->misfit_low, 100.0 * lack->misfit_high, 2).text,
                       format_probability(lack->p_sure).text);
     } else if (determined < LEAST_ISOTHERMS) {
         clocale_print(m->superposition_reason, sizeof m->superposition_reason,
