@@ -94,7 +94,7 @@ static int range_digits(double low, double high, int least)
         char first[32], second[32];
         clocale_print(first, sizeof first, "%.*g", digits, low);
         clocale_print(second, sizeof second, "%.*g", digits, high);
-        if (strcmp(first, second) != 0)
+        if (parse_number_or_nan(first) != parse_number_or_nan(second))
             return digits;
     }
     return least;
