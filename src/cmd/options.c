@@ -149,12 +149,10 @@ static void print_option_help(const option_row *row)
         printf("%*s", HELP_COLUMN - used, "");
     if (p->kind != PARAM_FLAG)
         wt_params_default(row->part->params, row->number, set, sizeof set);
-    const bool in_words = p->unset != NULL && strcmp(p->unset, set) == 0;
     snprintf(text, sizeof text, "%s%s%s%s", row->negated ? "no " : "", p->help,
              (p->flags & PARAM_REQUIRED) != 0 ? "; required"
-             : set[0] == '\0'                 ? ""
-             : in_words                       ? "; default: "
-                                              : "; default ",
+             : set[0] != '\0'                 ? "; default: "
+                                              : "",
              set);
     cmd_wrap(stdout, HELP_COLUMN, HELP_COLUMN, text);
 }

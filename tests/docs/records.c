@@ -185,7 +185,6 @@ static void put_element(const wt_param *param, const char *name, const char *set
         return;
     }
     char text[TEXT];
-    const bool in_words = param->unset != NULL && strcmp(param->unset, set) == 0;
     printf(".TP\n.B <");
     put_troff(name);
     puts(">");
@@ -195,9 +194,8 @@ static void put_element(const wt_param *param, const char *name, const char *set
                                            : "",
              param->kind == PARAM_CHOICE ? ": " : "", param->help,
              required         ? "; required"
-             : set[0] == '\0' ? ""
-             : in_words       ? "; default: "
-                              : "; default ",
+             : set[0] != '\0' ? "; default: "
+                              : "",
              set);
     put_sentence(text);
 }
