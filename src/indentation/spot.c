@@ -79,7 +79,7 @@ static const wt_param rows[] = {
      .help = "where it went in, in the coordinates of the image"},
     {PARAM("position-error", wt_spot_job, position_error, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",
      .unset = "one contact radius", .flags = PARAM_NO_CASE,
-     .help = SUCH_AS("how far from there it may have gone in, ", "50nm", "")},
+     .help = SUCH_AS("how far from there it may have entered, ", "50nm", "")},
     {PARAM_TEXT_OF("image", wt_spot_job, image), .value = "NAME",
      .unset = "the first image of heights", .flags = PARAM_NO_CASE,
      .help = "which image of a file: a part of its name, such as backward"},
@@ -161,7 +161,7 @@ static void assess_roughness(const wt_spot_job *job, const wt_height_map *f, boo
         clocale_print(
             s->verdict, sizeof s->verdict,
             "inconclusive: the contact radius of %s is not measured about each place that the "
-            "tip may have gone in (%d heights and nine tenths of its pixels); an image that "
+            "tip may have entered (%d heights and nine tenths of its pixels); an image that "
             "has heights up to %s from the place would decide",
             contact, SPOT_MIN_PIXELS, search_radius);
     else if (isnan(limit))

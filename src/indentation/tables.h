@@ -315,6 +315,7 @@
     X(SPOT_KEY_TIP, AS(tip), TEXT)                                                                 \
     X(SPOT_KEY_IMAGE, AS(image), TEXT)                                                             \
     X(SPOT_KEY_EFFECT, "largest_effect", PLAIN, SHOWS(effect))                                     \
-    X(SPOT_KEY_VERDICT, "roughness_verdict", TEXT, SHOWS(verdict), LABEL("Roughness"))
+    X(SPOT_KEY_VERDICT, "roughness_verdict", ENUM(stated_verdict), SHOWS(verdict),                 \
+      LABEL("Roughness"))
 
 #endif

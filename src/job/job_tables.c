@@ -115,7 +115,8 @@ wt_severity wt_table_severity(const wt_table *table, size_t row)
     const long column = wt_table_find(table, "severity");
     if (column < 0 || wt_table_column_kind(table, (size_t)column) != WT_COLUMN_TEXT)
         return WT_NOTE;
-    return (wt_severity)closed_list_find(&severity_list, wt_table_text(table, row, (size_t)column));
+    return (wt_severity)closed_list_read(&severity_list, wt_table_text(table, row, (size_t)column))
+        .value;
 }
 
 TABLE_ROW(data_quality, DATA_QUALITY, const char *file, *action; double n_values;

@@ -131,7 +131,7 @@ const char *header_number_option(wt_quantity quantity)
 /* Returns FACT_ITEM_UNKNOWN for an item on which no code acts. */
 static fact_item find_kind(const char *item)
 {
-    const int kind = closed_list_find(&fact_item_list, item);
+    const int kind = closed_list_read(&fact_item_list, item).value;
     const bool is_longer = strcmp(item, fact_item_text((fact_item)kind)) != 0;
     return kind < FACT_TABLE && is_longer ? FACT_ITEM_UNKNOWN : (fact_item)kind;
 }

@@ -54,7 +54,8 @@
       HEADLINE("Theory against measured friction"), OPTIONAL)                                      \
     X(VALIDATION_KEY_POWER, "verdict_power", NUMBER,                                               \
       LABEL("Probability that such a record shows that a true theory explains it"), OPTIONAL)      \
-    X(VALIDATION_KEY_VERDICT, "verdict", TEXT, LABEL("With the shear stress as given"))            \
+    X(VALIDATION_KEY_VERDICT, "verdict", ENUM(stated_verdict),                                     \
+      LABEL("With the shear stress as given"))                                                     \
     X(VALIDATION_KEY_WITHOUT, "verdict_without_layer", TEXT, LABEL("Without a layer"))             \
     X(VALIDATION_KEY_WITH, "verdict_with_layer", TEXT, LABEL("With the layer"), OPTIONAL)          \
     X(VALIDATION_KEY_JUDGED, "judged", TEXT, LABEL("The verdict is on"))                           \

@@ -63,9 +63,8 @@ void page_indentation(page_writer *page); /* conditions of indentation, rejected
 void page_large_number(page_writer *page, const row_number *number, const char *unit,
                        double neutral);
 
-/* Writes the reason behind a verdict "no: the reason" as a sentence; a text without a reason as it
- * is. */
-void page_reason(page_writer *page, const char *verdict);
+/* Writes a reason as a sentence; nothing for "". */
+void page_reason(page_writer *page, const char *reason);
 
 /* ---- shared by the parts ------------------------------------------------------------------------
  */

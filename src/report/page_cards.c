@@ -75,18 +75,18 @@ void page_large_number(page_writer *page, const row_number *number, const char *
     text_add(&page->out, "</dl>\n");
 }
 
-void page_reason(page_writer *page, const char *verdict)
+void page_reason(page_writer *page, const char *reason)
 {
-    const size_t n = length_without_reason(verdict);
-    const char *const reason = verdict[n] != '\0' ? verdict + n + 2 : verdict;
+    if (reason[0] == '\0')
+        return;
     text_add(&page->out, "<p>");
     text_sentence(&page->out, reason);
     text_add(&page->out, ".</p>\n");
 }
 
-/* Writes what disqualifies a number: the first warning of the limits that concern it, without its
- * details, and the number of the others, so that the limits stay on the first screen. The
- * predictions rest on the material and on one another. */
+/* Writes what disqualifies a number: the first warning of the limits that concern it, of which
+ * the style shows two lines, and the number of the others, so that the limits stay on the first
+ * screen. The predictions rest on the material and on one another. */
 static void write_card_warnings(page_writer *page, finding_question question)
 {
     static const unsigned subjects[FINDING_QUESTIONS] = {
@@ -103,12 +103,9 @@ static void write_card_warnings(page_writer *page, finding_question question)
             continue;
         if (n++ > 0)
             continue; /* only counted */
-        const char *const text = limits_text(limits, i, LIMITS_LIMIT);
-        char *const brief = wt_strndup(text, length_without_reason(text));
-        text_add(&page->out, "<p class=\"warned\">⚠ ");
-        text_typographic(&page->out, brief);
-        text_add(&page->out, strlen(brief) < strlen(text) ? ". " : " ");
-        free(brief);
+        text_add(&page->out, "<p class=\"warned\"><span>⚠ ");
+        text_typographic(&page->out, limits_text(limits, i, LIMITS_LIMIT));
+        text_add(&page->out, "</span> ");
     }
     if (n > 1)
         text_format(&page->out, "<a href=\"#limits\">And %zu more warning%s</a></p>\n", n - 1,
@@ -223,7 +220,7 @@ static void write_validation_card(page_writer *page)
     if (v->table == NULL)
         return;
     const int outcome = validation_key_enum(v, VALIDATION_KEY_OUTCOME);
-    const char *const reason = validation_key_text(v, VALIDATION_KEY_VERDICT),
+    const char *const reason = validation_key_listed(v, VALIDATION_KEY_VERDICT).reason,
                       *const settled = validation_key_text(v, VALIDATION_KEY_SETTLED_BY);
     const double none = (double)NAN;
     row_number ratio = {none, none, none, none, none, "1"},
@@ -245,8 +242,7 @@ static void write_validation_card(page_writer *page)
                "", "measured");
     if (!isnan(ratio.low))
         page_large_number(page, &ratio, "× predicted", 1);
-    if (reason != NULL)
-        page_reason(page, reason);
+    page_reason(page, reason);
     if (!isnan(needed.low)) {
         const row_number_text text = row_number_format(&needed);
         text_add(&page->out, "<p>Shear stress needed: ");

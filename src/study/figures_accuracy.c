@@ -78,7 +78,7 @@ static size_t list_texts(const table_view *t, work_precision_column column, cons
 
 static int method_style(const char *method)
 {
-    const int of = closed_list_find(&precision_method_list, method);
+    const int of = closed_list_read(&precision_method_list, method).value;
     return of == METHOD_OF_PROGRAM ? 1 : of == METHOD_OF_TEXTBOOK ? 2 : 3;
 }
 

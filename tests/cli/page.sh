@@ -167,7 +167,7 @@ for name in case warned dma decades record; do
   grep -o '<strong>Figure [0-9]*\. ' "$name.html" | awk '$2 + 0 != NR { exit 1 } END { exit !NR }' ||
     fail "$name: the figures are not numbered from 1 in their order"
   [ $name != dma ] || grep -q 'Data: dma.txt</p>' "$name.html" || fail "$name: files of the data"
-  [ $name != warned ] || grep -q 'class="warned">⚠' "$name.html" || fail "$name: no warning on a card"
+  [ $name != warned ] || grep -q 'class="warned"><span>⚠' "$name.html" || fail "$name: no warning on a card"
   grep -q 'JUDGED links [1-9][0-9]* dead 0' "$name.judged" || fail "$name: $(grep links "$name.judged")"
   grep -q 'JUDGED xml whole same true' "$name.judged" || fail "$name: not the same as HTML and as XML: $(grep xml "$name.judged")"
   grep -q 'JUDGED ids [1-9][0-9]* twice 0' "$name.judged" || fail "$name: $(grep ids "$name.judged")"

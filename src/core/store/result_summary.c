@@ -76,14 +76,6 @@ static void add_text_headline(table_writer *t, const char *name, const char *wor
     add_headline(t, name, (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL}, words);
 }
 
-/* A headline has no reason; its numbers have their own columns. */
-static void add_verdict_headline(table_writer *t, const char *name, const char *verdict)
-{
-    char word[256];
-    (void)snprintf(word, sizeof word, "%.*s", (int)length_without_reason(verdict), verdict);
-    add_text_headline(t, name, word);
-}
-
 static void add_bounds(table_writer *t, const char *stem, const char *suffixes[2], double low,
                        double high, const char *unit)
 {
@@ -114,8 +106,10 @@ static void add_key_headlines(table_writer *t, const result_value_tables *found,
         if (key->headline == NULL || view_key_text(view, schema, i) == NULL ||
             strcmp(key->name, "verdict") == 0) /* the column has the verdict of the comparison */
             continue;
-        if (key->kind == SCHEMA_TEXT)
-            add_verdict_headline(t, key->name, view_key_text(view, schema, i));
+        if (key->kind == SCHEMA_TEXT) /* without a reason */
+            add_text_headline(t, key->name,
+                              key->list != NULL ? view_key_listed(view, schema, i).text
+                                                : view_key_text(view, schema, i));
         else
             add_headline(t, key->name, view_key(view, schema, i), key->headline);
         if (result_value_from_key(found, key, &f))
@@ -145,8 +139,7 @@ static void add_ratio_headlines(table_writer *t, const result_value_tables *foun
     const result_value f = result_value_ratio(found);
     if (found->comparison.n_rows == 0)
         return;
-    if (f.verdict != NULL)
-        add_verdict_headline(t, "verdict", f.verdict);
+    add_text_headline(t, "verdict", f.verdict.text);
     add_number_headline(t, f.name, "", f.number.value, f.number.unit);
     add_value_bounds(t, f.name, &f);
     add_number_headline(t, "welch_p", "", comparison_get(&found->comparison, 0, COMPARISON_WELCH_P),

@@ -83,13 +83,12 @@ static const char *general_sentence(const finding *f)
 /* The test of the moduli states its own reason: "inconclusive: too few spots". */
 static void write_sentence(finding *f)
 {
-    const char *stated = f->value.verdict != NULL ? f->value.verdict : "";
-    stated += length_without_reason(stated);
+    const char *const stated = f->value.verdict.reason;
     if (stated[0] == '\0' || f->question != FINDING_TRACK_DIFFERS)
         snprintf(f->sentence, sizeof f->sentence, "%s", general_sentence(f));
     else
-        snprintf(f->sentence, sizeof f->sentence, "%c%s.", toupper((unsigned char)stated[2]),
-                 stated + 3);
+        snprintf(f->sentence, sizeof f->sentence, "%c%s.", toupper((unsigned char)stated[0]),
+                 stated + 1);
 }
 
 /* What to measure for the widest choice, how much of the range over model choices would remain,

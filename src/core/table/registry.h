@@ -279,11 +279,15 @@ TABLE_TEXT_LISTS(TABLE_TEXT_LIST)
     }                                                                                              \
     static inline int table##_enum(const table_view *v, size_t row, table##_column c)              \
     {                                                                                              \
-        return view_enum(v, &table##_schema, row, (unsigned)c);                                    \
+        return view_listed(v, &table##_schema, row, (unsigned)c).value;                            \
+    }                                                                                              \
+    static inline listed_text table##_key_listed(const table_view *v, table##_key k)               \
+    {                                                                                              \
+        return view_key_listed(v, &table##_schema, (unsigned)k);                                   \
     }                                                                                              \
     static inline int table##_key_enum(const table_view *v, table##_key k)                         \
     {                                                                                              \
-        return view_key_enum(v, &table##_schema, (unsigned)k);                                     \
+        return table##_key_listed(v, k).value;                                                     \
     }                                                                                              \
     static inline uint64_t table##_key_items(const table_view *v, table##_key k)                   \
     {                                                                                              \

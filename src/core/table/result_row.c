@@ -96,22 +96,17 @@ static void add_ratio(rows_source *s, const table_view *v)
     const result_value ratio = result_value_ratio(&s->values);
     if (v->n_rows == 0)
         return;
-    const char *verdict = comparison_key_text(v, COMPARISON_KEY_DIFFERS);
     result_row *row = rows_add_value(s, 0, &ratio, "track / bulk");
-    if (verdict != NULL) {
-        const sign_verdict sign = result_value_sign(&ratio);
-        const stated_verdict differs =
-            (stated_verdict)comparison_key_enum(v, COMPARISON_KEY_DIFFERS);
-        if (isnan(ratio.low) || isnan(ratio.high))
-            rows_note(row, "%s%s", finding_verdict_text(FINDING_NOT_ENOUGH_DATA),
-                      verdict + length_without_reason(verdict));
-        else
-            rows_note(row, "%.*s%s", (int)length_without_reason(verdict), verdict,
-                      differs != VERDICT_YES || sign == SIGN_UNDECIDED ? ""
-                      : sign == SIGN_BELOW                             ? ", softer"
-                                                                       : ", stiffer");
-    }
-    rows_reason(row, "is the track different", verdict);
+    const sign_verdict sign = result_value_sign(&ratio);
+    if (isnan(ratio.low) || isnan(ratio.high))
+        rows_note(row, "%s%s%s", finding_verdict_text(FINDING_NOT_ENOUGH_DATA),
+                  ratio.verdict.reason[0] != '\0' ? ": " : "", ratio.verdict.reason);
+    else
+        rows_note(row, "%s%s", ratio.verdict.text,
+                  ratio.verdict.value != VERDICT_YES || sign == SIGN_UNDECIDED ? ""
+                  : sign == SIGN_BELOW                                         ? ", softer"
+                                                                               : ", stiffer");
+    rows_reason(row, "is the track different", ratio.verdict.reason);
     rows_reason(row, "how to decide it", ratio.remedy);
     rows_reason(row, "what else would explain it",
                 comparison_key_text(v, COMPARISON_KEY_WOULD_EXPLAIN));
@@ -123,8 +118,7 @@ static void add_sensitivity(rows_source *s, const table_view *v)
                       factor = sensitivity_value(v, SENSITIVITY_KEY_FACTOR);
     const slope_direction direction =
         (slope_direction)sensitivity_key_enum(v, SENSITIVITY_KEY_DIRECTION);
-    const char *verdict = sensitivity_key_text(v, SENSITIVITY_KEY_VERDICT),
-               *option = sensitivity_key_text(v, SENSITIVITY_KEY_INDENT),
+    const char *option = sensitivity_key_text(v, SENSITIVITY_KEY_INDENT),
                *compare = sensitivity_key_text(v, SENSITIVITY_KEY_COMPARE);
     result_row *row = rows_add_number(s, 0, rows_estimate(value), "deflection sensitivity");
     for (size_t i = 0; i < v->n_rows; i++)
@@ -135,8 +129,7 @@ static void add_sensitivity(rows_source *s, const table_view *v)
                                                  : slope_direction_text(direction));
     if (!isnan(factor.value))
         rows_add_number(s, 0, rows_estimate(factor), "over that of the file");
-    if (verdict != NULL)
-        rows_add_verdict(s, 0, verdict, "slope");
+    rows_add_verdict(s, sensitivity_key_listed(v, SENSITIVITY_KEY_VERDICT), "slope");
     if (option != NULL)
         rows_add_text(s, 1, "", "for weartrack indent: %s", option);
     if (compare != NULL)
@@ -145,11 +138,9 @@ static void add_sensitivity(rows_source *s, const table_view *v)
 
 static void add_spot(rows_source *s, const table_view *v)
 {
-    const char *verdict = spot_key_text(v, SPOT_KEY_VERDICT);
     if (v->n_rows == 0)
         return;
-    if (verdict != NULL)
-        rows_add_verdict(s, 0, verdict, "smooth enough for the depth");
+    rows_add_verdict(s, spot_key_listed(v, SPOT_KEY_VERDICT), "smooth enough for the depth");
     rows_add_number(s, 0,
                     rows_number(spot_get(v, 0, SPOT_ROUGHNESS), spot_get(v, 0, SPOT_ROUGHNESS_LOW),
                                 spot_get(v, 0, SPOT_ROUGHNESS_HIGH), "m"),
@@ -220,10 +211,9 @@ static void note_law(result_row *row, const table_view *v)
 
 static result_row *add_superposition(rows_source *s, const table_view *v, const char *name)
 {
-    const char *verdict = shift_factors_key_text(v, SHIFT_FACTORS_KEY_SUPERPOSITION);
-    result_row *row = rows_add_verdict(s, 0, verdict != NULL ? verdict : "not tested", name);
-    row->open =
-        shift_factors_key_enum(v, SHIFT_FACTORS_KEY_SUPERPOSITION) != WT_SUPERPOSITION_HOLDS;
+    const listed_text verdict = shift_factors_key_listed(v, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    result_row *row = rows_add_verdict(s, verdict, name);
+    row->open = verdict.value != WT_SUPERPOSITION_HOLDS;
     return row;
 }
 

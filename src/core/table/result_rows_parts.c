@@ -65,13 +65,12 @@ result_row *rows_add_value(rows_source *s, int level, const result_value *value,
     return row;
 }
 
-result_row *rows_add_verdict(rows_source *s, int level, const char *verdict, const char *name)
+result_row *rows_add_verdict(rows_source *s, listed_text verdict, const char *name)
 {
-    result_row *row = rows_add_text(s, level, "", "%s", name);
-    const size_t n = length_without_reason(verdict);
-    snprintf(row->text, sizeof row->text, "%.*s", (int)n, verdict);
-    if (verdict[n] != '\0')
-        rows_reason(row, name, verdict);
+    result_row *row = rows_add_text(
+        s, 0, verdict.text[0] != '\0' ? verdict.text : stated_verdict_text(VERDICT_NOT_TESTED),
+        "%s", name);
+    rows_reason(row, "reason", verdict.reason);
     return row;
 }
 

@@ -19,7 +19,7 @@ result_row *rows_add_number(rows_source *s, int level, row_number number, const 
 /* Variant for a result value, with its interval, range and what the interval includes. */
 result_row *rows_add_value(rows_source *s, int level, const result_value *value, const char *name);
 /* Variant for a verdict "no: the reason": the row has the word, its reasons the whole. */
-result_row *rows_add_verdict(rows_source *s, int level, const char *verdict, const char *name);
+result_row *rows_add_verdict(rows_source *s, listed_text verdict, const char *name);
 void rows_note(result_row *row, const char *format, ...) WT_PRINTF(2, 3);
 /* Adds a reason; no effect without a text. */
 void rows_reason(result_row *row, const char *heading, const char *text);

@@ -264,10 +264,9 @@ static void add_validation_step(rows_source *s, const table_view *v, size_t i)
 
 static void add_validation(rows_source *s, const table_view *v)
 {
-    const char *verdict = validation_key_text(v, VALIDATION_KEY_VERDICT),
-               *plausible = validation_key_text(v, VALIDATION_KEY_PLAUSIBLE);
+    const char *plausible = validation_key_text(v, VALIDATION_KEY_PLAUSIBLE);
     result_row *row =
-        rows_add_verdict(s, 0, verdict != NULL ? verdict : "not tested", "theory explains it");
+        rows_add_verdict(s, validation_key_listed(v, VALIDATION_KEY_VERDICT), "theory explains it");
     const int outcome = validation_key_enum(v, VALIDATION_KEY_OUTCOME);
     if (outcome < VALIDATION_OUTCOME_UNKNOWN)
         snprintf(row->text, sizeof row->text, "%s",
@@ -359,11 +358,11 @@ static bool add_collection(rows_source *s, const table_view *v)
                                         collection_get(v, i, COLLECTION_RATIO_HIGH), "1"),
                             "%s%s%s", collection_text(v, i, COLLECTION_SAMPLE),
                             condition[0] != '\0' ? ", " : "", condition);
-        const char *differs = collection_text(v, i, COLLECTION_DIFFERS);
-        if (isnan(row->number.low) || isnan(row->number.high))
-            differs = finding_verdict_text(FINDING_NOT_ENOUGH_DATA);
-        rows_note(row, "track / bulk%s%.*s", *differs != '\0' ? "; differs: " : "",
-                  (int)length_without_reason(differs), differs);
+        const char *const differs =
+            isnan(row->number.low) || isnan(row->number.high)
+                ? finding_verdict_text(FINDING_NOT_ENOUGH_DATA)
+                : stated_verdict_text((stated_verdict)collection_enum(v, i, COLLECTION_DIFFERS));
+        rows_note(row, "track / bulk%s%s", *differs != '\0' ? "; differs: " : "", differs);
     }
     return any;
 }

@@ -65,6 +65,7 @@ static result_value empty_result_value(const char *name, const char *words, wt_q
         .high = unknown,
         .neutral = unknown,
         .range = {.low = unknown, .high = unknown, .rest_low = unknown, .rest_high = unknown},
+        .verdict = {VERDICT_UNKNOWN, "", ""},
         .frequency = {unknown, unknown},
         .velocity = unknown,
         .pressure = unknown};
@@ -127,7 +128,7 @@ result_value result_value_ratio(const result_value_tables *t)
     f.low = comparison_get(c, 0, COMPARISON_RATIO_LOW);
     f.high = comparison_get(c, 0, COMPARISON_RATIO_HIGH);
     f.neutral = 1;
-    f.verdict = comparison_key_text(c, COMPARISON_KEY_DIFFERS);
+    f.verdict = comparison_key_listed(c, COMPARISON_KEY_DIFFERS);
     f.remedy = comparison_key_text(c, COMPARISON_KEY_SETTLED_BY);
     f.includes = comparison_key_text(c, COMPARISON_KEY_INCLUDES);
     f.range.low = comparison_value(c, COMPARISON_KEY_CHOICES_LOW).value;

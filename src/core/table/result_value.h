@@ -25,7 +25,7 @@ typedef struct result_value {
     bool predicted;     /* true for a prediction, false for a measurement */
     double neutral;     /* value without an effect: 1 for a ratio, 0 for a change; else NaN */
     result_value_range range;
-    const char *verdict; /* "yes: ...", or NULL */
+    listed_text verdict; /* of a test; its texts are "" without one */
     const char *remedy;  /* how to decide an inconclusive verdict, or NULL */
     const char *includes,
         *lacks;          /* error sources that the interval includes and excludes, or NULL */

@@ -24,10 +24,15 @@ typedef struct closed_list {
     int n;
 } closed_list;
 
-/* Returns the length of a cell before ": " and its reason. */
-size_t length_without_reason(const char *cell);
-/* Returns the value of the text with which a cell begins; the longest one if there are several. */
-int closed_list_find(const closed_list *list, const char *cell);
+/* A cell of a closed list. */
+typedef struct listed_text {
+    int value;
+    const char *text;   /* that of the list; the whole cell if it is unknown, "" without a cell */
+    const char *reason; /* the rest of the cell, or "" */
+} listed_text;
+
+/* Reads a cell by the text with which it begins; the longest one if there are several. */
+listed_text closed_list_read(const closed_list *list, const char *cell);
 const char *closed_list_get(const closed_list *list, int value); /* "" for an unknown value */
 
 /* Type of the member that a column or key shows. */

@@ -23,30 +23,22 @@ void schema_name(const char *name, const char *suffix, char full[SCHEMA_NAME_SIZ
     (void)snprintf(full, SCHEMA_NAME_SIZE, "%s%s", name, open ? suffix : "");
 }
 
-size_t length_without_reason(const char *cell)
-{
-    size_t n = 0;
-    while (cell[n] != '\0' && (cell[n] != ':' || cell[n + 1] != ' '))
-        n++;
-    return n;
-}
-
 /* True if a text of a list may end before this character. */
 static bool is_end_of_text(char next)
 {
     return next == '\0' || strchr(" :;,(", next) != NULL;
 }
 
-int closed_list_find(const closed_list *list, const char *cell)
+listed_text closed_list_read(const closed_list *list, const char *cell)
 {
     size_t longest = 0;
-    int found = list->n;
+    listed_text found = {list->n, cell != NULL ? cell : "", ""};
     for (int i = 0; cell != NULL && i < list->n; i++) {
         const size_t length = strlen(list->texts[i]);
         if (length > longest && strncmp(cell, list->texts[i], length) == 0 &&
             is_end_of_text(cell[length])) {
             longest = length;
-            found = i;
+            found = (listed_text){i, list->texts[i], cell + length + strspn(cell + length, ": ")};
         }
     }
     return found;
@@ -58,7 +50,7 @@ static uint64_t closed_list_find_items(const closed_list *list, const char *cell
     uint64_t items = 0;
     for (const char *item = cell; item != NULL; item = strchr(item, ',')) {
         item += strspn(item, ", ");
-        items |= SCHEMA_BIT(closed_list_find(list, item));
+        items |= SCHEMA_BIT(closed_list_read(list, item).value);
     }
     return items;
 }
@@ -176,16 +168,16 @@ const char *view_key_text(const table_view *view, const table_schema *of, unsign
     return view->table == NULL ? NULL : wt_table_key(view->table, name);
 }
 
-int view_enum(const table_view *view, const table_schema *of, size_t row, unsigned column)
+listed_text view_listed(const table_view *view, const table_schema *of, size_t row, unsigned column)
 {
     assert(of->columns[column].list != NULL);
-    return closed_list_find(of->columns[column].list, view_text(view, of, row, column));
+    return closed_list_read(of->columns[column].list, view_text(view, of, row, column));
 }
 
-int view_key_enum(const table_view *view, const table_schema *of, unsigned key)
+listed_text view_key_listed(const table_view *view, const table_schema *of, unsigned key)
 {
     assert(of->keys[key].list != NULL);
-    return closed_list_find(of->keys[key].list, view_key_text(view, of, key));
+    return closed_list_read(of->keys[key].list, view_key_text(view, of, key));
 }
 
 uint64_t view_key_items(const table_view *view, const table_schema *of, unsigned key)

@@ -28,10 +28,10 @@ bool view_has_column(const table_view *view, const table_schema *of, unsigned co
 /* Return a cell; NaN or "" if an optional column is missing. */
 double view_number(const table_view *view, const table_schema *of, size_t row, unsigned column);
 const char *view_text(const table_view *view, const table_schema *of, size_t row, unsigned column);
-/* Return the value of a text that is from a closed list; that of an unknown text if it is missing.
- */
-int view_enum(const table_view *view, const table_schema *of, size_t row, unsigned column);
-int view_key_enum(const table_view *view, const table_schema *of, unsigned key);
+/* Return a text that is from a closed list, and its reason. */
+listed_text view_listed(const table_view *view, const table_schema *of, size_t row,
+                        unsigned column);
+listed_text view_key_listed(const table_view *view, const table_schema *of, unsigned key);
 /* Returns the set of texts in a key that lists several. */
 uint64_t view_key_items(const table_view *view, const table_schema *of, unsigned key);
 /* Returns an estimate; NaN if the key is missing or is a text. */
