@@ -69,8 +69,10 @@ static void set_superposition_keys(table_writer *t, const wt_master *m)
     if (isnan(m->lack_of_fit_p))
         return;
     shift_factors_set_print(t, SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "%.3g", m->lack_of_fit_p);
-    shift_factors_set_print(t, SHIFT_FACTORS_KEY_MISFIT_LOW, "%.3g", m->misfit_low);
-    shift_factors_set_print(t, SHIFT_FACTORS_KEY_MISFIT_HIGH, "%.3g", m->misfit_high);
+    if (!isnan(m->misfit_high)) {
+        shift_factors_set_print(t, SHIFT_FACTORS_KEY_MISFIT_LOW, "%.3g", m->misfit_low);
+        shift_factors_set_print(t, SHIFT_FACTORS_KEY_MISFIT_HIGH, "%.3g", m->misfit_high);
+    }
     const double factor = exp(m->loss_factor);
     shift_factors_set_value(t, SHIFT_FACTORS_KEY_LOSS_FACTOR, factor, factor * m->loss_factor_error,
                             0);
