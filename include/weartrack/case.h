@@ -76,7 +76,7 @@ typedef struct wt_result_row {
     const char *name;                               /* of the quantity */
     int level;                                      /* 1: part of the last row of level 0 */
     double value, low, high, range_low, range_high; /* NaN for a text or if it is unknown */
-    const char *unit; /* of the numbers: SI, "degC" (then they are in K) or "%" (of 1) */
+    const char *unit; /* of the numbers, SI; a text may show another one: "20 degC", "5 %" */
     /* As people read it: value with unit, or text; 95 % interval and range over choices of the
      * model, "" if unknown; note. */
     const char *text, *interval, *range, *note;

@@ -4,6 +4,7 @@
 #include "dma/master.h"
 
 #include "core/base/array.h"
+#include "core/base/number.h"
 #include "core/table/table_rows.h"
 #include "dma/sweep_input.h"
 
@@ -68,8 +69,10 @@ static void set_superposition_keys(table_writer *t, const wt_master *m)
     if (isnan(m->lack_of_fit_p))
         return;
     shift_factors_set_print(t, SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "%.3g", m->lack_of_fit_p);
-    shift_factors_set_print(t, SHIFT_FACTORS_KEY_MISFIT_LOW, "%.3g", m->misfit_low);
-    shift_factors_set_print(t, SHIFT_FACTORS_KEY_MISFIT_HIGH, "%.3g", m->misfit_high);
+    if (!isnan(m->misfit_high)) {
+        shift_factors_set_print(t, SHIFT_FACTORS_KEY_MISFIT_LOW, "%.3g", m->misfit_low);
+        shift_factors_set_print(t, SHIFT_FACTORS_KEY_MISFIT_HIGH, "%.3g", m->misfit_high);
+    }
     const double factor = exp(m->loss_factor);
     shift_factors_set_value(t, SHIFT_FACTORS_KEY_LOSS_FACTOR, factor, factor * m->loss_factor_error,
                             0);
@@ -221,14 +224,8 @@ wt_status flow_prony_table(const wt_master *m, wt_table **table, wt_error *err)
  * the isotherms. */
 enum { DRAWS_SEED = 1 };
 
-/* Rounds to seven digits, far below the scatter of the draws, which shortens the tables. */
-static double round_to_seven_digits(double x)
-{
-    if (!(fabs(x) > 0) || !isfinite(x))
-        return x;
-    const double scale = pow(10, 6 - floor(log10(fabs(x))));
-    return scale > 1 ? round(x * scale) / scale : round(x * scale) * (1 / scale);
-}
+/* Digits of the draws, far finer than their scatter, which shortens the tables. */
+enum { DRAW_DIGITS = 7 };
 
 TABLE_ROW(material_draws, MATERIAL_DRAWS, double draw, temperature, log_b, equilibrium_modulus,
           wlf_c1, wlf_c2, activation_energy;)
@@ -245,17 +242,17 @@ static void add_material_draw_rows(table_writer *t, const wt_master *m, size_t d
     material_draws_row row = {(double)draw + 1,
                               none,
                               none,
-                              round_to_seven_digits(prony->equilibrium_modulus),
-                              round_to_seven_digits(law->wlf.c1),
-                              round_to_seven_digits(law->wlf.c2),
-                              round_to_seven_digits(law->activation_energy)};
+                              round_to_digits(prony->equilibrium_modulus, DRAW_DIGITS),
+                              round_to_digits(law->wlf.c1, DRAW_DIGITS),
+                              round_to_digits(law->wlf.c2, DRAW_DIGITS),
+                              round_to_digits(law->activation_energy, DRAW_DIGITS)};
     table_block(t);
     for (size_t i = 0; vertical ? i < m->n_shifts : first; i++) {
         if (vertical && !m->shifts[i].determined)
             continue;
         if (vertical) {
             row.temperature = m->shifts[i].temperature;
-            row.log_b = round_to_seven_digits(log_b[i]);
+            row.log_b = round_to_digits(log_b[i], DRAW_DIGITS);
         }
         material_draws_add_row(t, &row);
         row.equilibrium_modulus = row.wlf_c1 = row.wlf_c2 = row.activation_energy = none;
@@ -270,8 +267,8 @@ static void add_series_draw_rows(table_writer *t, size_t draw, const wt_prony *p
     table_block(t);
     for (size_t k = 0; k < prony->n; k++)
         TABLE_ADD(series_draws, t, (double)draw + 1,
-                  round_to_seven_digits(prony->relaxation_time[k]),
-                  round_to_seven_digits(prony->modulus[k]));
+                  round_to_digits(prony->relaxation_time[k], DRAW_DIGITS),
+                  round_to_digits(prony->modulus[k], DRAW_DIGITS));
 }
 
 wt_status flow_draw_tables(const wt_master *m, size_t n, wt_master_tables *tables, wt_error *err)

@@ -169,9 +169,9 @@
 
 #define MASTER_CURVE_KEYS(X)                                                                       \
     X(MASTER_CURVE_KEY_NOISE_STORAGE, AS(noise_storage), PLAIN,                                    \
-      LABEL("Noise of the storage modulus, relative"))                                             \
+      LABEL("Noise of the storage modulus, relative"), OPTIONAL)                                   \
     X(MASTER_CURVE_KEY_NOISE_LOSS, AS(noise_loss), PLAIN,                                          \
-      LABEL("Noise of the loss modulus, relative"))                                                \
+      LABEL("Noise of the loss modulus, relative"), OPTIONAL)                                      \
     X(MASTER_CURVE_KEY_NOISE_CORRELATION, "noise_correlation", PLAIN, SHOWS(correlation),          \
       LABEL("Correlation of the noise of neighbouring points"))                                    \
     X(MASTER_CURVE_KEY_REFERENCE_TEMPERATURE, AS(reference_temperature), SI(TEMPERATURE))          \

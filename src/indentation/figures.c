@@ -440,7 +440,7 @@ const figure_description figures_indentation[] = {
      .curves = {CURVE(MODULUS_GROUPS_GEOMETRIC_MEAN, OWN, .with_errors = true)},
      .empty_reason = "no group has a modulus above zero",
      .caption_text =
-         "Modulus of every accepted curve (open circles: wide or doubtful; spread sideways for "
+         "Modulus of every curve used (open circles: wide or doubtful; spread sideways for "
          "sight only) and, to the right, "
          "the geometric mean of the group with its 95 % confidence interval; logarithmic "
          "axis.",

@@ -151,7 +151,7 @@ static void set_indentation_keys(const indent_task *task, const flow_files *file
                           spots == SPOTS_NAMED   ? ""
                           : spots == SPOTS_MIXED ? ": some named, the others one for each file"
                                                  : ": each file is a spot, none were named");
-    indentation_set_print(t, INDENTATION_KEY_N_ACCEPTED, "%zu", task->n_accepted);
+    indentation_set_print(t, INDENTATION_KEY_N_USED, "%zu", task->n_accepted);
     indentation_set_print(t, INDENTATION_KEY_N_WIDE, "%zu", task->n_wide);
     indentation_set_print(t, INDENTATION_KEY_N_DOUBTFUL, "%zu", task->n_doubtful);
     indentation_set_print(t, INDENTATION_KEY_N_REJECTED, "%zu", task->n_curves - task->n_accepted);

@@ -208,7 +208,7 @@
     X(INDENTATION_KEY_ASSUMED, "assumed_errors", TEXT, LABEL("Errors assumed, as none is stated"), \
       OPTIONAL)                                                                                    \
     X(INDENTATION_KEY_NOT_SHOWN, "not_shown", TEXT, LABEL("What no curve shows"), OPTIONAL)        \
-    X(INDENTATION_KEY_N_ACCEPTED, "n_accepted", PLAIN, LABEL("Curves with a modulus"), OPTIONAL)   \
+    X(INDENTATION_KEY_N_USED, "n_used", PLAIN, LABEL("Curves used"), OPTIONAL)                     \
     X(INDENTATION_KEY_N_WIDE, "n_wide", PLAIN, LABEL("Of them with a wide interval"), OPTIONAL)    \
     X(INDENTATION_KEY_N_DOUBTFUL, "n_doubtful", PLAIN, LABEL("Of them doubtful"), OPTIONAL)        \
     X(INDENTATION_KEY_N_REJECTED, "n_rejected", PLAIN, LABEL("Curves rejected"), OPTIONAL)

@@ -4,8 +4,7 @@
 #include "report/display_units.h"
 #include "core/base/number.h"
 #include "core/base/text.h"
-#include "core/math/students_t.h"
-#include "core/table/result_value.h"
+#include "report/report_text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -84,28 +83,25 @@ display_value_text format_display_value(wt_quantity quantity, const char *unit, 
     return text;
 }
 
+display_value_text format_display_row(row_number number)
+{
+    const row_number_text shown = row_number_format(&number);
+    display_value_text text;
+    text_buffer words = {0};
+    text_typographic(&words, shown.value);
+    text_add(&words, shown.interval[0] != '\0' ? " (95 %: " : "");
+    text_typographic(&words, shown.interval);
+    text_add(&words, shown.interval[0] != '\0' ? ")" : "");
+    (void)snprintf(text.chars, sizeof text.chars, "%s", text_string(&words));
+    text_free(&words);
+    return text;
+}
+
 display_value_text format_display_estimate(const wt_estimate *estimate)
 {
-    display_unit lab = select_display_unit(WT_Q_NONE, estimate->unit, estimate->value);
-    const double value = to_display_value(&lab, estimate->value),
-                 half = NORMAL_95 * fabs(estimate->standard_error) * lab.factor;
-    display_value_text text;
-    if (!(half > 0) || !isfinite(value)) {
-        text = format_display_value(WT_Q_NONE, estimate->unit, estimate->value);
-        if (isnan(half) && isfinite(value))
-            (void)strcat(text.chars, " (error not known)");
-        return text;
-    }
-    const int least = result_value_digits(value, value - half, value + half) - 1 -
-                      (value != 0 ? (int)floor(log10(fabs(value))) : 0),
-              decimals = least < 0   ? 0
-                         : least > 9 ? 9
-                                     : least;
-    (void)snprintf(text.chars, sizeof text.chars, "%s%s%s (95 %%: %s to %s)",
-                   FIXED(round_to_power_of_ten(value, least), decimals),
-                   lab.label[0] != '\0' ? " " : "", lab.label,
-                   FIXED(round_to_power_of_ten(value - half, least), decimals),
-                   FIXED(round_to_power_of_ten(value + half, least), decimals));
+    display_value_text text = format_display_row(rows_estimate(*estimate));
+    if (isnan(estimate->standard_error) && isfinite(estimate->value))
+        (void)strcat(text.chars, " (error not known)");
     return text;
 }
 

@@ -5,6 +5,7 @@
 #ifndef WT_REPORT_DISPLAY_UNITS_H
 #define WT_REPORT_DISPLAY_UNITS_H
 
+#include "core/table/result_rows_parts.h"
 #include "weartrack/core.h"
 #include <stdbool.h>
 
@@ -26,7 +27,9 @@ typedef struct display_value_text {
     char chars[1200];
 } display_value_text;
 display_value_text format_display_value(wt_quantity quantity, const char *unit, double value);
-/* Formats "12.3 MPa (95 %: 11.5 to 13.1)", or the value alone without a standard error. */
+/* Formats "12.3 MPa (95 %: 11.5 to 13.1)" as the rows of a page have it, or the value alone
+ * without an interval. */
+display_value_text format_display_row(row_number number);
 display_value_text format_display_estimate(const wt_estimate *estimate);
 
 #define VALUE(quantity, unit, value) format_display_value(quantity, unit, value).chars

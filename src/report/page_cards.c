@@ -4,6 +4,7 @@
 
 #include "core/base/array.h"
 #include "core/table/finding.h"
+#include "core/table/result_rows_parts.h"
 #include "report/report_text.h"
 
 #include <math.h>
@@ -222,15 +223,8 @@ static void write_validation_card(page_writer *page)
     const int outcome = validation_key_enum(v, VALIDATION_KEY_OUTCOME);
     const char *const reason = validation_key_listed(v, VALIDATION_KEY_VERDICT).reason,
                       *const settled = validation_key_text(v, VALIDATION_KEY_SETTLED_BY);
-    const double none = (double)NAN;
-    row_number ratio = {none, none, none, none, none, "1"},
-               needed = {none, none, none, none, none, "Pa"};
-    ratio.value = validation_value(v, VALIDATION_KEY_RATIO).value;
-    ratio.low = validation_value(v, VALIDATION_KEY_RATIO_LOW).value;
-    ratio.high = validation_value(v, VALIDATION_KEY_RATIO_HIGH).value;
-    needed.value = validation_value(v, VALIDATION_KEY_NEEDED).value;
-    needed.low = validation_value(v, VALIDATION_KEY_NEEDED_LOW).value;
-    needed.high = validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value;
+    const row_number ratio = rows_of_keys(v, VALIDATION_KEY_RATIO),
+                     needed = rows_of_keys(v, VALIDATION_KEY_NEEDED);
     const bool is_known = outcome < VALIDATION_OUTCOME_UNKNOWN;
     begin_card(page,
                !is_known                         ? "v-nodata"

@@ -31,7 +31,7 @@
 
 #define MODULUS_GROUPS_COLUMNS(X)                                                                  \
     X(MODULUS_GROUPS_GROUP, AS(group), "group of curves", TEXT, LABEL("Group"))                    \
-    X(MODULUS_GROUPS_N, IN(data, n), "accepted curves", NUMBER, LABEL("Curves n"))                 \
+    X(MODULUS_GROUPS_N, IN(data, n), "curves used", NUMBER, LABEL("Curves n"))                     \
     X(MODULUS_GROUPS_N_REJECTED, IN(data, n_rejected), "rejected curves", NUMBER,                  \
       LABEL("Rejected"))                                                                           \
     X(MODULUS_GROUPS_N_SPOTS, IN(summary, n_spots), "places on the sample", NUMBER,                \

@@ -225,14 +225,14 @@ static void draw_profiles(figure_drawing *d)
 static void caption_measured(figure_drawing *d)
 {
     const wt_estimate height = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_RMS_HEIGHT),
-                      slope = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_RMS_SLOPE),
-                      hurst = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_HURST);
+                      slope = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_RMS_SLOPE);
+    const row_number hurst = rows_of_keys(d->table, POWER_SPECTRUM_KEY_HURST);
     const double share = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_SHARE).value;
     const char *const law = power_spectrum_key_text(d->table, POWER_SPECTRUM_KEY_LAW);
     text_format(&d->caption, " Root-mean-square height %s. Root-mean-square slope %s.",
                 ESTIMATE(&height), ESTIMATE(&slope));
     if (isfinite(hurst.value))
-        text_format(&d->caption, " Self-affine law: H = %s%s%s.", ESTIMATE(&hurst),
+        text_format(&d->caption, " Self-affine law: H = %s%s%s.", format_display_row(hurst).chars,
                     law != NULL ? ", " : "", law != NULL ? law : "");
     if (isfinite(share))
         text_format(&d->caption,

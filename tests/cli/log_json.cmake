@@ -69,3 +69,5 @@ set(roughness self-affine:q0=500rad/m,qr=2000rad/m,q1=1e6rad/m,hurst=0.8,c0=6e-1
 run(0 friction -m ${WORK}/m.tsv --roughness ${roughness} -p 0.4MPa -v 1e-3:1m/s:log:20 --replicates 50000)
 expect(progress done "^[1-9][0-9]*$")
 expect(progress total "^50000$")
+run(0 ramp ${FIXTURES}/dma/ramp_storage.csv ${FIXTURES}/dma/ramp_loss_factor.csv -o ${WORK}/r.tsv)
+expect(row unit "^K$") # that of the value, not of the text

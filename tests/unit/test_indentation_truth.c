@@ -127,7 +127,7 @@ static void test_rejected(void **state)
     const wt_table *t = tables.indentation;
     assert_string_equal(cell_text(t, 1, "verdict"), "no_contact");
     assert_non_null(strstr(cell_text(t, 1, "reason"), "noise"));
-    assert_string_equal(wt_table_key(t, "n_accepted"), "1");
+    assert_string_equal(wt_table_key(t, "n_used"), "1");
     assert_string_equal(wt_table_key(t, "n_doubtful"), "0");
     assert_string_equal(wt_table_key(t, "n_rejected"), "1");
     assert_string_equal(wt_table_key(t, "spots"), "named");

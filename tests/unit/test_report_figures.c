@@ -588,7 +588,7 @@ static void test_numbers_of_captions(void **state)
         {"friction", " numerical error of the hysteresis part: 0.0020 %, not in the bands."},
         {"friction", " Up to 4.0 % of the hysteresis part comes"},
         {"layer", " Balance thickness 3.16 µm (95 %: 1.60 to 4.73). Incubation time 1.20 s (95 %: "
-                  "0.90 to 1.51). Relaxation time 46.5 s (95 %: 14.8 to 78.3)."},
+                  "0.896 to 1.51). Relaxation time 46.5 s (95 %: 14.8 to 78.3)."},
     };
     for (size_t i = 0; i < sizeof captions / sizeof *captions; i++)
         check_caption("out", captions[i][0], captions[i][1]);
@@ -601,6 +601,13 @@ static void test_numbers_of_captions(void **state)
     (void)snprintf(words, sizeof words, " bulk: %s, contact point ± %.3g nm (95 %%). ",
                    wt_table_key(curves, "curve_bulk"), 1e9 * NORMAL_95 * bulk.standard_error);
     check_caption("out", "force_displacement", words);
+    /* the interval of the exponent is not that of a normal error */
+    wt_estimate low, high;
+    const wt_table *surface = wt_result_find(everything, "power_spectrum");
+    assert_true(wt_table_estimate(surface, "hurst_low", &low) &&
+                wt_table_estimate(surface, "hurst_high", &high));
+    (void)snprintf(words, sizeof words, " (95 %%: %.3f to %.3f)", low.value, high.value);
+    check_caption("out", "measured_spectrum", words);
     (void)snprintf(words, sizeof words, " curve 7, contact point ± %.3g nm (95 %%). ",
                    1e9 * NORMAL_95 * track.standard_error);
     check_caption("out", "force_displacement", words);

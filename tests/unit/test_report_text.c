@@ -129,11 +129,14 @@ static void test_lab_units(void **state)
     (void)state;
     /* an interval of two digits, of three to six digits of the value */
     const wt_estimate some = {3.02e-6, 0.815e-6, 0, "m"}, exact = {1, 1.2e-9, 0, "1"},
-                      zero = {0, 0.5, 0, "1"}, unknown = {2, (double)NAN, 0, "1"};
+                      wide = {3.02e-6, 1.1e-5, 0, "m"}, zero = {0, 0.5, 0, "1"},
+                      unknown = {2, (double)NAN, 0, "1"};
     assert_string_equal(ESTIMATE(&some), "3.02 µm (95 %: 1.42 to 4.62)");
-    assert_string_equal(ESTIMATE(&exact), "1.00000 (95 %: 1.00000 to 1.00000)");
-    assert_string_equal(ESTIMATE(&zero), "0.00 (95 %: −0.98 to 0.98)");
-    assert_string_equal(ESTIMATE(&unknown), "2 (error not known)");
+    /* as the rows: more digits for a narrower interval, and no sign of a positive number */
+    assert_string_equal(ESTIMATE(&exact), "1.00000000 (95 %: 1.00000000 to 1.00000000)");
+    assert_string_equal(ESTIMATE(&wide), "3.02 µm (95 %: 0 to 24.58)");
+    assert_string_equal(ESTIMATE(&zero), "0 (95 %: −0.980 to 0.980)");
+    assert_string_equal(ESTIMATE(&unknown), "2.00 (error not known)");
     static const struct {
         wt_quantity quantity;
         const char *unit;

@@ -172,7 +172,7 @@ wt_result_row wt_result_rows_get(const wt_result_rows *r, size_t i)
         .high = n->high,
         .range_low = n->range_low,
         .range_high = n->range_high,
-        .unit = n->unit,
+        .unit = row_number_unit(n),
         .text = row->kind == RESULT_ROW_TEXT ? row->text : texts->value,
         .interval = texts->interval,
         .range = texts->range,

@@ -51,24 +51,18 @@ static number_text format_with_digits(double value, const char *unit, int digits
     return result;
 }
 
+/* Digits of a value without an error, as in the rows of a result. */
+enum { UNIT_DIGITS = 3 };
+
 number_text format_with_unit(double value, const char *unit)
 {
-    return format_with_digits(value, unit, 3);
-}
-
-/* Rounds to the three digits that format_with_unit shows. */
-static double round_as_shown(double value)
-{
-    if (value == 0 || !isfinite(value))
-        return value;
-    const double scale = pow(10, 2 - floor(log10(fabs(value))));
-    return round(value * scale) / scale;
+    return format_with_digits(value, unit, UNIT_DIGITS);
 }
 
 number_text format_range_with_unit(double low, double high, const char *unit)
 {
     number_text words = format_with_unit(low, unit);
-    if (!(round_as_shown(high) <= round_as_shown(low)))
+    if (!(round_to_digits(high, UNIT_DIGITS) <= round_to_digits(low, UNIT_DIGITS)))
         clocale_append(words.text, sizeof words.text, " to %.40s",
                        format_with_unit(high, unit).text);
     return words;

@@ -71,14 +71,14 @@ static void describe_indentation(text_builder *t, const table_view *table)
 {
     const char *tip = indentation_key_text(table, INDENTATION_KEY_TIP),
                *ratio = indentation_key_text(table, INDENTATION_KEY_POISSON_RATIO),
-               *accepted = indentation_key_text(table, INDENTATION_KEY_N_ACCEPTED);
+               *used = indentation_key_text(table, INDENTATION_KEY_N_USED);
     describe_experiment(t, table);
     text_append(
         t,
         "Young's modulus of each of %zu force curve%s%s%s%s was fitted together with the line of "
         "the baseline and the contact point",
-        table->n_rows, table->n_rows == 1 ? "" : "s", accepted != NULL ? " (" : "",
-        accepted != NULL ? accepted : "", accepted != NULL ? " of them accepted)" : "");
+        table->n_rows, table->n_rows == 1 ? "" : "s", used != NULL ? " (" : "",
+        used != NULL ? used : "", used != NULL ? " of them used)" : "");
     text_append(t, ", with the contact law of the tip (%s)", tip != NULL ? tip : "not stated");
     text_append(t, ratio != NULL ? " and a Poisson's ratio of %s." : ".%s",
                 ratio != NULL ? ratio : "");

@@ -251,6 +251,19 @@ double round_to_power_of_ten(double value, int decimals)
     return decimals < 0 ? tens * round(value / tens) : value;
 }
 
+double round_to_digits(double value, int digits)
+{
+    if (!(fabs(value) > 0) || !isfinite(value))
+        return value;
+    const double scale = pow(10, digits - 1 - floor(log10(fabs(value))));
+    return scale > 1 ? round(value * scale) / scale : round(value * scale) * (1 / scale);
+}
+
+double round_up_percent(double share)
+{
+    return fmax(0.1, 0.1 * ceil(1e3 * share));
+}
+
 probability_text format_probability(double chance)
 {
     probability_text words;
@@ -314,7 +327,7 @@ static long double scale_by_power_of_ten(long double x, int power)
 
 /* Rounds a positive value to `digits` digits, and states whether this text reads back as the
  * value. */
-static round_trip_verdict round_to_digits(double value, int digits, decimal *to)
+static round_trip_verdict try_digits(double value, int digits, decimal *to)
 {
     int e;
     const bool power_of_two =
@@ -343,7 +356,7 @@ static round_trip_verdict round_to_digits(double value, int digits, decimal *to)
     return off < half ? ROUND_TRIP_HOLDS : ROUND_TRIP_FAILS;
 }
 #else
-static round_trip_verdict round_to_digits(double value, int digits, decimal *to)
+static round_trip_verdict try_digits(double value, int digits, decimal *to)
 {
     (void)value, (void)digits, (void)to;
     return ROUND_TRIP_UNCERTAIN;
@@ -386,7 +399,7 @@ static size_t format_extended(double value, char *buffer)
 {
     decimal d;
     for (int digits = 15; digits <= DIGITS_MAX; digits++) {
-        const round_trip_verdict back = round_to_digits(fabs(value), digits, &d);
+        const round_trip_verdict back = try_digits(fabs(value), digits, &d);
         if (back == ROUND_TRIP_UNCERTAIN)
             return 0;
         if (back == ROUND_TRIP_HOLDS)

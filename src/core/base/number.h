@@ -20,6 +20,9 @@ bool parse_stored_number(const char *text, size_t length, double *value);
 /* Rounds a value to 10^-decimals if `decimals` is negative. Otherwise the value is returned
  * unchanged, because printf rounds it. */
 double round_to_power_of_ten(double value, int decimals);
+double round_to_digits(double value, int digits); /* to significant digits */
+/* Converts a bound of a share to per cent and rounds it up to a tenth. */
+double round_up_percent(double share);
 /* True for equal numbers, and if both are NaN. */
 bool is_same_number(double a, double b);
 /* Text of a probability, such as "0.02"; small values are "below 0.001". */

@@ -127,8 +127,8 @@ static void add_group_headlines(table_writer *t, const result_value_tables *foun
         (void)snprintf(stem, sizeof stem, "%s_%s", f.name, group);
         add_number_headline(t, stem, "", f.number.value, f.number.unit);
         add_value_bounds(t, stem, &f);
-        add_number_headline(t, "accepted_", group,
-                            modulus_groups_get(groups, row, MODULUS_GROUPS_N), "1");
+        add_number_headline(t, "used_", group, modulus_groups_get(groups, row, MODULUS_GROUPS_N),
+                            "1");
         add_number_headline(t, "rejected_", group,
                             modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED), "1");
     }

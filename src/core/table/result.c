@@ -171,6 +171,7 @@ static const struct {
     {NULL, "lack_of_fit_chance", "lack_of_fit_p"},
     {NULL, "misfit_chance", "misfit_p"},
     {NULL, "misfit_chance_", "misfit_p_"},
+    {NULL, "n_accepted", "n_used"},
     {NULL, "pooled_misfit_chance", "pooled_misfit_p"},
     {NULL, "standard_error_lacks", "standard_error_excludes"},
     {NULL, "ways_error", "direction_error"},

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/result_row.h"
 
+#include "core/base/number.h"
 #include "core/base/text.h"
 #include "core/table/finding.h"
 #include "core/table/result_rows_parts.h"
@@ -285,15 +286,17 @@ static void add_shifts(rows_source *s, const table_view *v)
     size_t odd = 0;
     for (size_t i = 0; i < v->n_rows; i++)
         odd += shift_factors_get(v, i, SHIFT_FACTORS_DETERMINED) > 0 ? 0 : 1;
-    clocale_append(s->rows->heading, sizeof s->rows->heading, "%s%s%zu isotherm%s, %s to %s",
+    clocale_append(s->rows->heading, sizeof s->rows->heading, "%s%s%zu isotherm%s, %s",
                    sample != NULL ? sample : "", sample != NULL ? ": " : "", v->n_rows,
-                   v->n_rows == 1 ? "" : "s", rows_short(largest_temperature(v, -1), "degC").value,
-                   rows_short(largest_temperature(v, 1), "degC").value);
+                   v->n_rows == 1 ? "" : "s", rows_short(largest_temperature(v, -1), "degC").value);
+    if (v->n_rows > 1)
+        clocale_append(s->rows->heading, sizeof s->rows->heading, " to %s",
+                       rows_short(largest_temperature(v, 1), "degC").value);
     result_row *row = add_superposition(s, v, "superposition");
     if (!isnan(high) && low > 0)
-        rows_note(row, "misfit %.2g to %.2g %%", 100 * low, 100 * high);
+        rows_note(row, "misfit %.1f to %.1f %%", 100 * low, 100 * high);
     else if (!isnan(high))
-        rows_note(row, "misfit below %.2g %%", 100 * high);
+        rows_note(row, "misfit below %.1f %%", round_up_percent(high));
     const double from = shift_factors_value(v, SHIFT_FACTORS_KEY_HOLDS_FROM).value,
                  to = shift_factors_value(v, SHIFT_FACTORS_KEY_HOLDS_TO).value;
     if (!isnan(from)) {
@@ -400,9 +403,9 @@ static void rows_of_surface(rows_source *s)
     table_view v;
     if (!rows_bind(s, &power_spectrum_schema, &v))
         return;
-    const wt_estimate hurst = power_spectrum_value(&v, POWER_SPECTRUM_KEY_HURST),
-                      roll_off = power_spectrum_value(&v, POWER_SPECTRUM_KEY_ROLL_OFF),
-                      anisotropy = power_spectrum_value(&v, POWER_SPECTRUM_KEY_ANISOTROPY);
+    const row_number hurst = rows_of_keys(&v, POWER_SPECTRUM_KEY_HURST),
+                     roll_off = rows_of_keys(&v, POWER_SPECTRUM_KEY_ROLL_OFF);
+    const wt_estimate anisotropy = power_spectrum_value(&v, POWER_SPECTRUM_KEY_ANISOTROPY);
     const char *law = power_spectrum_key_text(&v, POWER_SPECTRUM_KEY_LAW),
                *scans = power_spectrum_key_text(&v, POWER_SPECTRUM_KEY_N_SCANS);
     rows_add_number(s, 0, rows_estimate(power_spectrum_value(&v, POWER_SPECTRUM_KEY_RMS_HEIGHT)),
@@ -422,21 +425,12 @@ static void rows_of_surface(rows_source *s)
                   rows_short(to, "1").value);
     rows_add_text(s, 0, text, "reliable wavenumbers");
     if (!isnan(hurst.value))
-        rows_add_number(
-            s, 0,
-            rows_number(hurst.value, power_spectrum_value(&v, POWER_SPECTRUM_KEY_HURST_LOW).value,
-                        power_spectrum_value(&v, POWER_SPECTRUM_KEY_HURST_HIGH).value, "1"),
-            "Hurst exponent");
+        rows_add_number(s, 0, hurst, "Hurst exponent");
     else
         rows_add_text(s, 0, "none", "Hurst exponent");
     rows_reason(&s->rows->rows[s->rows->n - 1], "self-affine law", law);
     if (!isnan(roll_off.value))
-        rows_add_number(
-            s, 0,
-            rows_number(
-                roll_off.value, power_spectrum_value(&v, POWER_SPECTRUM_KEY_ROLL_OFF_LOW).value,
-                power_spectrum_value(&v, POWER_SPECTRUM_KEY_ROLL_OFF_HIGH).value, roll_off.unit),
-            "roll-off wavenumber");
+        rows_add_number(s, 0, roll_off, "roll-off wavenumber");
     if (!isnan(anisotropy.value)) {
         row = rows_add_number(s, 0, rows_estimate(anisotropy), "anisotropy");
         rows_reason(row, "directions", power_spectrum_key_text(&v, POWER_SPECTRUM_KEY_DIRECTIONS));

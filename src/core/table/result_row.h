@@ -22,6 +22,8 @@ typedef struct row_number_text {
 } row_number_text;
 
 row_number_text row_number_format(const row_number *number);
+/* SI unit of the numbers: "K" for "degC", "1" for "%". */
+const char *row_number_unit(const row_number *number);
 /* A ratio without a unit that has the neutral value 0 is a relative change, in percent. */
 row_number row_number_of_value(const result_value *value);
 

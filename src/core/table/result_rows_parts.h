@@ -1,5 +1,6 @@
 /* Parts of the rows of a result, by the kinds of tables, and how a part adds its rows. Only
- * result_row*.c include this file. SPDX-License-Identifier: GPL-3.0-or-later */
+ * result_row*.c add rows; captions and cards format numbers alike. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_CORE_TABLE_RESULT_ROWS_PARTS_H
 #define WT_CORE_TABLE_RESULT_ROWS_PARTS_H
 
@@ -27,7 +28,10 @@ void rows_reason(result_row *row, const char *heading, const char *text);
 void rows_condition(rows_source *s, double value, const char *unit);
 
 row_number rows_number(double value, double low, double high, const char *unit);
-/* Number with the 95 % interval of a normal error, if the error is known. */
+/* Number of a key and of the two that follow it, which are the limits of its interval. */
+row_number rows_of_keys(const table_view *view, unsigned key);
+/* Number with the 95 % interval of a normal error, if the error is known. The lower limit of a
+ * positive number is at least 0: none of them has a sign. */
 row_number rows_estimate(wt_estimate estimate);
 /* The same of a temperature, which is shown in degrees Celsius. */
 row_number rows_temperature(wt_estimate kelvin);

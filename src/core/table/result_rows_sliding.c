@@ -39,7 +39,7 @@ static void add_layer(rows_source *s, const table_view *v)
 {
     const result_value thickness = result_value_thickness(&s->values);
     const bool given = layer_key_enum(v, LAYER_KEY_CRITICAL_ENERGY_FROM) == ENERGY_CALIBRATED;
-    const double value = thickness.number.value, none = (double)NAN;
+    const double value = thickness.number.value;
     rows_condition(s, thickness.velocity, "m/s");
     rows_condition(s, thickness.pressure, "Pa");
     result_row *row;
@@ -59,9 +59,8 @@ static void add_layer(rows_source *s, const table_view *v)
     if (value > 0 && isfinite(value))
         rows_add_number(s, 1, rows_estimate(layer_value(v, LAYER_KEY_TIME_TO_90_PERCENT)),
                         "time to 90 %%");
-    rows_add_number(
-        s, 0, rows_number(layer_value(v, LAYER_KEY_FORMATION_WEAR_RATIO).value, none, none, "1"),
-        "formation / wear at the surface");
+    rows_add_number(s, 0, rows_estimate(layer_value(v, LAYER_KEY_FORMATION_WEAR_RATIO)),
+                    "formation / wear at the surface");
     rows_add_number(s, 0, rows_estimate(layer_value(v, LAYER_KEY_CRITICAL_ENERGY)),
                     "critical energy U_c");
     rows_add_number(s, 0, rows_estimate(layer_value(v, LAYER_KEY_WEAR_RATE)), "specific wear rate");
@@ -155,10 +154,8 @@ static void add_what_if(rows_source *s, const table_view *v, bool has_layer)
         const double used = what_if_get(v, 0, numbers[k].column);
         if (isnan(used) || (has_layer && numbers[k].column == WHAT_IF_THICKNESS))
             continue;
-        result_row *row = rows_add_number(s, 0, rows_number(used, none, none, numbers[k].unit),
-                                          "%s", numbers[k].name);
-        rows_note(row, "model choices: %s to %s", rows_short(low, numbers[k].unit).value,
-                  rows_short(high, numbers[k].unit).value);
+        rows_add_number(s, 0, (row_number){used, none, none, low, high, numbers[k].unit}, "%s",
+                        numbers[k].name);
     }
 }
 
@@ -276,21 +273,13 @@ static void add_validation(rows_source *s, const table_view *v)
         rows_note(row, "%s", judged);
     rows_reason(row, "how to decide it", validation_key_text(v, VALIDATION_KEY_SETTLED_BY));
     rows_reason(row, "assumed", validation_key_text(v, VALIDATION_KEY_REMARKS));
-    rows_add_number(s, 0,
-                    rows_number(validation_value(v, VALIDATION_KEY_RATIO).value,
-                                validation_value(v, VALIDATION_KEY_RATIO_LOW).value,
-                                validation_value(v, VALIDATION_KEY_RATIO_HIGH).value, "1"),
-                    "measured / predicted");
+    rows_add_number(s, 0, rows_of_keys(v, VALIDATION_KEY_RATIO), "measured / predicted");
     for (size_t i = 0; i < v->n_rows; i++)
         add_validation_step(s, v, i);
-    const wt_estimate needed = validation_value(v, VALIDATION_KEY_NEEDED);
+    const row_number needed = rows_of_keys(v, VALIDATION_KEY_NEEDED);
     if (isnan(needed.value))
         return;
-    row = rows_add_number(s, 0,
-                          rows_number(needed.value,
-                                      validation_value(v, VALIDATION_KEY_NEEDED_LOW).value,
-                                      validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value, "Pa"),
-                          "shear stress needed");
+    row = rows_add_number(s, 0, needed, "shear stress needed");
     rows_note(row, "used: %s",
               rows_short(validation_value(v, VALIDATION_KEY_SHEAR).value, "Pa").value);
     rows_reason(row, "is that shear stress plausible", plausible);

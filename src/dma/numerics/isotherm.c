@@ -154,9 +154,8 @@ static wt_status fail_too_few_points(const wt_isotherm *isotherm, size_t n, size
             isotherm->temperature - WT_ZERO_CELSIUS);
     wt_error_place(err, "%s", isotherm->source);
     wt_error_expected(err, "at least %d", SHIFT_MIN_POINTS);
-    wt_error_found(err, "%zu of %zu; point %zu: %g rad/s, storage %g Pa, loss %g Pa", n,
-                   isotherm->n, first_bad + 1, isotherm->angular_frequency[first_bad],
-                   isotherm->storage_modulus[first_bad], isotherm->loss_modulus[first_bad]);
+    wt_error_found(err, "%zu of %zu; not point %zu at %g rad/s", n, isotherm->n, first_bad + 1,
+                   isotherm->angular_frequency[first_bad]);
     wt_error_advice(err, "leave this temperature out of the sweep");
     return WT_E_RANGE;
 }
@@ -197,10 +196,9 @@ static wt_status fill_shift_curve(const wt_isotherm *isotherm, const shift_set *
     if (curve->n_skipped > 0)
         wt_log_add(log, WT_WARNING, isotherm->source, NULL,
                    "isotherm of %.2f °C: %zu of %zu points left out, no positive modulus "
-                   "(first: %g rad/s, storage %g Pa, loss %g Pa)",
+                   "(first at %g rad/s)",
                    isotherm->temperature - WT_ZERO_CELSIUS, curve->n_skipped, isotherm->n,
-                   isotherm->angular_frequency[first_bad], isotherm->storage_modulus[first_bad],
-                   isotherm->loss_modulus[first_bad]);
+                   isotherm->angular_frequency[first_bad]);
     qsort(scratch, n, sizeof *scratch, numbers_compare);
     merge_curve_points(scratch, n, curve);
     return WT_OK;

@@ -310,12 +310,6 @@ bool master_loss_is_inconsistent(const lack_of_fit *lack)
            fabs(lack->factor) - 2.0 * lack->factor_error > relevant_loss_factor;
 }
 
-/* Converts a bound to per cent and rounds it up. */
-static double round_up_percent(double share)
-{
-    return fmax(0.1, 0.1 * ceil(1e3 * share));
-}
-
 /* Describes which temperatures one spectrum misses and by how much. */
 static void describe_gross_misfit(const master_work *work, wt_master *m)
 {
@@ -339,6 +333,7 @@ static void describe_gross_misfit(const master_work *work, wt_master *m)
                   "%sone spectrum deviates from E' by %.1f %% and from E'' by %.1f %% beyond their "
                   "noise: a second process, as in a glass, or a change of the material",
                   where, 100.0 * missed[STORAGE], 100.0 * missed[LOSS]);
+    m->misfit_low = m->misfit_high = (double)NAN; /* another measure of the same misfit */
 }
 
 /* Stores the numbers of the test of superposition; NaN without one. */
