@@ -3,8 +3,7 @@
 #include "core/base/array.h"
 #include "core/base/number.h"
 #include "core/store/store.h"
-#include "core/table/registry.h"
-#include "core/table/result_value.h"
+#include "core/table/finding.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -136,10 +135,12 @@ static void add_group_headlines(table_writer *t, const result_value_tables *foun
 
 static void add_ratio_headlines(table_writer *t, const result_value_tables *found)
 {
-    const result_value f = result_value_ratio(found);
     if (found->comparison.n_rows == 0)
         return;
-    add_text_headline(t, "verdict", f.verdict.text);
+    finding findings[FINDING_QUESTIONS];
+    (void)findings_compute(found, findings);
+    const result_value f = findings[FINDING_TRACK_DIFFERS].value;
+    add_text_headline(t, "verdict", finding_verdict_text(findings[FINDING_TRACK_DIFFERS].verdict));
     add_number_headline(t, f.name, "", f.number.value, f.number.unit);
     add_value_bounds(t, f.name, &f);
     add_number_headline(t, "welch_p", "", comparison_get(&found->comparison, 0, COMPARISON_WELCH_P),

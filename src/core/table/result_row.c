@@ -94,21 +94,18 @@ static void add_group(rows_source *s, size_t i)
 
 static void add_ratio(rows_source *s, const table_view *v)
 {
-    const result_value ratio = result_value_ratio(&s->values);
     if (v->n_rows == 0)
         return;
-    result_row *row = rows_add_value(s, 0, &ratio, "track / bulk");
-    const sign_verdict sign = result_value_sign(&ratio);
-    if (isnan(ratio.low) || isnan(ratio.high))
-        rows_note(row, "%s%s%s", finding_verdict_text(FINDING_NOT_ENOUGH_DATA),
-                  ratio.verdict.reason[0] != '\0' ? ": " : "", ratio.verdict.reason);
-    else
-        rows_note(row, "%s%s", ratio.verdict.text,
-                  ratio.verdict.value != VERDICT_YES || sign == SIGN_UNDECIDED ? ""
-                  : sign == SIGN_BELOW                                         ? ", softer"
-                                                                               : ", stiffer");
-    rows_reason(row, "is the track different", ratio.verdict.reason);
-    rows_reason(row, "how to decide it", ratio.remedy);
+    finding findings[FINDING_QUESTIONS];
+    (void)findings_compute(&s->values, findings);
+    const finding *const differs = &findings[FINDING_TRACK_DIFFERS];
+    const char *const reason = differs->value.verdict.reason;
+    const bool stated = differs->verdict == FINDING_NOT_ENOUGH_DATA && reason[0] != '\0';
+    result_row *row = rows_add_value(s, 0, &differs->value, "track / bulk");
+    rows_note(row, "%s%s%s%s", finding_verdict_text(differs->verdict), finding_side_text(differs),
+              stated ? ": " : "", stated ? reason : "");
+    rows_reason(row, "is the track different", reason);
+    rows_reason(row, "how to decide it", differs->value.remedy);
     rows_reason(row, "what else would explain it",
                 comparison_key_text(v, COMPARISON_KEY_WOULD_EXPLAIN));
 }

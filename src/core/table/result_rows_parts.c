@@ -59,7 +59,7 @@ row_number row_number_of_value(const result_value *value)
 result_row *rows_add_value(rows_source *s, int level, const result_value *value, const char *name)
 {
     result_row *row = rows_add_number(s, level, row_number_of_value(value), "%s", name);
-    rows_reason(row, "the interval includes", value->includes);
+    rows_reason(row, "the interval includes", isnan(value->low) ? NULL : value->includes);
     rows_reason(row, "no error known of", value->lacks);
     rows_reason(row, "widest choice of the model", value->range.widest);
     return row;
@@ -105,13 +105,19 @@ row_number rows_number(double value, double low, double high, const char *unit)
     return (row_number){value, low, high, none, none, unit};
 }
 
+row_number rows_of_keys(const table_view *v, unsigned key)
+{
+    return rows_number(view_key(v, v->schema, key).value, view_key(v, v->schema, key + 1).value,
+                       view_key(v, v->schema, key + 2).value, schema_unit(&v->schema->keys[key]));
+}
+
 row_number rows_estimate(wt_estimate e)
 {
     const double half = NORMAL_95 * e.standard_error;
     const bool known = half > 0 && isfinite(half);
-    const double none = (double)NAN;
-    return rows_number(e.value, known ? e.value - half : none, known ? e.value + half : none,
-                       e.unit);
+    const double none = (double)NAN, least = e.value > 0 ? 0 : -(double)INFINITY;
+    return rows_number(e.value, known ? fmax(e.value - half, least) : none,
+                       known ? e.value + half : none, e.unit);
 }
 
 row_number rows_temperature(wt_estimate kelvin)
@@ -148,6 +154,7 @@ enum { LEAST_DIGITS = 3, MOST_DIGITS = 9 };
 /* What a number in SI units is multiplied by and its unit is then called. */
 typedef struct row_scale {
     double factor, offset;
+    const char *si; /* unit before that */
     char unit[32];
 } row_scale;
 
@@ -169,12 +176,14 @@ static void copy_ascii_unit(const char *unit, char *copy, size_t size)
 static row_scale scale_for(double value, const char *unit)
 {
     char text[96];
-    row_scale scale = {1, 0, ""};
+    row_scale scale = {1, 0, unit, ""};
     if (strcmp(unit, "degC") == 0) {
         scale.offset = -WT_ZERO_CELSIUS;
+        scale.si = "K";
         copy_ascii_unit(unit, scale.unit, sizeof scale.unit);
     } else if (strcmp(unit, "%") == 0) {
         scale.factor = 100;
+        scale.si = "1";
         copy_ascii_unit(unit, scale.unit, sizeof scale.unit);
     } else if (strcmp(unit, "m^2/N") == 0) {
         scale.factor = 1e9;
@@ -189,6 +198,11 @@ static row_scale scale_for(double value, const char *unit)
         copy_ascii_unit(blank != NULL ? blank + 1 : unit, scale.unit, sizeof scale.unit);
     }
     return scale;
+}
+
+const char *row_number_unit(const row_number *n)
+{
+    return scale_for(n->value, n->unit).si;
 }
 
 static int magnitude(double x)
