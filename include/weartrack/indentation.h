@@ -595,7 +595,8 @@ typedef struct wt_group_data {
     double loss_error,
         bend_error; /* systematic errors of all moduli by loss and baseline curvature, the latter
                        with its sign; 0 if not detected, NaN if detected with unknown size */
-    double range_error; /* the same by the misfit of the law, as the ranges of the fit show */
+    double range_error; /* the same by the misfit of the law, as the ranges of the fit show; NaN if
+                           no curve has a second range */
     /* Mean relative changes of the moduli with other choices of the fit: each range, with its error
      * by noise, a law without loss, and one with the pull that the fit left out. NaN if unknown. */
     wt_estimate range_shift[WT_FIT_RANGES];

@@ -97,9 +97,11 @@ static wt_status compute_budget(const wt_group_data *d, budget *b, wt_error *err
     b->part[TIP] = shown_part("shape of the tip", isnan(d->tip_error) ? 0 : d->tip_error);
     b->part[LOSS] = shown_part("loss of unknown spectrum", d->loss_error);
     b->part[BEND] = shown_part("bend of the baselines", fabs(d->bend_error));
-    b->part[RANGE] = shown_part("range of the fit", fmax(d->range_error, 0));
-    for (int i = 0; i < SCATTER; i++) /* an error of unknown effect makes the total unknown */
-        if (b->part[i].applies && (b->part[i].source_error > 0 || i >= WT_SYSTEMATIC_SOURCES))
+    b->part[RANGE] = shown_part("range of the fit", d->range_error);
+    /* an error of unknown effect makes the total unknown, but not a misfit that is not tested */
+    for (int i = 0; i < SCATTER; i++)
+        if (b->part[i].applies &&
+            (b->part[i].source_error > 0 || (i >= WT_SYSTEMATIC_SOURCES && i != RANGE)))
             variance += b->part[i].error * b->part[i].error;
     b->scatter = (t_error){b->group.log_standard_error, b->group.df};
     b->all = (t_error){(double)NAN, (double)NAN};
@@ -196,6 +198,8 @@ static void describe_budget(const char *group, const budget *b, char *text, size
             clocale_append(text, size, "%s%s", before, b->part[i].words);
             before = ", ";
         }
+    if (isnan(b->part[RANGE].error))
+        clocale_append(text, size, "; not included, for no curve tests it: range of the fit");
 }
 
 static void add_budget_group(table_writer *t, const char *name, const wt_group_data *d)
@@ -219,7 +223,7 @@ static void add_budget_group(table_writer *t, const char *name, const wt_group_d
 /* True if the curves share an error. Without one the table would repeat the scatter. */
 static bool has_shared_error(const wt_group_data *d)
 {
-    bool any = d->tip_error > 0 || d->loss_error != 0 || d->bend_error != 0 || d->range_error > 0;
+    bool any = d->tip_error > 0 || d->loss_error != 0 || d->bend_error != 0 || d->range_error != 0;
     for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++)
         any = any || d->common_error[i] > 0 || d->assumed_error[i] > 0;
     return any && d->group.n > 0;

@@ -37,7 +37,7 @@ void indent_summary_clear(indent_summary *summary);
 /* Relative error that the misfit of the law gives to all moduli: the largest mean change of the
  * modulus with a range of the fit, without its noise, and the pulls that the fits left out. A
  * change below the noise of the most precise range is not excluded, so that the error is at least
- * that noise. */
+ * that noise. NaN if no curve was fitted in a second range. */
 double indent_summary_range_error(const indent_summary *summary);
 /* Mean relative change of the modulus with one range of the fit, and its error by noise; NaN if no
  * curve has enough samples in the range. */

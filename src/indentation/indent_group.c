@@ -369,7 +369,7 @@ static void report_common_shifts(const indent_summary *summary, const wt_indent_
 
 double indent_summary_range_error(const indent_summary *summary)
 {
-    double largest = 0, least = (double)NAN; /* squares; fmax and fmin ignore NaN */
+    double largest = (double)NAN, least = largest; /* squares; fmax and fmin ignore NaN */
     for (int i = 0; i < WT_FIT_RANGES; i++) {
         const wt_estimate shift = indent_summary_range_shift(summary, i);
         const double noise = shift.standard_error * shift.standard_error;
@@ -440,12 +440,15 @@ void indent_summary_report(const indent_summary *summary, const wt_indent_job *j
 {
     char hidden_errors[512];
     warn_implausible_radius(summary, job, work);
+    const double range_error = indent_summary_range_error(summary);
     indent_systematic_errors(job, summary->max_depth, hidden_errors, sizeof hidden_errors);
+    if (isnan(range_error) && *hidden_errors != '\0')
+        clocale_append(hidden_errors, sizeof hidden_errors,
+                       ", a wrong contact law (no curve was fitted in a second range)");
     if (*hidden_errors != '\0')
         indentation_set_text(rows, INDENTATION_KEY_NOT_SHOWN, hidden_errors);
     report_common_shifts(summary, job, work, rows);
-    indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, indent_summary_range_error(summary), 0,
-                          0);
+    indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, range_error, 0, 0);
     report_choices(summary, rows);
     test_mean_residual(summary, rows);
 }

@@ -62,8 +62,8 @@
       "the sum of their squares; beside: of one curve or spot, not in the sum",                    \
       ENUM(error_kind), LABEL("Kind"))                                                             \
     X(MODULUS_BUDGET_SOURCE_ERROR, IN(part, source_error),                                         \
-      "relative standard error of the source; nan: not stated", NUMBER, LABEL("Its error"),        \
-      MISSING("not stated"), SPARSE)                                                               \
+      "relative standard error of the source; nan: not known", NUMBER, LABEL("Its error"),         \
+      MISSING("not known"), SPARSE)                                                                \
     X(MODULUS_BUDGET_GAIN, IN(part, gain),                                                         \
       "relative change of the modulus per relative change of the source, curves fitted anew",      \
       NUMBER, LABEL("Gain"), STANDARD_ERROR(MODULUS_BUDGET_GAIN), SPARSE)                          \

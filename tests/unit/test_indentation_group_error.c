@@ -210,7 +210,27 @@ static void test_range_error(void **state)
     assert_near(error_of(both, 0.05, 0.05), sqrt(0.12 * 0.12 - 0.05 * 0.05 / 2), 1e-12);
     assert_near(error_of(both, 1, 1), sqrt(0.5), 1e-12);
     indent_summary none_added = {0};
-    assert_true(indent_summary_range_error(&none_added) == 0);
+    assert_true(isnan(indent_summary_range_error(&none_added))); /* not tested */
+}
+
+/* Without a second range of the fit its error is not known, which the result names. */
+static void test_no_range(void **state)
+{
+    (void)state;
+    uint64_t random = 7;
+    wt_table *t = NULL, *budget = NULL;
+    wt_indent_job job = settings_of(HERTZ_TIP);
+    job.options.misfit_p_threshold = 0;
+    write_group(1, &random);
+    const group_result g = fit_group(&job, &t);
+    assert_true(g.low < g.mean && g.mean < g.high);
+    assert_true(isnan(key_estimate(t, "range_error").value));
+    assert_non_null(strstr(wt_table_key(t, "not_shown"), "a wrong contact law"));
+    assert_int_equal(wt_modulus_budget_table((const wt_table *const[]){t}, 1, &budget, NULL),
+                     WT_OK);
+    assert_non_null(strstr(wt_table_key(budget, "says_bulk"), "not included"));
+    wt_table_free(budget);
+    wt_table_free(t);
 }
 
 /* An attraction before contact that no law of adhesion describes is returned if it is above a tenth
@@ -249,9 +269,11 @@ static int close_formats(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_radius), cmocka_unit_test(test_stated),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_radius),
+                                       cmocka_unit_test(test_stated),
                                        cmocka_unit_test(test_one_relaxation_time),
                                        cmocka_unit_test(test_range_error),
+                                       cmocka_unit_test(test_no_range),
                                        cmocka_unit_test(test_excluded_attraction)};
     return cmocka_run_group_tests_name("error of a group", tests, open_formats, close_formats);
 }

@@ -84,6 +84,9 @@ static void add_group(rows_source *s, size_t i)
     if (table_bind_result(s->result, &indentation_schema, group, &curves, NULL) != WT_OK ||
         curves.table == NULL)
         return;
+    if (!isnan(modulus.number.value) &&
+        isnan(indentation_value(&curves, INDENTATION_KEY_RANGE_ERROR).value))
+        clocale_append(row->note, sizeof row->note, "; range of the fit not tested");
     rows_reason(row, "errors that no curve shows",
                 indentation_key_text(&curves, INDENTATION_KEY_NOT_SHOWN));
     add_counts(s, &curves, 1, "curves used");
