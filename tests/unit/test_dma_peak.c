@@ -1,11 +1,10 @@
 /* Peaks of curves against temperature and values between points: coverage of the intervals, no peak
- * where there is none, the parabola of the reference table.
+ * where there is none.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 #include "draw_count.h"
 #include "weartrack/dma.h"
 
-#include "dma/numerics/gaussian_process.h"
 #include "dma_data.h"
 
 /* A Havriliak-Negami process, which is asymmetric, with a network. */
@@ -226,29 +225,6 @@ static void no_peak(void **unused)
     assert_true(isnan(got.value));
 }
 
-/* Parabola about 3 with half-width 5: its values, its slopes in units of x, and the side of a limit
- * on which they are. */
-static void slopes(void **state)
-{
-    (void)state;
-    enum { POINTS = 21 };
-    double x[POINTS], y[POINTS];
-    gaussian_process s;
-    for (int i = 0; i < POINTS; i++) {
-        x[i] = -2 + 0.5 * i;
-        y[i] = 0.4 * x[i] * x[i] - x[i] + 7 + 1e-6 * (i % 2 == 0 ? 1 : -1);
-    }
-    assert_int_equal(gaussian_process_new(x, y, POINTS, &s, NULL), WT_OK);
-    for (double at = -2; at <= 8; at += 1.25) {
-        const double slope = 0.8 * at - 1;
-        assert_near_abs(gaussian_process_mean(&s, at, GP_VALUE), 0.4 * at * at - at + 7, 1e-5);
-        assert_near_abs(gaussian_process_mean(&s, at, GP_SLOPE), slope, 1e-5);
-        assert_true(gaussian_process_probability_below(&s, at, GP_SLOPE, slope + 1e-4) > 0.999);
-        assert_true(gaussian_process_probability_below(&s, at, GP_SLOPE, slope - 1e-4) < 0.001);
-    }
-    gaussian_process_free(&s);
-}
-
 /* A blend of two rubbers, the second with a lower peak: maxima of the sum. */
 static double blend(double celsius, double share)
 {
@@ -321,7 +297,6 @@ int main(void)
                                        cmocka_unit_test(no_onset),
                                        cmocka_unit_test(values_hold_the_truth),
                                        cmocka_unit_test(no_peak),
-                                       cmocka_unit_test(slopes),
                                        cmocka_unit_test(lower_peaks_are_found),
                                        cmocka_unit_test(no_lower_peak)};
     return cmocka_run_group_tests(tests, NULL, NULL);
