@@ -14,8 +14,6 @@
  * modulus, only an upper limit is reported. Most of that modulus then relaxes later, and the
  * extrapolation of the spectrum decides it. */
 static const double equilibrium_limit_share = 0.5;
-/* Squared quantile of a one-sided 95 % limit. */
-static const double one_sided = 2.705543454095404;
 
 void wt_master_clear(wt_master *master)
 {
@@ -274,36 +272,8 @@ static void terms_to_prony(const wt_posterior *p, const double *value, double of
     }
 }
 
-/* Finds the one-sided 95 % limit of ln of the equilibrium modulus from the rise of the
- * objective. The function changes the spectrum. */
-static wt_status find_equilibrium_limit(master_work *work, double *limit, wt_error *err)
+static void fill_series(const wt_posterior *p, wt_master *m)
 {
-    spectrum *s = work->s;
-    const double narrow = 1e-3, mean = s->equilibrium_mean, spread = s->equilibrium_spread;
-    double low = s->value[s->n_terms], high = mean + 1.5;
-    wt_status status = WT_OK;
-    s->equilibrium_spread = narrow;
-    s->equilibrium_mean = low;
-    status = spectrum_fit(s, SPECTRUM_FIXED_NOISE, err);
-    const double least = s->objective;
-    while (status == WT_OK && high - low > 0.02) {
-        s->equilibrium_mean = 0.5 * (low + high);
-        s->value[s->n_terms] = s->equilibrium_mean;
-        status = spectrum_fit(s, SPECTRUM_FIXED_NOISE, err);
-        if (s->objective - least < one_sided)
-            low = s->equilibrium_mean;
-        else
-            high = s->equilibrium_mean;
-    }
-    s->equilibrium_mean = mean;
-    s->equilibrium_spread = spread;
-    *limit = high;
-    return status;
-}
-
-static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
-{
-    const wt_posterior *p = work->posterior;
     double *value = wt_alloc(p->frame.n_unknowns, sizeof *value);
     double unknown[LAW_MAX_UNKNOWNS];
     posterior_mean(p, value);
@@ -319,21 +289,17 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     }
     m->equilibrium = has_modulus_level(p->by) ? (wt_interval){0} : unknown_interval;
     if (p->frame.liquid || !has_modulus_level(p->by))
-        return WT_OK;
+        return;
     const wt_interval e = posterior_equilibrium(p);
     m->equilibrium = interval_map(e, exp);
     double lowest = HUGE_VAL;
     for (size_t i = 0; i < m->n; i++)
         lowest = fmin(lowest, m->loading == WT_OSCILLATION ? m->log_storage[i] : m->log_step[i]);
     m->equilibrium_limit = !(e.low >= log(equilibrium_limit_share) + lowest * M_LN10);
-    if (!m->equilibrium_limit)
-        return WT_OK;
-    double limit;
-    const wt_status status = find_equilibrium_limit(work, &limit, err);
-    m->equilibrium.low = 0.0;
-    m->equilibrium.high = fmax(exp(limit), m->equilibrium.high);
-    m->equilibrium.standard_error = (double)NAN;
-    return status;
+    if (m->equilibrium_limit) {
+        m->equilibrium.low = 0.0;
+        m->equilibrium.standard_error = (double)NAN;
+    }
 }
 
 /* Sets the offset of the law against the shifts. Outside the isotherms the law gives the shifts, so
@@ -386,7 +352,7 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
         set_offset(work, &m);
         set_law_rms(&m);
         fill_master_curve(work, &m);
-        status = fill_series(work, &m, err);
+        fill_series(work->posterior, &m);
     }
     if (status != WT_OK) {
         wt_master_clear(&m);

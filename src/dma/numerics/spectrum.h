@@ -210,11 +210,10 @@ wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temp
 
 /* ---- spectrum_fit.c: Levenberg-Marquardt with noise and smoothness by Fellner-Schall */
 typedef enum spectrum_mode {
-    SPECTRUM_NOISE,       /* noise and smoothness are estimated */
-    SPECTRUM_ROUGH,       /* the same with an accuracy that suffices to find outliers */
-    SPECTRUM_ROBUST,      /* the same with the weights of a Student distribution */
-    SPECTRUM_FIXED_NOISE, /* noise and smoothness are fixed */
-    SPECTRUM_TRIAL        /* the same with an accuracy that suffices to compare the noise */
+    SPECTRUM_NOISE,  /* noise and smoothness are estimated */
+    SPECTRUM_ROUGH,  /* the same with an accuracy that suffices to find outliers */
+    SPECTRUM_ROBUST, /* the same with the weights of a Student distribution */
+    SPECTRUM_TRIAL   /* noise and smoothness are fixed; suffices to compare the noise */
 } spectrum_mode;
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err) WT_NODISCARD;
 /* Forms and factors the equations of the present unknowns, of no earlier rows. */

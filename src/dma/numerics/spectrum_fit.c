@@ -17,11 +17,8 @@ enum { MAX_DAMPINGS = 12, MAX_TRIALS = 4 };
  * less than `far` standard errors remain (squared). Farther away the objective is no parabola. */
 static const double shortest = 0.7, far = 4.0;
 /* Maximum number of steps. A fit that reaches it is reported as not converged, except a start. */
-static const int max_steps[] = {[SPECTRUM_NOISE] = 300,
-                                [SPECTRUM_ROUGH] = 80,
-                                [SPECTRUM_ROBUST] = 40,
-                                [SPECTRUM_FIXED_NOISE] = 80,
-                                [SPECTRUM_TRIAL] = 80};
+static const int max_steps[] = {
+    [SPECTRUM_NOISE] = 300, [SPECTRUM_ROUGH] = 80, [SPECTRUM_ROBUST] = 40, [SPECTRUM_TRIAL] = 80};
 /* Steps and noise depend on each other, so the iteration may cycle if the misfit is large. After
  * this number of steps, three times that of a valid sweep, the updates shrink (Robbins and
  * Monro, Ann. Math. Stat. 22 (1951) 400). */
@@ -263,7 +260,7 @@ void spectrum_return(spectrum *s)
 wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
 {
     const bool rough = mode == SPECTRUM_ROBUST || mode == SPECTRUM_ROUGH;
-    const bool held = mode == SPECTRUM_FIXED_NOISE || mode == SPECTRUM_TRIAL;
+    const bool held = mode == SPECTRUM_TRIAL;
     const double settled = rough ? rough_change : min_change;
     const double least = rough ? rough_gain : held ? held_gain : least_gain;
     const bool final = mode == SPECTRUM_NOISE;
