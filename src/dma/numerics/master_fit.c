@@ -375,31 +375,6 @@ void master_measure_misfit(master_work *work)
     }
 }
 
-/* Restarts from the overlaps of E' if the misfit is large, because the start may be wrong. A
- * line spectrum also has a large misfit until it has enough terms. */
-static wt_status restart_from_overlaps(master_work *work, wt_error *err)
-{
-    master_measure_misfit(work);
-    if (!work->is_gross)
-        return WT_OK;
-    work->is_gross = !isnan(work->options.terms_per_decade) || !needs_line_spectrum(work);
-    if (!work->is_gross || !work->set.used[STORAGE])
-        return WT_OK;
-    master_find_overlaps(work);
-    for (size_t i = 0; i < work->set.n; i++)
-        if (work->edge[i].placed && !work->set.curves[i].is_shift_fixed) {
-            work->placed[i] = true;
-            work->a[i] = work->edge[i].a;
-        }
-    (void)spectrum_select_connected(&work->set, work->anchor, work->a, work->placed, work->overlap);
-    wt_status status = new_spectrum(work, err);
-    if (status == WT_OK)
-        status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
-    if (status == WT_OK)
-        master_measure_misfit(work);
-    return status;
-}
-
 wt_status master_find_initial_shifts(master_work *work, wt_error *err)
 {
     const double asked = work->options.terms_per_decade;
@@ -420,8 +395,10 @@ wt_status master_find_initial_shifts(master_work *work, wt_error *err)
         status = new_spectrum(work, err);
         if (status == WT_OK)
             status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
-        if (status == WT_OK && round == 0 && !work->part && !work->plain)
-            status = restart_from_overlaps(work, err);
+        if (status == WT_OK && round == 0 && !work->part && !work->plain) {
+            master_measure_misfit(work); /* that of a line spectrum is large with few terms */
+            work->is_gross = work->is_gross && (!isnan(asked) || !needs_line_spectrum(work));
+        }
         if (work->is_gross)
             break;
         if (status == WT_OK)
