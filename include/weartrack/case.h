@@ -68,7 +68,7 @@ WT_API wt_status wt_methods_table(const wt_result *result, wt_table **table,
                                   wt_error *err) WT_NODISCARD;
 
 /* Logs remarks on the tables of a result: a tolerance that is not reached, extrapolation. The first
- * one, the worst, has the topic WT_TOPIC_WORST_LIMIT. */
+ * one, the worst, has the topic WT_TOPIC_WORST_LIMIT unless the fit of the material has told it. */
 WT_API void wt_result_log_remarks(const wt_result *result, wt_log *log);
 /* A main number or verdict of a result, as a row of a short table. Texts are owned by the rows. */
 enum { WT_RESULT_ROW_REASONS = 4 };

@@ -159,7 +159,7 @@ wt_severity_name(wt_severity severity); /* Returns "note", "warning" or "loss". 
 /* Subject of an entry, for code that acts on it. */
 typedef enum wt_log_topic {
     WT_TOPIC_NONE,
-    WT_TOPIC_WORST_LIMIT /* the first limit of the answers of a result */
+    WT_TOPIC_WORST_LIMIT /* the first limit of the answers of a result, or what may be it */
 } wt_log_topic;
 
 /* What was done to data, or found in them, between reading and computing. */

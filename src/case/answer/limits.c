@@ -407,7 +407,7 @@ void wt_result_log_remarks(const wt_result *result, wt_log *log)
         if (list.limit[i].severity != WT_WARNING)
             continue;
         /* the fit of the material has told its own limits */
-        if (list.limit[i].subject != LIMITS_MATERIAL || topic == WT_TOPIC_WORST_LIMIT)
+        if (list.limit[i].subject != LIMITS_MATERIAL)
             wt_log_add_topic(log, WT_WARNING, topic, NULL, NULL, "%s", list.limit[i].text);
         topic = WT_TOPIC_NONE;
     }

@@ -237,9 +237,10 @@ void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master 
                    "extrapolated");
     if (m->n_shifts > 1 && work->set.quantity == WT_SHIFT_MODULI &&
         m->superposition != WT_SUPERPOSITION_HOLDS)
-        wt_log_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s%s%s",
-                   m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "is inconclusive",
-                   isnan(m->valid_from) ? ": " : " ", m->superposition_reason);
+        wt_log_add_topic(log, WT_WARNING, WT_TOPIC_WORST_LIMIT, NULL, NULL,
+                         "time-temperature superposition %s%s%s",
+                         m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "is inconclusive",
+                         isnan(m->valid_from) ? ": " : " ", m->superposition_reason);
     if (m->law.kind != WT_LAW_NONE && m->law_rms > master_max_shift_error)
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "the law of the shift factors deviates from them by %.2g decade (rms): it "
