@@ -284,9 +284,7 @@ static void points_without_positive_modulus_are_left_out_and_named(void **state)
     assert_int_equal(master.n, 11 * 16 - 3);
     assert_true(wt_log_count(log) >= 2);
     assert_non_null(strstr(wt_log_get(log, 0).text, "2 of 16 points left out"));
-    char first[64];
-    snprintf(first, sizeof first, "first at %g rad/s", sweep.isotherms[0].angular_frequency[14]);
-    assert_non_null(strstr(wt_log_get(log, 0).text, first));
+    assert_non_null(strstr(wt_log_get(log, 0).text, "loss 0 Pa"));
     assert_non_null(strstr(wt_log_get(log, 1).text, "1 of 16 points left out"));
     assert_null(strstr(wt_log_get(log, 1).text, "nan"));
     assert_non_null(strstr(master.shifts[0].note, "2 points"));

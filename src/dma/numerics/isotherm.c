@@ -146,16 +146,32 @@ static void merge_curve_points(const struct point *point, size_t n, shift_curve 
 /* Up to this number of isotherms one without usable points is an error. */
 enum { LEAST_USABLE = 3 };
 
+/* Writes frequency and moduli of a point, without those that were not measured. */
+static void describe_point(const wt_isotherm *isotherm, size_t i, char *text, size_t size)
+{
+    const double modulus[MODULI] = {
+        [STORAGE] = isotherm->storage_modulus[i], [LOSS] = isotherm->loss_modulus[i]};
+    clocale_print(text, size, "%g rad/s", isotherm->angular_frequency[i]);
+    for (int q = 0; q < MODULI; q++)
+        if (!isnan(modulus[q]))
+            clocale_append(text, size, ", %s %g Pa",
+                           q == LOSS              ? "loss"
+                           : isnan(modulus[LOSS]) ? "modulus"
+                                                  : "storage",
+                           modulus[q]);
+}
+
 static wt_status fail_too_few_points(const wt_isotherm *isotherm, size_t n, size_t first_bad,
                                      wt_error *err)
 {
+    char point[96];
+    describe_point(isotherm, first_bad, point, sizeof point);
     wt_fail(err, WT_E_RANGE,
             "the isotherm of %.2f °C has too few points with positive frequency and moduli",
             isotherm->temperature - WT_ZERO_CELSIUS);
     wt_error_place(err, "%s", isotherm->source);
     wt_error_expected(err, "at least %d", SHIFT_MIN_POINTS);
-    wt_error_found(err, "%zu of %zu; not point %zu at %g rad/s", n, isotherm->n, first_bad + 1,
-                   isotherm->angular_frequency[first_bad]);
+    wt_error_found(err, "%zu of %zu; point %zu: %s", n, isotherm->n, first_bad + 1, point);
     wt_error_advice(err, "leave this temperature out of the sweep");
     return WT_E_RANGE;
 }
@@ -193,12 +209,14 @@ static wt_status fill_shift_curve(const wt_isotherm *isotherm, const shift_set *
         curve->has_no_moduli = true;
         return set->n <= LEAST_USABLE ? fail_too_few_points(isotherm, n, first_bad, err) : WT_OK;
     }
-    if (curve->n_skipped > 0)
+    if (curve->n_skipped > 0) {
+        char point[96];
+        describe_point(isotherm, first_bad, point, sizeof point);
         wt_log_add(log, WT_WARNING, isotherm->source, NULL,
                    "isotherm of %.2f °C: %zu of %zu points left out, no positive modulus "
-                   "(first at %g rad/s)",
-                   isotherm->temperature - WT_ZERO_CELSIUS, curve->n_skipped, isotherm->n,
-                   isotherm->angular_frequency[first_bad]);
+                   "(first: %s)",
+                   isotherm->temperature - WT_ZERO_CELSIUS, curve->n_skipped, isotherm->n, point);
+    }
     qsort(scratch, n, sizeof *scratch, numbers_compare);
     merge_curve_points(scratch, n, curve);
     return WT_OK;
