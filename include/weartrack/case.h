@@ -15,6 +15,9 @@ extern "C" {
 
 /* ---- case ----------------------------------------------------------------------------------- */
 
+/* Placeholder of values that are still to be put into a case, which is no valid quantity or tip. */
+#define WT_CASE_FILL_IN "FILL IN"
+
 typedef struct wt_case wt_case;
 /* Reads and checks a case file (schema, then further rules). Its paths are relative to the file. */
 WT_API wt_status wt_case_read(const char *path, wt_case **out, wt_error *err) WT_NODISCARD;

@@ -46,6 +46,8 @@ WT_API bool wt_report_font_is_available(const char *font, char *instead, size_t 
 /* Returns the path of the page of a report: `place` itself if it ends in .html and is not a folder,
  * else index.html in it. New string, NULL when out of memory. */
 WT_API char *wt_report_page_path(const char *place) WT_NODISCARD;
+/* True if the page of a place is one that weartrack wrote; without provenance it cannot be told. */
+WT_API bool wt_report_is_at(const char *place);
 
 /* Writes FOLDER/index.html, which is self-contained, and for each figure whose tables are in the
  * result FOLDER/plots/NAME.tsv, NAME.gp and NAME.svg, and the style file. If FOLDER ends in .html,

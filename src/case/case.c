@@ -146,6 +146,7 @@ static void extract_between(const char *message, const char *begin, const char *
 
 typedef struct schema_message {
     bool any;
+    int code; /* xmlParserErrors */
     long line;
     char message[512];
 } schema_message;
@@ -157,6 +158,7 @@ static void store_first_message(void *user, xmlErrorPtr error)
     if (c->any || error == NULL)
         return;
     c->any = true;
+    c->code = error->code;
     c->line = error->line;
     snprintf(c->message, sizeof c->message, "%s", error->message != NULL ? error->message : "");
     c->message[strcspn(c->message, "\n")] = '\0';
@@ -171,10 +173,7 @@ static wt_status schema_error(const schema_message *c, wt_error *err)
         extract_between(c->message, "is not an element of the set {", "}", expected,
                         sizeof expected);
     extract_between(c->message, "The value '", "'", value, sizeof value);
-    extract_between(c->message, "': ", "\n", detail, sizeof detail);
-    char *tail = strstr(detail, " Expected is");
-    if (tail != NULL)
-        *tail = '\0';
+    extract_between(c->message, "': ", " Expected is", detail, sizeof detail);
     const size_t length = strlen(detail);
     if (length > 0 && detail[length - 1] == '.') /* the error message continues after this text */
         detail[length - 1] = '\0';
@@ -186,7 +185,7 @@ static wt_status schema_error(const schema_message *c, wt_error *err)
         wt_error_found(err, "\"%s\" in <%s>", value, element);
     else if (element[0] != '\0')
         wt_error_found(err, "<%s>", element);
-    const char *const instead = strstr(c->message, "not expected") != NULL
+    const char *const instead = c->code == XML_SCHEMAV_ELEMENT_CONTENT
                                     ? removed_name_advice(element, strlen(element))
                                     : NULL;
     if (instead != NULL)
@@ -228,7 +227,7 @@ typedef struct open_values {
 
 static void add_if_open(const char *text, const xmlNode *node, const char *name, open_values *open)
 {
-    if (strstr(text, "FILL IN") == NULL) /* as new-case writes it */
+    if (strstr(text, WT_CASE_FILL_IN) == NULL)
         return;
     const size_t used = strlen(open->list);
     open->n++;
@@ -263,7 +262,7 @@ static wt_status check_filled_in(const xmlDoc *doc, wt_error *err)
     wt_fail(err, WT_E_MISSING, "%zu value%s of the case %s still to be filled in", open.n,
             open.n == 1 ? "" : "s", open.n == 1 ? "is" : "are");
     wt_error_place(err, "%s", open.list);
-    wt_error_expected(err, "the value, with its unit, in place of FILL IN");
+    wt_error_expected(err, "the value, with its unit, in place of " WT_CASE_FILL_IN);
     wt_error_advice(err, "weartrack-case(5) says what each element holds");
     return WT_E_MISSING;
 }

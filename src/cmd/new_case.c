@@ -208,27 +208,13 @@ static wt_status report_and_continue(new_case *c, wt_status status)
     return WT_OK;
 }
 
-/* True for the folder of a report, which has no measurements. Its page names the version of
- * weartrack unless it was written without provenance. */
-static bool is_report_folder(const char *folder)
-{
-    char head[1024] = "", *const page = wt_path_join(folder, "index.html");
-    FILE *const file = fopen(page, "rb");
-    if (file != NULL) {
-        head[fread(head, 1, sizeof head - 1, file)] = '\0';
-        fclose(file);
-    }
-    free(page);
-    return strstr(head, "name=\"generator\" content=\"weartrack") != NULL;
-}
-
 /* Adds the files of a folder and its subfolders. Links to folders are not followed, as they may
  * form a loop. */
 static wt_status add_case_folder(new_case *c, const char *folder)
 {
     struct dirent **items = NULL;
     struct stat info;
-    if (is_report_folder(folder))
+    if (wt_report_is_at(folder)) /* it has no measurements */
         return WT_OK;
     wt_status status = add_files(c, folder, true);
     status = status == WT_E_NOT_FOUND ? WT_OK : status; /* only subfolders */

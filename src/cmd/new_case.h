@@ -5,8 +5,7 @@
 
 #include "cmd/file_kind.h"
 
-/* Placeholder for unknown values, which is no valid quantity or tip. */
-#define FILL_IN "FILL IN"
+#define FILL_IN WT_CASE_FILL_IN
 
 typedef enum case_section {
     BULK,

@@ -131,9 +131,9 @@ const char *header_number_option(wt_quantity quantity)
 /* Returns FACT_ITEM_UNKNOWN for an item on which no code acts. */
 static fact_item find_kind(const char *item)
 {
-    const int kind = closed_list_read(&fact_item_list, item).value;
-    const bool is_longer = strcmp(item, fact_item_text((fact_item)kind)) != 0;
-    return kind < FACT_TABLE && is_longer ? FACT_ITEM_UNKNOWN : (fact_item)kind;
+    const listed_text kind = closed_list_read(&fact_item_list, item);
+    return kind.value < FACT_TABLE && kind.reason[0] != '\0' ? FACT_ITEM_UNKNOWN
+                                                             : (fact_item)kind.value;
 }
 
 void metadata_add(table_writer *metadata, const char *item, const char *unit, const char *source,

@@ -164,8 +164,7 @@ char *wt_report_page_path(const char *target)
     return path_is_page(target) ? wt_strdup(target) : wt_path_join(target, "index.html");
 }
 
-/* True if weartrack wrote the page of a report. */
-static bool is_weartrack_report(const char *target)
+bool wt_report_is_at(const char *target)
 {
     enum { HEAD = 4096 };
     char head[HEAD + 1];
@@ -230,12 +229,12 @@ static wt_status check_replaceable(const char *path, wt_error *err)
     if (lstat(path, &info) != 0)
         return errno == ENOENT ? WT_OK : io_error(err, "cannot be looked at", path);
     if (path_is_page(path))
-        return !S_ISREG(info.st_mode) || !is_weartrack_report(path)
+        return !S_ISREG(info.st_mode) || !wt_report_is_at(path)
                    ? fail_not_replaceable(err, path, "another file of that name")
                    : wt_check_overwrite(path, err);
     if (!S_ISDIR(info.st_mode))
         return fail_not_replaceable(err, path, "a file of that name");
-    if (!is_weartrack_report(path))
+    if (!wt_report_is_at(path))
         return check_folder_is_empty(path, err);
     wt_status status = WT_OK;
     char name[REPORT_NAME];
