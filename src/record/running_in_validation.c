@@ -165,7 +165,7 @@ static void fit_drawn_courses(running_in *run, const running_in_mean *mean)
     }
     for (size_t k = 1; k <= n_draws; k++) {
         const drawn_course drawn = {run->growth, k};
-        const double factor = running_in_curve_root(
+        const double factor = running_in_curve_factor_between(
             at, n, drawn_friction, &drawn, run->factor.value / range, run->factor.value * range);
         n_factors = add_finite(log_factor, n_factors, log(factor));
         n_times = add_finite(log_time, n_times,

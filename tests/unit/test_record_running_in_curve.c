@@ -42,8 +42,9 @@ static void test_factor(void **state)
         const wt_interval found = running_in_curve_factor(mean, N, course, NULL);
         assert_near(found.value, factors[i], 0.02 * factors[i]);
         assert_true(found.low < factors[i] && factors[i] < found.high);
-        assert_near(running_in_curve_root(mean, N, course, NULL, factors[i] / 4, factors[i] * 3),
-                    factors[i], 0.03 * factors[i]);
+        assert_near(
+            running_in_curve_factor_between(mean, N, course, NULL, factors[i] / 4, factors[i] * 3),
+            factors[i], 0.03 * factors[i]);
     }
 }
 
@@ -52,7 +53,7 @@ static void test_limit(void **state)
 {
     (void)state;
     fill(4, 1, 0);
-    assert_true(isnan(running_in_curve_root(mean, N, course, NULL, 0.5, 2)));
+    assert_true(isnan(running_in_curve_factor_between(mean, N, course, NULL, 0.5, 2)));
 }
 
 static void test_scatter_alone(void **state)

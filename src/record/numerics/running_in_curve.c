@@ -106,8 +106,9 @@ wt_interval running_in_curve_factor(const running_in_mean *mean, size_t n,
     return found;
 }
 
-double running_in_curve_root(const running_in_mean *mean, size_t n, running_in_function *course,
-                             const void *user, double low, double high)
+double running_in_curve_factor_between(const running_in_mean *mean, size_t n,
+                                       running_in_function *course, const void *user, double low,
+                                       double high)
 {
     /* steps of 3 % for a range of a factor of 16, far below the errors of a running-in */
     enum { BETWEEN = 100 };

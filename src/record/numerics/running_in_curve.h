@@ -27,7 +27,8 @@ wt_interval running_in_curve_factor(const running_in_mean *mean, size_t n,
                                     running_in_function *course, const void *user);
 
 /* The same factor alone, sought between `low` and `high`; NaN if it is a limit. */
-double running_in_curve_root(const running_in_mean *mean, size_t n, running_in_function *course,
-                             const void *user, double low, double high);
+double running_in_curve_factor_between(const running_in_mean *mean, size_t n,
+                                       running_in_function *course, const void *user, double low,
+                                       double high);
 
 #endif
