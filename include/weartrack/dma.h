@@ -267,7 +267,7 @@ typedef struct wt_master {
 
     wt_prony prony;          /* the spectrum at the reference temperature */
     wt_interval equilibrium; /* [Pa] */
-    bool equilibrium_limit;  /* `high` is a one-sided 95 % limit; no other value */
+    bool equilibrium_limit;  /* only `high`, the end of its 95 % interval, is known */
 
     wt_superposition superposition;
     double lack_of_fit_p, misfit_low, misfit_high;           /* misfit: relative, 95 % interval */

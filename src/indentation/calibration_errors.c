@@ -199,7 +199,7 @@ static void describe_budget(const char *group, const budget *b, char *text, size
             before = ", ";
         }
     if (isnan(b->part[RANGE].error))
-        clocale_append(text, size, "; not included, for no curve tests it: range of the fit");
+        clocale_append(text, size, "; not included, because no curve tests it: range of the fit");
 }
 
 static void add_budget_group(table_writer *t, const char *name, const wt_group_data *d)

@@ -334,7 +334,6 @@ static void describe_gross_misfit(const master_work *work, wt_master *m)
                   "%sone spectrum deviates from E' by %.1f %% and from E'' by %.1f %% beyond their "
                   "noise: a second process, as in a glass, or a change of the material",
                   where, 100.0 * missed[STORAGE], 100.0 * missed[LOSS]);
-    m->misfit_low = m->misfit_high = (double)NAN; /* another measure of the same misfit */
 }
 
 /* Stores the numbers of the test of superposition; NaN without one. */
@@ -374,6 +373,7 @@ void master_assess(const master_work *work, wt_master *m)
                       "one spectrum of all was not found (%s)", work->no_spectrum);
     } else if (work->part || work->route == WT_SHIFTS_FROM_OVERLAP) {
         m->superposition = WT_SUPERPOSITION_FAILS;
+        m->misfit_low = m->misfit_high = (double)NAN; /* the reason has another measure of it */
         describe_gross_misfit(work, m);
     } else if (determined >= 2 && master_loss_is_inconsistent(lack)) {
         m->superposition = WT_SUPERPOSITION_FAILS;
