@@ -159,8 +159,8 @@ static export_options export_options_defaults(void)
 
 static const wt_param rows[] = {
     {PARAM_CHOICE_OF("format", export_options, form, "tsv|csv|json|stream"), .former = "as",
-     .help =
-         "how it is written; default: as the name after -o ends in .csv, .tsv or .json, else tsv"},
+     .help = "how it is written; without it, a name after -o that ends in .csv, .tsv or .json "
+             "chooses the form"},
     {PARAM_FLAG_OF("formulas", export_options, formulas),
      .help = "leave a text of tsv and csv that begins with = + - or @ as it is; without this an "
              "apostrophe before it keeps a spreadsheet from taking it for a formula"},

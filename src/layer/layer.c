@@ -289,8 +289,10 @@ static wt_status draw_layer_replicates(layer_task *task, wt_error *err)
     const bool calibrated = !isnan(job->observed_thickness.value);
     const double given = layer_replicates_add(r, task->sliding, job);
     wt_status status = replicates_draw(r, N_NUMBERS + task->n, compute_layer_replicate, task, err);
-    if (status == WT_OK && !(given > 0)) /* an input without an error has no standard error */
-        r->error[calibrated ? NUMBER_BALANCE_THICKNESS : NUMBER_CRITICAL_ENERGY] = (double)NAN;
+    /* The input keeps its stated error; the replicates would give it with their own noise. */
+    if (status == WT_OK)
+        r->error[calibrated ? NUMBER_BALANCE_THICKNESS : NUMBER_CRITICAL_ENERGY] =
+            given > 0 ? given : (double)NAN;
     size_t without = 0, solved = 0;
     for (size_t i = 0; status == WT_OK && i < r->n; i++) {
         const double thickness = r->value[i * r->stride + NUMBER_BALANCE_THICKNESS];

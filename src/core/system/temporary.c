@@ -1,9 +1,16 @@
-/* Temporary files and folders. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Temporary files and folders, and digests of bytes. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The interface of OpenSSL 1.1 needs no memory and cannot fail. */
+#define OPENSSL_API_COMPAT 0x10100000L
+
 #include "core/system/temporary.h"
+
+#include "core/math/special.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <openssl/md5.h>
+#include <openssl/sha.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,18 +18,6 @@
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-/* The interface of OpenSSL 1.1 needs no memory and cannot fail. */
-#define OPENSSL_API_COMPAT 0x10100000L
-
-#include "core/math/special.h"
-#include "core/system/temporary.h"
-
-#include <openssl/md5.h>
-
-#include <openssl/sha.h>
-
-#include <string.h>
 
 static void write_hex(const unsigned char *digest, size_t n, char *hex)
 {
