@@ -203,7 +203,7 @@ typedef struct wt_master_shift {
     double overlap;           /* frequency range shared with another isotherm [decade] */
     double noise_factor;      /* noise of this isotherm relative to the others */
     size_t n_outliers;        /* excluded values */
-    char note[128];           /* "" or a remark */
+    char note[256];           /* "" or a remark */
 } wt_master_shift;
 
 /* Source of the shifts. */

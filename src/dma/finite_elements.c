@@ -192,13 +192,13 @@ static void write_shift_law(fem_material *s)
               s->rubber.temperature_min - s->zero, s->rubber.temperature_max - s->zero);
 }
 
-static double deviation_percent(const table_view *series, prony_reduced_key key)
+static percent_text format_deviation(const table_view *series, prony_reduced_key key)
 {
     const char *words = prony_reduced_key_text(series, key);
     double share = (double)NAN;
     if (words == NULL || !wt_number_parse(words, strlen(words), '.', &share))
-        return (double)NAN;
-    return 100 * share;
+        share = (double)NAN;
+    return format_percent(share);
 }
 
 /* Writes the verdict on superposition, so that each exported file contains it. */
@@ -214,12 +214,12 @@ static void write_superposition(fem_material *s)
             fem_write(s, "%sShifts by: %s.\n", s->comment, route);
     }
     if (isfinite(s->fastest))
-        fem_write(
-            s,
-            "%sThe instantaneous modulus is an extrapolation: at the highest frequency "
-            "measured the storage modulus is %.6g,\n%sand %.2g %% of the instantaneous modulus "
-            "lies beyond it.\n",
-            s->comment, s->fastest, s->comment, 100 * (1 - s->fastest / s->instant));
+        fem_write(s,
+                  "%sThe instantaneous modulus is an extrapolation: at the highest frequency "
+                  "measured the storage modulus is %.6g,\n%sand %s of the instantaneous modulus "
+                  "lies beyond it.\n",
+                  s->comment, s->fastest, s->comment,
+                  format_percent(1 - s->fastest / s->instant).text);
 }
 
 static void write_fem_header(fem_material *s)
@@ -255,13 +255,13 @@ static void write_fem_header(fem_material *s)
                            1 / p->frequency_min / s->unit_system->time, 3)
                   .text);
     fem_write(s,
-              "%sStorage and loss modulus are within %.2g %% and %.2g %% of the spectrum that was "
+              "%sStorage and loss modulus are within %s and %s of the spectrum that was "
               "fitted; "
-              "half of\n%stheir own 95 %% intervals where they are widest: %.2g %% and %.2g %%.\n",
-              s->comment, deviation_percent(v, PRONY_REDUCED_KEY_DEVIATION_STORAGE),
-              deviation_percent(v, PRONY_REDUCED_KEY_DEVIATION_LOSS), s->comment,
-              deviation_percent(v, PRONY_REDUCED_KEY_INTERVAL_STORAGE),
-              deviation_percent(v, PRONY_REDUCED_KEY_INTERVAL_LOSS));
+              "half of\n%stheir own 95 %% intervals where they are widest: %s and %s.\n",
+              s->comment, format_deviation(v, PRONY_REDUCED_KEY_DEVIATION_STORAGE).text,
+              format_deviation(v, PRONY_REDUCED_KEY_DEVIATION_LOSS).text, s->comment,
+              format_deviation(v, PRONY_REDUCED_KEY_INTERVAL_STORAGE).text,
+              format_deviation(v, PRONY_REDUCED_KEY_INTERVAL_LOSS).text);
     write_superposition(s);
     write_shift_law(s);
     if (s->n_levels > 1 && !s->program->one_temperature)

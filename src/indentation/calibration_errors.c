@@ -4,6 +4,7 @@
  * error has an assumed one, because no residual and no scatter shows it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/calibration_errors.h"
+#include "core/base/number.h"
 #include "core/base/text.h"
 #include "core/data/force_curve.h"
 #include "core/math/students_t.h"
@@ -156,9 +157,9 @@ static void append_contributions(const budget *b, char *text, size_t size)
         if (largest < 0)
             break;
         is_listed[largest] = true;
-        clocale_append(text, size, "%s%.2g %% by the %s%s", before,
-                       100 * variance_share(b, b->part[largest].error), b->part[largest].words,
-                       b->part[largest].is_assumed ? " (assumed)" : "");
+        clocale_append(text, size, "%s%s by the %s%s", before,
+                       format_percent(variance_share(b, b->part[largest].error)).text,
+                       b->part[largest].words, b->part[largest].is_assumed ? " (assumed)" : "");
         before = ", ";
     }
 }
@@ -182,14 +183,14 @@ static void describe_budget(const char *group, const budget *b, char *text, size
         const char *before = "; what its curves share makes ";
         for (int i = 0; i < SCATTER; i++)
             if (b->part[i].applies && b->part[i].error > 0) {
-                clocale_append(text, size, "%s%.2g %% (%s)", before, 100 * b->part[i].error,
-                               b->part[i].words);
+                clocale_append(text, size, "%s%s (%s)", before,
+                               format_percent(b->part[i].error).text, b->part[i].words);
                 before = ", ";
             }
     } else {
         clocale_append(text, size,
-                       "modulus of the %s %s, 95 %% interval %s to %s, standard error %.2g %%",
-                       group, value, low, high, 100 * b->all.error);
+                       "modulus of the %s %s, 95 %% interval %s to %s, standard error %s", group,
+                       value, low, high, format_percent(b->all.error).text);
         append_contributions(b, text, size);
     }
     const char *before = "; no error is stated of: ";
@@ -567,8 +568,9 @@ static void append_assumed_error(const calibration_errors *of, wt_systematic_sou
                                  double gain, char *text, size_t size)
 {
     const double error = of->assumed[source];
-    clocale_append(text, size, "%s%.2g %% of the %s (%.2g %% of E)", *text != '\0' ? ", " : "",
-                   100 * error, calibration_source_text(source), 100 * fabs(gain) * error);
+    clocale_append(text, size, "%s%s of the %s (%s of E)", *text != '\0' ? ", " : "",
+                   format_percent(error).text, calibration_source_text(source),
+                   format_percent(fabs(gain) * error).text);
 }
 
 void calibration_errors_set_keys(const calibration_errors *of, table_writer *rows)

@@ -10,6 +10,7 @@
 #include "weartrack/indentation.h"
 
 #include "core/base/array.h"
+#include "core/base/number.h"
 #include "core/data/force_curve.h"
 #include "core/table/registry.h"
 
@@ -459,8 +460,8 @@ static void add_group_row(table_writer *t, slope_direction row, const direction_
     if (g->n == 1)
         snprintf(note, sizeof note,
                  "one curve: the scatter between curves is not known; standard error within the "
-                 "curve %.2g %%",
-                 100 * g->curve_error);
+                 "curve %s",
+                 format_percent(g->curve_error).text);
     table_row(t);
     sensitivity_put_text(t, SENSITIVITY_DIRECTION, slope_direction_text((slope_direction)row));
     sensitivity_put(t, SENSITIVITY_N, (double)g->n);

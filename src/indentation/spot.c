@@ -173,8 +173,8 @@ static void assess_roughness(const wt_spot_job *job, const wt_height_map *f, boo
         clocale_print(s->verdict, sizeof s->verdict,
                       "no: the roughness is %.2g of the depth, above the limit of %.2g, where one "
                       "rms height of "
-                      "depth makes %.2g %% of the contact area",
-                      s->plane.rms / job->depth, limit, 100 * largest_effect);
+                      "depth makes %s of the contact area",
+                      s->plane.rms / job->depth, limit, format_percent(largest_effect).text);
     else if (high <= limit)
         clocale_print(s->verdict, sizeof s->verdict,
                       "yes: the roughness is %.2g of the depth, the limit is %.2g",

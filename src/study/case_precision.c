@@ -10,6 +10,7 @@
 #include "weartrack/study.h"
 
 #include "core/base/array.h"
+#include "core/base/number.h"
 #include "core/base/param.h"
 #include "core/base/text.h"
 #include "core/table/table_rows.h"
@@ -416,8 +417,8 @@ static void write_precision_summary(const precision_problem *o, table_writer *t)
         case_quantity_names[k], loose->errors.stated_error, format_time(loose, first),
         1 / loose->value, tight->errors.stated_error, format_time(tight, second), 1 / tight->value);
     if (o->standard_error[k] > 0)
-        clocale_append(text, sizeof text, "; the standard error is %.2g %%",
-                       100 * o->standard_error[k]);
+        clocale_append(text, sizeof text, "; the standard error is %s",
+                       format_percent(o->standard_error[k]).text);
     if (drawn->value > 0)
         clocale_append(text, sizeof text, ", which %.0f replicates determine to %.1g %%%s",
                        drawn->value, 100 * drawn->errors.stated_error, format_time(drawn, first));

@@ -136,13 +136,6 @@ typedef struct short_text {
     char text[48];
 } short_text;
 
-static short_text format_percent(double share)
-{
-    short_text w;
-    clocale_print(w.text, sizeof w.text, share < 0.0995 ? "%.2g %%" : "%.0f %%", 100 * share);
-    return w;
-}
-
 static short_text format_rate(double rate)
 {
     short_text w;

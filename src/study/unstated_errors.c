@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/compare.h"
 
+#include "core/base/number.h"
 #include "core/base/text.h"
 #include "core/math/root.h"
 
@@ -318,8 +319,8 @@ static wt_status add_temperature_cause(const compare_pair *p, const wt_compare_j
                  effect = room_span * fabs(slope);
     char words[200], by[80] = "by the DMA";
     if (!by_dma)
-        clocale_print(by, sizeof by, "if the modulus %s by %.2g %% a kelvin",
-                      slope < 0 ? "falls" : "rises", 100 * fabs(slope));
+        clocale_print(by, sizeof by, "if the modulus %s by %s a kelvin",
+                      slope < 0 ? "falls" : "rises", format_percent(fabs(slope)).text);
     clocale_print(words, sizeof words,
                   "a track %.2g K %s than the bulk, %s%s (no "
                   "temperature is stated)",

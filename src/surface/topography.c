@@ -476,9 +476,9 @@ static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, 
     to->directions = wt_surface_anisotropy_fit(&to->spectrum, 2);
     if (to->missing_share > missing_share_limit)
         wt_log_add(work->log, WT_WARNING, file->name, NULL,
-                   "%.2g %% of the heights are missing; they are filled smoothly, so that "
+                   "%s of the heights are missing; they are filled smoothly, so that "
                    "short waves are too low there",
-                   100 * to->missing_share);
+                   format_percent(to->missing_share).text);
     return WT_OK;
 }
 

@@ -373,7 +373,7 @@ static void several_threads(void **state)
     }
 }
 
-static void probabilities_as_text(void **state)
+static void probabilities_and_shares_as_text(void **state)
 {
     (void)state;
     assert_string_equal(format_probability(0.0214).text, "0.021");
@@ -381,6 +381,11 @@ static void probabilities_as_text(void **state)
     assert_string_equal(format_probability(1.3e-5).text, "below 0.001");
     assert_string_equal(format_probability(0).text, "below 0.001");
     assert_string_equal(format_probability((double)NAN).text, "not known");
+    assert_string_equal(format_percent(0.0075).text, "0.75 %");
+    assert_string_equal(format_percent(0.0994).text, "9.9 %");
+    assert_string_equal(format_percent(0.0999).text, "10 %");
+    assert_string_equal(format_percent(1.0).text, "100 %");
+    assert_string_equal(format_percent(-12.3).text, "-1230 %");
 }
 
 /* ---- without the database -------------------------------------------------------------------- */
@@ -434,7 +439,7 @@ int main(void)
         cmocka_unit_test(quantities_refused),
         cmocka_unit_test(formatted),
         cmocka_unit_test(foreign_locale),
-        cmocka_unit_test(probabilities_as_text),
+        cmocka_unit_test(probabilities_and_shares_as_text),
         cmocka_unit_test(several_threads),
         cmocka_unit_test(table_agrees_with_udunits),
     };

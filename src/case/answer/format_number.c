@@ -143,14 +143,6 @@ double largest_extrapolated_share(const table_view *friction)
     return share;
 }
 
-number_text format_share(double share)
-{
-    number_text result;
-    clocale_print(result.text, sizeof result.text, share >= 0.1 ? "%.0f %%" : "%.2g %%",
-                  100 * share);
-    return result;
-}
-
 bool find_dma_ratio(const table_view *dma, double *low, double *high)
 {
     *low = *high = (double)NAN;

@@ -38,7 +38,6 @@ bool is_thickness_put_in(const result_value_tables *tables);
 
 /* Largest share of the hysteresis friction from frequencies outside the measured range. */
 double largest_extrapolated_share(const table_view *friction);
-number_text format_share(double share);
 /* Finds the smallest and largest ratio of the moduli of indentation and DMA of the bulk. False
  * without a ratio. The track is not compared: its layer may differ. */
 bool find_dma_ratio(const table_view *dma, double *low, double *high);

@@ -3,6 +3,7 @@
 #include "case/answer/answer.h"
 
 #include "core/base/array.h"
+#include "core/base/number.h"
 #include "core/base/text.h"
 #include "core/table/table_rows.h"
 
@@ -129,9 +130,9 @@ static void add_calibration_limits(limit_list *list, const answer_context *conte
                      TWO_CANTILEVERS;
     add(list, WT_NOTE, LIMITS_INDENTATION,
         "1 %% of the deflection sensitivity is %.3g %% of the modulus of the bulk and %.3g %% of "
-        "that of the track; with %s, %.2g %% of the ratio.",
+        "that of the track; with %s, %s of the ratio.",
         fabs(gain[0]), fabs(gain[1]), two ? "two cantilevers" : "one cantilever",
-        two ? hypot(gain[0], gain[1]) : fabs(gain[0] - gain[1]));
+        format_percent((two ? hypot(gain[0], gain[1]) : fabs(gain[0] - gain[1])) / 100).text);
 }
 
 /* Adds the text of a key, which is the same for both groups. */
@@ -262,7 +263,7 @@ static void add_friction_limits(limit_list *list, const answer_context *context)
     if (share >= ANSWER_SHARE_MIN)
         add(list, WT_WARNING, LIMITS_FRICTION,
             "Up to %s of the hysteresis comes from frequencies outside the measured ones.",
-            format_share(share).text);
+            format_percent(share).text);
     add_stated(list, LIMITS_FRICTION, "friction",
                known ? friction_key_text(friction, FRICTION_KEY_MATERIAL_STATEMENT)
                      : what_if_key_text(what_if, WHAT_IF_KEY_MATERIAL_STATEMENT));
@@ -279,7 +280,7 @@ static void add_friction_limits(limit_list *list, const answer_context *context)
         add(list, WT_WARNING, LIMITS_FRICTION,
             "%s of the hysteresis with the layer comes from frequencies at which its moduli were "
             "not measured.",
-            format_share(outside).text);
+            format_percent(outside).text);
     const bool flash = friction_key_text(friction, FRICTION_KEY_FLASH) != NULL,
                softens = friction_key_text(friction, FRICTION_KEY_SOFTENING) != NULL;
     add(list, WT_NOTE, LIMITS_FRICTION, "The friction theory assumes dry contact%s%s.",

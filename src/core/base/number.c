@@ -259,6 +259,15 @@ double round_to_digits(double value, int digits)
     return scale > 1 ? round(value * scale) / scale : round(value * scale) * (1 / scale);
 }
 
+percent_text format_percent(double share)
+{
+    percent_text result;
+    /* "%.2g" writes 100 as "1e+02". */
+    clocale_print(result.text, sizeof result.text, fabs(share) < 0.0995 ? "%.2g %%" : "%.0f %%",
+                  100 * share);
+    return result;
+}
+
 double round_up_percent(double share)
 {
     return fmax(0.1, 0.1 * ceil(1e3 * share));

@@ -30,6 +30,12 @@ typedef struct probability_text {
     char text[16];
 } probability_text;
 probability_text format_probability(double chance);
+/* Text of a share in per cent, with two digits at least and all before the point: "0.75 %", "12 %",
+ * "140 %". */
+typedef struct percent_text {
+    char text[24];
+} percent_text;
+percent_text format_percent(double share);
 /* Formats two numbers with the digits, at least `least`, with which they differ in print. */
 range_text format_range(double low, double high, int least);
 

@@ -373,11 +373,11 @@ static void add_payne(rows_source *s, const table_view *v)
         const double tenth = payne_get(v, i, PAYNE_STRAIN_TENTH);
         result_row *row = rows_add_number(
             s, 0, rows_number(payne_get(v, i, PAYNE_STORAGE_START), none, none, "Pa"),
-            "%c' at %.2g %% strain", letter, 100 * payne_get(v, i, PAYNE_STRAIN_MIN));
+            "%c' at %s strain", letter, format_percent(payne_get(v, i, PAYNE_STRAIN_MIN)).text);
         rows_note(row, "at %s",
                   rows_short(payne_get(v, i, PAYNE_ANGULAR_FREQUENCY), "rad/s").value);
         rows_add_number(s, 1, rows_number(payne_get(v, i, PAYNE_STORAGE_END), none, none, "Pa"),
-                        "at %.2g %% strain", 100 * payne_get(v, i, PAYNE_STRAIN_MAX));
+                        "at %s strain", format_percent(payne_get(v, i, PAYNE_STRAIN_MAX)).text);
         if (!isnan(tenth))
             rows_add_number(s, 1, rows_number(tenth, none, none, "%"), "strain, a tenth lost");
     }

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
+#include "core/base/number.h"
 #include "core/base/text.h"
 #include "core/math/students_t.h"
 
@@ -359,15 +360,17 @@ static wt_status fail_flat_isotherms(const master_work *work, wt_error *err)
                       : "no shift is determined: the isotherms are flat");
     wt_error_expected(err, "moduli that change along an isotherm by more than noise and clamping "
                            "change them");
-    wt_error_found(err, "a change of %.2g %% along that of the reference, %.2f °C",
-                   100.0 * expm1(curve_modulus_change(&work->set, work->anchor) * M_LN10),
-                   at->temperature - WT_ZERO_CELSIUS);
+    wt_error_found(
+        err, "a change of %s along that of the reference, %.2f °C",
+        format_percent(expm1(curve_modulus_change(&work->set, work->anchor) * M_LN10)).text,
+        at->temperature - WT_ZERO_CELSIUS);
     if (elsewhere)
-        wt_error_advice(err,
-                        "choose a reference temperature in the transition: %.2f °C, where it "
-                        "changes by %.2g %%, or --reference-at tan-delta-peak",
-                        work->set.curves[steepest].temperature - WT_ZERO_CELSIUS,
-                        100.0 * expm1(curve_modulus_change(&work->set, steepest) * M_LN10));
+        wt_error_advice(
+            err,
+            "choose a reference temperature in the transition: %.2f °C, where it "
+            "changes by %s, or --reference-at tan-delta-peak",
+            work->set.curves[steepest].temperature - WT_ZERO_CELSIUS,
+            format_percent(expm1(curve_modulus_change(&work->set, steepest) * M_LN10)).text);
     else
         wt_error_advice(err,
                         "measure into the transition, or choose a reference temperature there");

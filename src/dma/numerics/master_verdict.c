@@ -116,9 +116,9 @@ static void note_strain(const wt_sweep *sweep, wt_master *m, wt_log *log)
     m->strain_high = high;
     if (high > strain_ratio_limit * low)
         wt_log_add(log, WT_WARNING, NULL, NULL,
-                   "isotherms were measured at strain amplitudes from %.2g to %.2g: a filled "
+                   "isotherms were measured at strain amplitudes from %s to %s: a filled "
                    "rubber softens with strain, so their shifts mix temperature and strain",
-                   low, high);
+                   format_percent(low).text, format_percent(high).text);
 }
 
 /* Warns about the limitations of a fit to one quantity. */

@@ -146,7 +146,7 @@ double curve_select(double *x, size_t n, size_t k, double largest);
 void curve_set_reason(char reason[160], const char *format, ...) WT_PRINTF(2, 3);
 /* Value with its unit as short text. */
 typedef struct si_text {
-    char buffer[40];
+    char buffer[48];
 } si_text;
 si_text curve_format_si(double value, const char *unit);
 

@@ -230,9 +230,9 @@ static bool exceeds_contact_law(const curve_fitting *f, char reason[160])
 static si_text misfit_text(const wt_indent_fit *fit)
 {
     si_text text;
-    clocale_print(text.buffer, sizeof text.buffer, "E +- %.2g %% (%.2g %% from the fit range)",
-                  100.0 * fit->modulus.standard_error / fit->modulus.value,
-                  100.0 * fmax(fit->misfit_error, 0.0) / fit->modulus.value);
+    clocale_print(text.buffer, sizeof text.buffer, "E +- %s (%s from the fit range)",
+                  format_percent(fit->modulus.standard_error / fit->modulus.value).text,
+                  format_percent(fmax(fit->misfit_error, 0.0) / fit->modulus.value).text);
     return text;
 }
 
@@ -387,9 +387,8 @@ static void append_notes(const curve_fitting *f, const wt_indent_fit *fit, char 
         curve_append_note(reason, "; the spectrum of the DMA does not describe its loss");
     } else if (fabs(f->loss_bias) >= min_reported_bias) {
         curve_set_reason(
-            text,
-            "; %.0f %% of the work lost: with a memory of time^-%.2g, %.2g %% %s than without",
-            100.0 * fit->loss, f->loss_power, 100.0 * fabs(f->loss_bias),
+            text, "; %.0f %% of the work lost: with a memory of time^-%.2g, %s %s than without",
+            100.0 * fit->loss, f->loss_power, format_percent(fabs(f->loss_bias)).text,
             f->loss_bias > 0.0 ? "less" : "more");
         curve_append_note(reason, text);
     } else if (f->unknown_loss) {
