@@ -17,7 +17,7 @@ typedef struct influence {
     double change, change_at, interval; /* largest change of log10 a, where, half width there */
     size_t outside, lost;
     double c1, c2, storage, loss;
-    char note[128];
+    char note[256];
 } influence;
 
 TABLE_ROW(influences, INFLUENCES, influence one;)
@@ -121,7 +121,7 @@ static void leave_out(const wt_sweep *sweep, const wt_master_options *options, c
     const wt_status status = wt_master_fit(&rest, options, NULL, &fit, &failure);
     free(rest.isotherms);
     if (status != WT_OK) {
-        snprintf(one->note, sizeof one->note, "no fit without it: %.100s", failure.message);
+        snprintf(one->note, sizeof one->note, "no fit without it: %.230s", failure.message);
         return;
     }
     wt_interval moduli[2][2];
