@@ -545,34 +545,29 @@ static double shared_decades(const shift_curve *p, double a_p, const shift_curve
 size_t spectrum_select_connected(const shift_set *set, size_t anchor, const double *a, bool *placed,
                                  double *overlap)
 {
-    arena memory = {0};
-    bool *final = arena_alloc(&memory, set->n, sizeof *final);
+    const size_t n = set->n;
     size_t count = 1;
-    for (size_t i = 0; i < set->n; i++)
+    for (size_t i = 0; i < n; i++)
         overlap[i] = i == anchor || (placed[i] && set->curves[i].is_shift_fixed) ? HUGE_VAL : 0.0;
-    /* The overlap of an isotherm is the largest minimum overlap on a path to the anchor. That of
-     * the isotherm with the largest one is final. */
-    for (;;) {
-        size_t p = set->n;
-        for (size_t i = 0; i < set->n; i++)
-            if (placed[i] && !final[i] && overlap[i] > 0.0 &&
-                (p == set->n || overlap[i] > overlap[p]))
-                p = i;
-        if (p == set->n)
-            break;
-        final[p] = true;
-        for (size_t i = 0; i < set->n; i++) {
-            if (!placed[i] || final[i])
-                continue;
-            const double shared = shared_decades(&set->curves[p], a[p], &set->curves[i], a[i]),
-                         both = shared < overlap[p] ? shared : overlap[p];
-            overlap[i] = both > overlap[i] ? both : overlap[i];
+    /* The overlap of an isotherm is the largest minimum overlap on a path to the anchor. Paths
+     * mostly rise or fall, so few passes to and fro find all. */
+    for (bool is_changed = true; is_changed;) {
+        is_changed = false;
+        for (size_t k = 0; k < 2 * n; k++) {
+            const size_t p = k < n ? k : 2 * n - 1 - k;
+            for (size_t i = 0; placed[p] && overlap[p] > 0.0 && i < n; i++) {
+                const double both =
+                    fmin(overlap[p], shared_decades(&set->curves[p], a[p], &set->curves[i], a[i]));
+                if (!placed[i] || !(both > overlap[i]))
+                    continue;
+                overlap[i] = both;
+                is_changed = true;
+            }
         }
     }
     for (size_t i = 0; i < set->n; i++) {
         placed[i] = placed[i] && overlap[i] > 0.0;
         count += placed[i] && i != anchor;
     }
-    arena_free(&memory);
     return count;
 }
