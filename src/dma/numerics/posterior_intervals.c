@@ -151,13 +151,6 @@ wt_interval posterior_b(const wt_posterior *p, size_t curve)
                : mixture_interval(part, n);
 }
 
-double posterior_a_per_b(const wt_posterior *p, size_t curve)
-{
-    const double *block = posterior_best(p)->block + BLOCK_DIAGONAL * curve;
-    const bool fitted = p->frame.column_a[curve] >= 0 && p->frame.column_b[curve] >= 0;
-    return fitted ? block[1] / block[2] : 0.0;
-}
-
 /* A quantity that depends linearly on the unknowns of spectrum and law. Value and variance are
  * those of a component before the feedback of the law. */
 struct linear_quantity {
