@@ -1,6 +1,6 @@
 /* Relaxation and creep of a series of Maxwell elements, against closed forms and the convolution of
- * both. Isotherms of both are drawn from laws without a series and compared with the truth.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ * both. Isotherms of both are drawn from laws without a series and compared with the truth. Start
+ * of freed vertical shifts. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assert_near.h"
 
 #include "dma/numerics/spectrum.h"
@@ -263,6 +263,29 @@ static void steps_have_their_limits(void **state)
     wt_sweep_clear(&sweep);
 }
 
+/* The test of superposition frees vertical shifts that were none: they start where they were. */
+static void freed_vertical_shifts_start_where_they_were(void **state)
+{
+    enum { CURVES = 3 };
+    double mean[CURVES] = {0};
+    const double temperature[CURVES] = {273.15, 293.15, 313.15};
+    const spectrum s = {.n_curves = CURVES, .level_curve = 1};
+    arena memory = {0};
+    vertical v = {.reference_temperature = 293.15, .geometry = 0.01, .mean = mean};
+    spectrum_prior prior;
+    (void)state;
+    vertical_alloc(&memory, CURVES, &v);
+    for (int i = 0; i < 2; i++) {
+        const wt_vertical_shift kind = i == 0 ? WT_VERTICAL_NONE : WT_VERTICAL_FREE;
+        assert_int_equal(vertical_prior(&v, kind, temperature, &s, &prior, NULL), WT_OK);
+        for (int k = 0; k < CURVES; k++)
+            assert_true(prior.mean[k] == 0.0);
+    }
+    assert_int_equal(vertical_prior(&v, WT_VERTICAL_TIED, temperature, &s, &prior, NULL), WT_OK);
+    assert_true(prior.mean[2] < 0.0);
+    arena_free(&memory);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -271,6 +294,7 @@ int main(void)
         cmocka_unit_test(derivatives_are_those_of_the_values),
         cmocka_unit_test(intervals_hold_the_truth),
         cmocka_unit_test(steps_have_their_limits),
+        cmocka_unit_test(freed_vertical_shifts_start_where_they_were),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

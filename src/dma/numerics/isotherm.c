@@ -359,13 +359,9 @@ double curve_modulus_change(const shift_set *set, size_t curve)
 
 /* ---- shift of one isotherm ------------------------------------------------------------------- */
 
-/* These values only set the start of the joint fit and affect no reported number. Minimum shared
- * range of ordinates [decade]: 12 %, beyond noise and clamping. */
-static const double least_overlap = 0.05;
-
-/* A point outside the overlap counts with this residual [decade]. A smaller residual favours
- * more overlap, a larger one less residual. At half this value noise of 5 % is treated as a wrong
- * position. */
+/* These values only set the start of the joint fit and affect no reported number. A point outside
+ * the overlap counts with this residual [decade]. A smaller residual favours more overlap, a larger
+ * one less residual. At half this value noise of 5 % is treated as a wrong position. */
 static const double indifferent_residual = 0.05;
 
 /* Residuals below this are equally good [decade]: 0.7 %, the noise of a good rheometer. */
@@ -374,16 +370,14 @@ static const double equal_residual = 0.003;
 /* Number of tested shifts over the range of overlap: 40 per decade for ten decades. */
 enum { GRID = 400 };
 
-struct pair {
-    const shift_curve *p, *s;
-    const bool *used; /* [MODULI] */
-    bool free_b;
-    double fixed_b;
-};
-
 struct overlap {
     size_t n[MODULI];
     double sum, square; /* sums over the gaps y_p - y_s */
+};
+
+/* A start position of a curve. */
+struct start {
+    double cost, a, b;
 };
 
 /* Adds the gaps y_onto(x + a) - y_from(x) times `sign` for the points of `from` within `onto`.
@@ -414,27 +408,17 @@ static void add_pair_gaps(const shift_curve *onto, const shift_curve *from, cons
     }
 }
 
-/* Returns the mean square residual; *b: the corresponding vertical shift. */
-static double mean_square(const struct pair *pair, const struct overlap *sum, double *b)
+/* Returns true if the ordinates overlap by a twentieth of a decade, which is beyond noise and
+ * clamping, or by a quarter of the flatter curve. E'' is not monotonic, so E' decides if available.
+ */
+static bool ordinates_overlap(const shift_set *set, const shift_curve *p, const shift_curve *s)
 {
-    const double n = (double)(sum->n[STORAGE] + sum->n[LOSS]);
-    const double mean = sum->sum / n;
-    *b = pair->fixed_b + (pair->free_b ? mean : 0.0);
-    return fmax(sum->square / n - (pair->free_b ? mean * mean : 0.0), 0.0);
-}
-
-/* Returns true if the ordinates overlap by a twentieth of a decade, or a quarter of the flatter
- * curve. E'' is not monotonic, so E' decides if available. */
-static bool ordinates_overlap(const struct pair *pair)
-{
-    const int q = pair->used[STORAGE] ? STORAGE : LOSS;
+    const int q = set->used[STORAGE] ? STORAGE : LOSS;
     double low[2], high[2];
-    const shift_curve *curve[2] = {pair->p, pair->s};
-    for (int c = 0; c < 2; c++)
-        gsl_stats_minmax(&low[c], &high[c], curve[c]->y[q], 1, curve[c]->n);
+    gsl_stats_minmax(&low[0], &high[0], p->y[q], 1, p->n);
+    gsl_stats_minmax(&low[1], &high[1], s->y[q], 1, s->n);
     const double shared = fmin(high[0], high[1]) - fmax(low[0], low[1]);
-    const double flatter = fmin(high[0] - low[0], high[1] - low[1]);
-    return shared > 0.0 && shared >= fmin(least_overlap, 0.25 * flatter);
+    return shared > 0.0 && shared >= fmin(0.05, 0.25 * fmin(high[0] - low[0], high[1] - low[1]));
 }
 
 /* Fits the shift of curve s relative to curve p by least squares of the used moduli in both
@@ -443,43 +427,35 @@ static bool shift_pair_fit(const shift_set *set, size_t onto, size_t from, bool 
                            double *b)
 {
     const shift_curve *p = &set->curves[onto], *s = &set->curves[from];
-    const struct pair pair = {p, s, set->used, free_b, free_b ? 0.0 : *b};
-    if (p->n < SHIFT_MIN_POINTS || s->n < SHIFT_MIN_POINTS || !ordinates_overlap(&pair))
+    const double fixed_b = free_b ? 0.0 : *b;
+    if (p->n < SHIFT_MIN_POINTS || s->n < SHIFT_MIN_POINTS || !ordinates_overlap(set, p, s))
         return false;
     const double lowest = p->x[0] - s->x[s->n - 1], highest = p->x[p->n - 1] - s->x[0];
     const double step = (highest - lowest) / GRID;
-    double best_cost = HUGE_VAL, least_square = HUGE_VAL, closest = 0.0, b_closest = 0.0;
+    struct start likely = {.cost = HUGE_VAL}, closest = likely;
     for (int g = 1; g < GRID; g++) {
+        const double shift = lowest + g * step;
         struct overlap sum = {0};
-        add_pair_gaps(p, s, set->used, lowest + g * step, 1.0, pair.fixed_b, &sum);
-        add_pair_gaps(s, p, set->used, -(lowest + g * step), -1.0, pair.fixed_b, &sum);
+        add_pair_gaps(p, s, set->used, shift, 1.0, fixed_b, &sum);
+        add_pair_gaps(s, p, set->used, -shift, -1.0, fixed_b, &sum);
         if ((set->used[STORAGE] && sum.n[STORAGE] < SHIFT_MIN_POINTS) ||
             (set->used[LOSS] && sum.n[LOSS] < SHIFT_MIN_POINTS))
             continue;
-        double vertical;
-        const double square = mean_square(&pair, &sum, &vertical);
+        const double n = (double)(sum.n[STORAGE] + sum.n[LOSS]), mean = free_b ? sum.sum / n : 0.0;
+        const double square = fmax(sum.square / n - mean * mean, 0.0);
         /* log likelihood relative to residuals of `indifferent_residual` at all points; the plain
          * mean square would prefer a chance match of a few end points */
-        const double cost = (double)(sum.n[STORAGE] + sum.n[LOSS]) *
-                            log((square + equal_residual * equal_residual) /
-                                (indifferent_residual * indifferent_residual));
-        if (cost < best_cost) {
-            best_cost = cost;
-            *a = lowest + g * step;
-            *b = vertical;
-        }
-        if (square < least_square) {
-            least_square = square;
-            closest = lowest + g * step;
-            b_closest = vertical;
-        }
+        const double cost = n * log((square + equal_residual * equal_residual) /
+                                    (indifferent_residual * indifferent_residual));
+        if (cost < likely.cost)
+            likely = (struct start){cost, shift, fixed_b + mean};
+        if (square < closest.cost)
+            closest = (struct start){square, shift, fixed_b + mean};
     }
-    /* if no shift fits within `indifferent_residual` the cost favours few points */
-    if (best_cost >= 0.0) {
-        *a = closest;
-        *b = b_closest;
-    }
-    return best_cost < HUGE_VAL;
+    /* if no shift fits within `indifferent_residual` the likelihood favours few points */
+    *a = likely.cost < 0.0 ? likely.a : closest.a;
+    *b = likely.cost < 0.0 ? likely.b : closest.b;
+    return closest.cost < HUGE_VAL;
 }
 
 /* ---- start positions ------------------------------------------------------------------------- */
@@ -545,34 +521,29 @@ static double shared_decades(const shift_curve *p, double a_p, const shift_curve
 size_t spectrum_select_connected(const shift_set *set, size_t anchor, const double *a, bool *placed,
                                  double *overlap)
 {
-    arena memory = {0};
-    bool *final = arena_alloc(&memory, set->n, sizeof *final);
+    const size_t n = set->n;
     size_t count = 1;
-    for (size_t i = 0; i < set->n; i++)
+    for (size_t i = 0; i < n; i++)
         overlap[i] = i == anchor || (placed[i] && set->curves[i].is_shift_fixed) ? HUGE_VAL : 0.0;
-    /* The overlap of an isotherm is the largest minimum overlap on a path to the anchor. That of
-     * the isotherm with the largest one is final. */
-    for (;;) {
-        size_t p = set->n;
-        for (size_t i = 0; i < set->n; i++)
-            if (placed[i] && !final[i] && overlap[i] > 0.0 &&
-                (p == set->n || overlap[i] > overlap[p]))
-                p = i;
-        if (p == set->n)
-            break;
-        final[p] = true;
-        for (size_t i = 0; i < set->n; i++) {
-            if (!placed[i] || final[i])
-                continue;
-            const double shared = shared_decades(&set->curves[p], a[p], &set->curves[i], a[i]),
-                         both = shared < overlap[p] ? shared : overlap[p];
-            overlap[i] = both > overlap[i] ? both : overlap[i];
+    /* The overlap of an isotherm is the largest minimum overlap on a path to the anchor. Paths
+     * mostly rise or fall, so few passes to and fro find all. */
+    for (bool is_changed = true; is_changed;) {
+        is_changed = false;
+        for (size_t k = 0; k < 2 * n; k++) {
+            const size_t p = k < n ? k : 2 * n - 1 - k;
+            for (size_t i = 0; placed[p] && overlap[p] > 0.0 && i < n; i++) {
+                const double both =
+                    fmin(overlap[p], shared_decades(&set->curves[p], a[p], &set->curves[i], a[i]));
+                if (!placed[i] || !(both > overlap[i]))
+                    continue;
+                overlap[i] = both;
+                is_changed = true;
+            }
         }
     }
     for (size_t i = 0; i < set->n; i++) {
         placed[i] = placed[i] && overlap[i] > 0.0;
         count += placed[i] && i != anchor;
     }
-    arena_free(&memory);
     return count;
 }

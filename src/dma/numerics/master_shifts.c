@@ -170,10 +170,6 @@ bool master_find_unit_slip(master_work *work, size_t *found)
 
 /* ---- shifts ---------------------------------------------------------------------------------- */
 
-/* Error of a free vertical shift due to geometry and clamping [decade]: 5 %, from 2 % of the
- * cross section and the free length. */
-static const double clamping = 0.02;
-
 static size_t count_outliers(const spectrum *s, size_t curve)
 {
     size_t n = 0;
@@ -212,13 +208,6 @@ static bool note_undetermined(const master_work *work, size_t i, wt_master_shift
                         "not determined: superposition fails, overlaps differ by %.2g decade", own);
     else if (!(own <= master_max_shift_error))
         master_add_note(shift, "not determined: it is too flat, error of log aT %.2g decade", own);
-    else if (work->options.vertical == WT_VERTICAL_FREE &&
-             fabs(posterior_a_per_b(work->posterior, work->curve[i])) * clamping >
-                 master_max_shift_error)
-        master_add_note(shift,
-                        "not determined: it is too flat, %.2g decade of log bT is %.2g of log "
-                        "aT",
-                        clamping, master_max_shift_error);
     return shift->note[0] != '\0';
 }
 

@@ -113,8 +113,6 @@ double posterior_fit_error(const wt_posterior *p,
 /* Shift of a place against the reference of the law. */
 wt_interval posterior_a_to_law(const wt_posterior *p, const posterior_place *place);
 wt_interval posterior_b(const wt_posterior *p, size_t curve);
-/* Returns d log a / d log b along equally good fits. */
-double posterior_a_per_b(const wt_posterior *p, size_t curve);
 wt_interval posterior_law(const wt_posterior *p, double temperature);
 wt_interval posterior_slope(const wt_posterior *p, double temperature); /* decade/K */
 wt_interval posterior_constant(const wt_posterior *p, size_t unknown);

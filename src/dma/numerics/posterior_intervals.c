@@ -118,22 +118,17 @@ posterior_place posterior_between(const wt_posterior *p, size_t cold, double tem
     const double *t = p->temperature;
     posterior_place place = {
         .cold = cold, .warm = cold + 1, .share = (temperature - t[cold]) / (t[cold + 1] - t[cold])};
-    double unknown[LAW_MAX_UNKNOWNS], square = 0.0, near = 0.0;
-    int n = 0, n_near = 0;
+    double unknown[LAW_MAX_UNKNOWNS], square = 0.0;
+    int n = 0;
     posterior_mean_law(p, unknown);
     place.law = (1.0 - place.share) * law_value(&p->shape, unknown, t[cold], NULL) +
                 place.share * law_value(&p->shape, unknown, t[cold + 1], NULL);
     for (size_t k = 1; k + 1 < p->frame.n_curves; k++)
         if (t[k - 1] < t[k + 1]) {
-            const double one = deviation_between(p, unknown, k);
-            square += one;
-            near += k == cold || k == cold + 1 ? one : 0.0;
-            n_near += k == cold || k == cold + 1;
+            square += deviation_between(p, unknown, k);
             n++;
         }
-    if (n_near > 0) /* the neighbours alone are few, all may deviate elsewhere */
-        square = 0.5 * (square / n + near / n_near);
-    place.variance = 2.0 * place.share * (1.0 - place.share) * square / line_deviation;
+    place.variance = 2.0 * place.share * (1.0 - place.share) * square / fmax(n, 1) / line_deviation;
     return place;
 }
 
@@ -154,13 +149,6 @@ wt_interval posterior_b(const wt_posterior *p, size_t curve)
     return p->frame.column_b[curve] < 0
                ? (wt_interval){part[0].mean, 0.0, part[0].mean, part[0].mean}
                : mixture_interval(part, n);
-}
-
-double posterior_a_per_b(const wt_posterior *p, size_t curve)
-{
-    const double *block = posterior_best(p)->block + BLOCK_DIAGONAL * curve;
-    const bool fitted = p->frame.column_a[curve] >= 0 && p->frame.column_b[curve] >= 0;
-    return fitted ? block[1] / block[2] : 0.0;
 }
 
 /* A quantity that depends linearly on the unknowns of spectrum and law. Value and variance are

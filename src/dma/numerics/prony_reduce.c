@@ -311,47 +311,39 @@ static void remove_or_merge_term(reducer *r, double little)
     remove_term(r, at + 1);
 }
 
-/* Stores the best terms without negligible ones and returns their deviation. */
-static double store_best_terms(reducer *r, double *best_terms, double off)
+/* Returns to the best terms, without negligible ones and in the order of their times, and stores
+ * them. */
+static void store_best_terms(reducer *r, double *best_terms)
 {
     memcpy(r->unknown, r->best, n_unknowns(r) * sizeof *r->best);
     for (size_t i = r->terms; i-- > 0;)
         if (largest_modulus_share(r, i) < negligible_share)
             remove_term(r, i);
+    qsort(r->unknown, r->terms, 2 * sizeof *r->unknown, numbers_compare);
     memcpy(best_terms, r->unknown, n_unknowns(r) * sizeof *best_terms);
-    qsort(best_terms, r->terms, 2 * sizeof *best_terms, numbers_compare);
-    return off;
 }
 
-/* Finds the smallest number of terms: it increases by half until the deviation suffices, then
- * bisection, then merging as long as it succeeds. */
+/* Finds the smallest number of terms: it increases by half until the deviation suffices, then terms
+ * are merged as long as it does. */
 static size_t fewest_terms(reducer *r, double tolerance, double *best_terms)
 {
-    size_t low = 0, high = 0, n = r->initial_terms;
-    double off = HUGE_VAL;
-    while (high == 0 || high > low + 1) {
+    size_t n = r->initial_terms;
+    spread_terms(r, n);
+    double off = fit_terms(r, tolerance);
+    while (off > tolerance && n < r->most) {
+        n = (size_t)fmin((double)(n + n / 2 + 1), (double)r->most);
         spread_terms(r, n);
-        const double now = fit_terms(r, tolerance);
-        if (now <= tolerance || n == r->most) {
-            off = store_best_terms(r, best_terms, now);
-            high = r->terms;
-        } else {
-            low = n;
-        }
-        if (off > tolerance && n == r->most)
-            return high;
-        n = high > 0 ? low + (high - low) / 2
-                     : (size_t)fmin((double)(n + n / 2 + 1), (double)r->most);
+        off = fit_terms(r, tolerance);
     }
-    for (r->terms = high; r->terms > 1;) {
-        n = r->terms;
-        memcpy(r->unknown, best_terms, n_unknowns(r) * sizeof *best_terms);
+    store_best_terms(r, best_terms);
+    for (n = r->terms; off <= tolerance && n > 1; n = r->terms) {
         remove_or_merge_term(r, 0.1 * tolerance);
-        if (fit_terms(r, tolerance) > tolerance)
-            return n;
-        store_best_terms(r, best_terms, off);
+        off = fit_terms(r, tolerance);
+        if (off > tolerance)
+            break;
+        store_best_terms(r, best_terms);
     }
-    return r->terms;
+    return n;
 }
 
 /* ---- interface ------------------------------------------------------------------------------- */
@@ -446,7 +438,8 @@ wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *options, wt_
         size_t terms = o.terms;
         if (terms > 0) {
             spread_terms(&r, terms);
-            store_best_terms(&r, best_terms, fit_terms(&r, 0));
+            (void)fit_terms(&r, 0);
+            store_best_terms(&r, best_terms);
             terms = r.terms;
         } else {
             terms = fewest_terms(&r, o.error * (1 - interpolation_margin), best_terms);

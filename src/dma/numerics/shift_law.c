@@ -216,9 +216,6 @@ struct gls {
     gsl_vector_view y;      /* [n] */
     gsl_matrix_view x;      /* [n * unknowns] */
     double *column;         /* [n] a column */
-    double *fixed;          /* [n * LAW_MAX_UNKNOWNS] columns without the pole, orthonormal */
-    size_t n_fixed;
-    double *left; /* [n] y without them */
 };
 
 /* Whitens the columns that depend on the pole, or the others. */
@@ -235,56 +232,20 @@ static void whiten_columns(const struct gls *g, gsl_matrix *x, bool pole_columns
     }
 }
 
-static double product(const double *x, const double *y, size_t n)
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < n; i++)
-        sum += x[i] * y[i];
-    return sum;
-}
-
-/* Removes the fixed columns from a vector. */
-static void project_out_fixed(const struct gls *g, double *v)
-{
-    const size_t n = g->data->n;
-    for (size_t c = 0; c < g->n_fixed; c++) {
-        const double *one = g->fixed + c * n, share = product(one, v, n);
-        for (size_t i = 0; i < n; i++)
-            v[i] -= share * one[i];
-    }
-}
-
 static struct gls gls_new(const law_data *data, const law_shape *shape, const gsl_matrix *root)
 {
     const size_t n = data->n;
-    double *const y = data->scratch, *const column = y + n, *const left = column + n,
-                  *const x = left + n;
+    double *const y = data->scratch, *const column = y + n;
     struct gls g = {.data = data,
                     .shape = shape,
                     .root = root,
                     .y = gsl_vector_view_array(y, n),
-                    .x = gsl_matrix_view_array(x, n, law_unknowns(shape)),
-                    .column = column,
-                    .left = left,
-                    .fixed = x + n * LAW_MAX_UNKNOWNS};
+                    .x = gsl_matrix_view_array(column + n, n, law_unknowns(shape)),
+                    .column = column};
     memcpy(y, data->log_a, n * sizeof *y);
     dense_forward(root, y);
     design_fixed(data, shape, &g.x.matrix);
     whiten_columns(&g, &g.x.matrix, false);
-    for (size_t u = 0; u < law_unknowns(shape); u++) {
-        double *const to = g.fixed + g.n_fixed * n;
-        if (u == 1 || u == law_pole_index(shape))
-            continue;
-        for (size_t i = 0; i < n; i++)
-            to[i] = gsl_matrix_get(&g.x.matrix, i, u);
-        project_out_fixed(&g, to);
-        const double length = sqrt(product(to, to, n));
-        for (size_t i = 0; i < n; i++)
-            to[i] /= length;
-        g.n_fixed++;
-    }
-    memcpy(left, y, n * sizeof *left);
-    project_out_fixed(&g, left);
     return g;
 }
 
@@ -322,24 +283,17 @@ static bool solve_at_pole(struct gls *g, double distance, double main_factor, si
     return true;
 }
 
-/* Returns the change of chi^2 by the main column with this pole, HUGE_VAL if the law rises with
- * temperature. */
-static double pole_chi_square(const struct gls *g, double log_distance)
+/* Returns chi^2 with this pole, HUGE_VAL if the law rises with temperature. */
+static double pole_chi_square(struct gls *g, double log_distance)
 {
-    const size_t n = g->data->n;
-    const double distance = exp(log_distance);
-    double by_pole, *const column = g->column;
-    for (size_t i = 0; i < n; i++)
-        column[i] = main_law_factor(g->shape, distance, g->data->temperature[i], &by_pole);
-    dense_forward(g->root, column);
-    project_out_fixed(g, column);
-    const double with = product(column, g->left, n);
-    return with > 0.0 ? -with * with / product(column, column, n) : HUGE_VAL; /* also NaN */
+    law_fit fit = {0};
+    const bool is_solved = solve_at_pole(g, exp(log_distance), 1.0, g->x.matrix.size2 - 1, &fit);
+    return is_solved && fit.unknown[1] > 0.0 ? fit.chi_square : HUGE_VAL;
 }
 
 /* Finds the best ln of the pole distance by parabolas, from the given one if that is better than
  * its neighbours, otherwise from a scan. Returns false without one. */
-static bool fit_pole(const struct gls *g, double *at)
+static bool fit_pole(struct gls *g, double *at)
 {
     const double nearest = log(POLE_NEAREST), farthest = log(POLE_FARTHEST);
     double step = (farthest - nearest) / POLE_GRID;

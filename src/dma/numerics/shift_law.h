@@ -10,7 +10,7 @@
 /* Maximum number of unknowns: offset of the reference, main constant (C1 or activation energy),
  * energy below the joint, shift of an outlier, ln of the pole distance below the coldest
  * isotherm. A law has some of them. */
-enum { LAW_MAX_UNKNOWNS = 5, LAW_SCRATCH = 2 * LAW_MAX_UNKNOWNS + 1 };
+enum { LAW_MAX_UNKNOWNS = 5, LAW_SCRATCH = LAW_MAX_UNKNOWNS + 2 };
 /* With fewer isotherms the law is Arrhenius, because an offset and two constants leave no degree
  * of freedom. */
 enum { LAW_MIN_ISOTHERMS = 4 };

@@ -3,11 +3,8 @@
 #include "dma/numerics/shift_law.h"
 
 #include "core/math/arena_gsl.h"
-#include "core/math/cholesky.h"
 #include "core/math/special.h"
 
-#include <gsl/gsl_blas.h>
-#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <string.h>
 
@@ -26,9 +23,10 @@ enum { LEAST_JOINED = 8 };
 /* Number of joints in the coarse search, which is then refined by halves about the best one. It
  * only limits the time. */
 enum { JOINTS = 24 };
-/* Share of the limit from which an isotherm is tested as an outlier. The linearised law
- * underestimates the gain. It only limits the time. */
-static const double outlier_trial_share = 0.25;
+/* Of more than MANY isotherms only those off the law by this number of standard deviations are
+ * tested as outliers. One of few isotherms can pull the law to itself. It only limits the time. */
+static const double outlier_deviations = 2.0;
+enum { MANY = 50 };
 
 struct search {
     law_data *data;
@@ -186,46 +184,14 @@ static wt_status try_all_laws(struct search *search, const law_shape *start, wt_
     return status;
 }
 
-/* Computes the decrease of -2 ln likelihood by a separate shift of each isotherm, for the
- * linearised law. */
-static wt_status outlier_gains(struct search *search, const law_shape *shape, double *gain,
-                               wt_error *err)
+/* Returns true if an isotherm is off the law by little for its error. */
+static bool is_near_law(const struct search *search, const law_shape *shape, const law_fit *fit,
+                        size_t i)
 {
-    law_data *data = search->data;
-    const size_t n = data->n, k = law_unknowns(shape);
-    arena *m = &search->memory;
-    gsl_matrix *scratch = arena_matrix(m, n, n), *inverse = arena_matrix(m, n, n),
-               *x = arena_matrix(m, n, k), *mx = arena_matrix(m, n, k);
-    gsl_vector *gap = arena_vector(m, n), *pull = arena_vector(m, n);
-    wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < LAW_SPREADS; i++) {
-        law_fit fit;
-        status = factor_spread(search, i, err);
-        if (status == WT_OK)
-            status = law_fit_gls(data, shape, search->root[i], &fit, err);
-        if (status != WT_OK)
-            break;
-        if (search->largest - fit.log_det < outlier_trial_share * outlier_gain)
-            break; /* no gain exceeds chi^2; a larger error raises log_det */
-        const double least = fit.chi_square + fit.log_det - search->largest;
-        law_design(data, shape, fit.unknown, x);
-        for (size_t p = 0; p < n; p++)
-            gsl_vector_set(gap, p,
-                           data->log_a[p] - law_isotherm_value(data, shape, fit.unknown, p));
-        dense_inverse(search->root[i], scratch, inverse);
-        gsl_blas_dgemv(CblasNoTrans, 1.0, inverse, gap, 0.0, pull);
-        gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, inverse, x, 0.0, mx);
-        for (size_t p = 0; p < n; p++) {
-            double own = gsl_matrix_get(inverse, p, p);
-            for (size_t u = 0; u < k; u++)
-                for (size_t w = 0; w < k; w++)
-                    own -=
-                        gsl_matrix_get(mx, p, u) * fit.covariance[u][w] * gsl_matrix_get(mx, p, w);
-            const double pulled = gsl_vector_get(pull, p);
-            gain[p] = fmax(gain[p], pulled * pulled / fmax(own, 1e-300) - least);
-        }
-    }
-    return status;
+    const law_data *data = search->data;
+    const double gap = data->log_a[i] - law_isotherm_value(data, shape, fit->unknown, i);
+    return fabs(gap) < outlier_deviations * hypot(sqrt(gsl_matrix_get(data->covariance, i, i)),
+                                                  law_spread(search->spread) * data->slope[i]);
 }
 
 /* Searches the isotherm that does not belong to the law. */
@@ -233,29 +199,26 @@ static wt_status find_outlier_isotherm(struct search *search, wt_error *err)
 {
     const struct search plain = *search;
     const size_t n = search->data->n;
-    double *gain = arena_numbers(&search->memory, n);
-    wt_status status = outlier_gains(search, &plain.chosen, gain, err);
-    if (status == WT_E_RANGE)
-        return WT_OK; /* for some temperature error the law does not fall, so it defines no outlier
-                       */
+    law_fit fit;
+    wt_status status = factor_spread(search, plain.spread, err);
+    if (status == WT_OK)
+        status = law_fit_gls(search->data, &plain.chosen, search->root[plain.spread], &fit, err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         double largest, mean;
         law_shape shape = plain.chosen;
+        if (n > MANY && is_near_law(&plain, &shape, &fit, i))
+            continue;
         shape.outlier = (long)i;
-        if (gain[i] < outlier_trial_share * outlier_gain)
-            continue;
         status = law_likelihoods(search, &shape, &largest, &mean, err);
-        if (status == WT_E_RANGE) {
+        if (status == WT_E_RANGE)
             status = WT_OK; /* no such law exists without this isotherm */
-            continue;
-        }
-        if (status == WT_OK && largest < search->largest &&
-            largest < plain.largest - outlier_gain) {
+        else if (status == WT_OK && largest < search->largest &&
+                 largest < plain.largest - outlier_gain) {
             search->largest = largest;
             search->chosen = shape;
         }
     }
-    return status;
+    return status == WT_E_RANGE ? WT_OK : status; /* a law that rises defines no outlier */
 }
 
 /* Sets the slopes of the law at the isotherms, which convert a temperature error to a shift

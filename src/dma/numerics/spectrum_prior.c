@@ -112,7 +112,8 @@ wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temp
     prior->held = kind == WT_VERTICAL_NONE || kind == WT_VERTICAL_PHYSICAL;
     prior->mean = v->mean;
     for (size_t i = 0; i < n; i++) {
-        v->mean[i] = kind == WT_VERTICAL_NONE ? 0.0 : vertical_physical(v, temperature[i]);
+        if (kind != WT_VERTICAL_FREE || i == s->level_curve) /* others start from the former mean */
+            v->mean[i] = kind == WT_VERTICAL_NONE ? 0.0 : vertical_physical(v, temperature[i]);
         prior->precision[i] = kind == WT_VERTICAL_TIED || i == s->level_curve ? clamped : 0.0;
     }
     if (kind == WT_VERTICAL_FREE && geometry > 0.0)
