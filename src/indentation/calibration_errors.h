@@ -42,6 +42,7 @@ typedef struct calibration_errors {
     size_t n, n_offered, stride;
 } calibration_errors;
 
+const char *calibration_source_text(wt_systematic_source source);
 void calibration_errors_begin(const wt_indent_job *job, calibration_errors *to);
 /* Stores a copy of every n-th accepted curve. `contact` is the table of its tip and must outlive
  * the errors. `has_file_tip` states that this tip differs from the tip of the job. */
