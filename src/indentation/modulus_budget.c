@@ -186,7 +186,7 @@ static void describe_budget(const char *group, const budget *b, char *text, size
 static void add_budget_group(table_writer *t, const char *name, const wt_group_data *d)
 {
     budget b;
-    char text[640];
+    char text[1024];
     if (t->status == WT_OK)
         t->status = compute_budget(d, &b, t->err);
     if (t->status != WT_OK)
