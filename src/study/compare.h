@@ -56,6 +56,7 @@ typedef struct comparison_inputs {
     bool lacks_temperature_effect;    /* the temperatures differ, with an unknown effect */
     bool lacks_loss_effect;           /* the curves have a hysteresis loss with an unknown effect on
                                       the modulus */
+    bool lacks_second_range;          /* no curve of a group was fitted in a second range */
     bool rates_by_dma; /* the DMA corrects for different rates, as the curves cannot */
     char unreachable_temperature[160]; /* requested temperature that no shift law reaches */
     double temperature[2];             /* [K]; NaN if unknown */

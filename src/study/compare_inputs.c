@@ -169,6 +169,7 @@ static void add_curve_errors(const compare_pair *p, comparison_inputs *k)
                      k->has_two_cantilevers ? hypot(range[0], range[1]) : fabs(range[1] - range[0]);
     k->loss_and_curvature_error = hypot(hypot(of_loss, of_bend), of_range);
     k->lacks_loss_effect = isnan(of_loss);
+    k->lacks_second_range = isnan(of_range);
     add_offset_error(k, of_loss, "loss of unknown spectrum");
     add_offset_error(k, of_bend, "bend of the baselines");
     add_offset_error(k, of_range, "range of the fit");
