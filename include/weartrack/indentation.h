@@ -492,6 +492,9 @@ typedef enum wt_systematic_source {
     WT_SYSTEMATIC_SENSITIVITY,
     WT_SYSTEMATIC_HALF_ANGLE,
     WT_SYSTEMATIC_RADIUS,
+    WT_SYSTEMATIC_PIEZO,     /* bend of the height over the approach, of its travel */
+    WT_SYSTEMATIC_DETECTOR,  /* lack of the largest force by a detector that flattens, of it */
+    WT_SYSTEMATIC_THICKNESS, /* depth or contact radius, the larger, over the thickness */
     WT_SYSTEMATIC_SOURCES
 } wt_systematic_source;
 
@@ -515,6 +518,10 @@ typedef struct wt_indent_job {
     wt_estimate spring_constant, sensitivity;
     /* Relative standard errors if the values state none; 0 (default) = none. */
     double lever_error, sensitivity_error;
+    /* Standard errors of the linearity of piezo and detector, as WT_SYSTEMATIC_PIEZO and
+     * WT_SYSTEMATIC_DETECTOR; 0 (default): not stated. */
+    double piezo_error, detector_error;
+    bool thick_sample; /* no base has an effect; false (default): unknown without a thickness */
     bool rates;        /* decodes times for the piezo and indentation rates */
     bool median_curve; /* stores the representative curve for the figures */
     /* Curves to store: "median" (which sets median_curve), "rejected", "worst:N", "all", "FILE:N".

@@ -1,7 +1,7 @@
-/* Error budget of a group, and propagation of shared calibration errors to its moduli. A few curves
- * are fitted again with spring constant, sensitivity, half-angle or radius shifted down and up by
- * one standard error. The method assumes no exponent of a contact law. A source without a stated
- * error has an assumed one, because no residual and no scatter shows it.
+/* Propagation of errors that all curves share to their moduli. A few curves are fitted again with a
+ * source shifted down and up by one standard error. The method assumes no exponent of a contact
+ * law. A source without a stated error has an assumed one, because no residual and no scatter shows
+ * it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/calibration_errors.h"
 #include "core/base/number.h"
@@ -17,260 +17,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *calibration_source_text(wt_systematic_source source)
+const char *calibration_source_text(wt_systematic_source source)
 {
     static const char *const words[WT_SYSTEMATIC_SOURCES] = {
         [WT_SYSTEMATIC_SPRING_CONSTANT] = "spring constant",
         [WT_SYSTEMATIC_SENSITIVITY] = "deflection sensitivity",
         [WT_SYSTEMATIC_HALF_ANGLE] = "half-angle of the tip",
-        [WT_SYSTEMATIC_RADIUS] = "radius of the tip"};
+        [WT_SYSTEMATIC_RADIUS] = "radius of the tip",
+        [WT_SYSTEMATIC_PIEZO] = "bend of the piezo",
+        [WT_SYSTEMATIC_DETECTOR] = "nonlinearity of the detector",
+        [WT_SYSTEMATIC_THICKNESS] = "thickness of the sample"};
     return words[source];
 }
-
-/* ---- error budget of a group ----------------------------------------------------------------- */
-
-/* Order: systematic errors from the calibration, systematic errors from the curves, scatter. */
-enum { TIP = WT_SYSTEMATIC_SOURCES, LOSS, BEND, RANGE, SCATTER, PARTS };
-
-typedef struct part {
-    const char *words;
-    double source_error, error; /* relative errors of source and modulus; NaN if not known */
-    wt_estimate gain;
-    bool applies, is_assumed;
-} part;
-
-TABLE_ROW(modulus_budget, MODULUS_BUDGET, const char *group; error_kind kind; double share;
-          part part;)
-
-TABLE_KEYS(modulus_budget, MODULUS_BUDGET, wt_estimate modulus; double df, low, high;
-           const char *says;)
-
-typedef struct budget {
-    part part[PARTS];
-    wt_group_summary group;
-    t_error scatter, all; /* errors of ln E; NaN with one spot */
-    double curves, spots; /* standard deviations of ln E */
-} budget;
-
-static double log_standard_deviation(const wt_group *group)
-{
-    double mean = 0, squares = 0;
-    for (size_t i = 0; i < group->n; i++) {
-        const double y = log(group->modulus[i]), step = y - mean;
-        mean += step / (double)(i + 1);
-        squares += step * (y - mean);
-    }
-    return group->n > 1 ? sqrt(squares / (double)(group->n - 1)) : (double)NAN;
-}
-
-/* Part of a source of calibration with its stated error, or else the assumed one. An assumed error
- * of unknown effect does not apply. */
-static part source_part(const wt_group_data *d, wt_systematic_source source)
-{
-    const wt_estimate gain = d->common_gain[source];
-    const bool is_assumed =
-        !(d->common_error[source] > 0) && d->assumed_error[source] > 0 && !isnan(gain.value);
-    const double error = is_assumed ? d->assumed_error[source] : d->common_error[source];
-    return (part){.words = calibration_source_text(source),
-                  .source_error = error,
-                  .error = fabs(gain.value) * error,
-                  .gain = gain,
-                  .applies = error > 0 || !isnan(gain.value),
-                  .is_assumed = is_assumed};
-}
-
-/* Part that is a relative error of the modulus itself. An error of 0 does not apply; NaN is
- * unknown. */
-static part shown_part(const char *words, double error)
-{
-    return (part){words, error, error, {1, 0, 0, "1"}, error != 0, false};
-}
-
-static wt_status compute_budget(const wt_group_data *d, budget *b, wt_error *err)
-{
-    *b = (budget){.curves = log_standard_deviation(&d->group)};
-    const wt_status status = wt_group_summarise(&d->group, &b->group, err);
-    if (status != WT_OK)
-        return status;
-    double variance = 0;
-    for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++)
-        b->part[i] = source_part(d, (wt_systematic_source)i);
-    b->part[TIP] = shown_part("shape of the tip", isnan(d->tip_error) ? 0 : d->tip_error);
-    b->part[LOSS] = shown_part("loss of unknown spectrum", d->loss_error);
-    b->part[BEND] = shown_part("bend of the baselines", fabs(d->bend_error));
-    b->part[RANGE] = shown_part("range of the fit", d->range_error);
-    /* an error of unknown effect makes the total unknown, but not a misfit that is not tested */
-    for (int i = 0; i < SCATTER; i++)
-        if (b->part[i].applies &&
-            (b->part[i].source_error > 0 || (i >= WT_SYSTEMATIC_SOURCES && i != RANGE)))
-            variance += b->part[i].error * b->part[i].error;
-    b->scatter = (t_error){b->group.log_standard_error, b->group.df};
-    b->all = (t_error){(double)NAN, (double)NAN};
-    if (!isnan(b->scatter.error)) {
-        if (!isnan(variance))
-            b->all = t_error_add_normal(b->scatter, variance);
-        b->spots = b->scatter.error * sqrt((double)b->group.n_spots);
-    } else {
-        b->spots = (double)NAN;
-    }
-    b->part[SCATTER] = (part){"scatter of the spots",
-                              (double)NAN,
-                              b->scatter.error,
-                              {(double)NAN, (double)NAN, 0, "1"},
-                              true,
-                              false};
-    return WT_OK;
-}
-
-static double variance_share(const budget *b, double error)
-{
-    return error / b->all.error * (error / b->all.error);
-}
-
-static void add_budget_rows(table_writer *t, const char *group, const budget *b)
-{
-    const wt_estimate none = {(double)NAN, (double)NAN, 0, NULL};
-    const part all = {"all together", (double)NAN, b->all.error, none, true, false},
-               spot = {"one spot", (double)NAN, b->spots, none, true, false},
-               curve = {"one curve", (double)NAN, b->curves, none, true, false};
-    for (int i = 0; i < PARTS; i++)
-        if (b->part[i].applies)
-            TABLE_ADD(modulus_budget, t, group, i == SCATTER ? ERROR_SCATTER : ERROR_SHARED,
-                      variance_share(b, b->part[i].error), b->part[i]);
-    TABLE_ADD(modulus_budget, t, group, ERROR_TOGETHER, variance_share(b, b->all.error), all);
-    TABLE_ADD(modulus_budget, t, group, ERROR_BESIDE, (double)NAN, spot);
-    TABLE_ADD(modulus_budget, t, group, ERROR_BESIDE, (double)NAN, curve);
-}
-
-/* ---- text ------------------------------------------------------------------------------------ */
-
-static void append_contributions(const budget *b, char *text, size_t size)
-{
-    bool is_listed[PARTS] = {false};
-    const char *before = ", of its square ";
-    for (int n = 0; n < PARTS; n++) { /* in descending order */
-        int largest = -1;
-        for (int i = 0; i < PARTS; i++)
-            if (!is_listed[i] && b->part[i].applies && b->part[i].error > 0 &&
-                (largest < 0 || b->part[i].error > b->part[largest].error))
-                largest = i;
-        if (largest < 0)
-            break;
-        is_listed[largest] = true;
-        clocale_append(text, size, "%s%s by the %s%s", before,
-                       format_percent(variance_share(b, b->part[largest].error)).text,
-                       b->part[largest].words, b->part[largest].is_assumed ? " (assumed)" : "");
-        before = ", ";
-    }
-}
-
-static void describe_budget(const char *group, const budget *b, char *text, size_t size)
-{
-    char value[32], low[32], high[32];
-    const double half_width = students_t_quantile(b->all.df) * b->all.error;
-    wt_format_si(b->group.geometric_mean, "Pa", 4, value, sizeof value);
-    wt_format_si(b->group.geometric_mean * exp(-half_width), "Pa", 4, low, sizeof low);
-    wt_format_si(b->group.geometric_mean * exp(half_width), "Pa", 4, high, sizeof high);
-    text[0] = '\0';
-    if (isnan(b->all.error)) {
-        clocale_append(text, size, "modulus of the %s %s; its standard error is not known, for %s",
-                       group, value,
-                       isnan(b->scatter.error) ? "one spot does not determine the scatter of "
-                                                 "the sample"
-                       : isnan(b->part[LOSS].error)
-                           ? "nothing says what the loss of its curves does"
-                           : "no curve could be fitted anew with what is stated");
-        const char *before = "; what its curves share makes ";
-        for (int i = 0; i < SCATTER; i++)
-            if (b->part[i].applies && b->part[i].error > 0) {
-                clocale_append(text, size, "%s%s (%s)", before,
-                               format_percent(b->part[i].error).text, b->part[i].words);
-                before = ", ";
-            }
-    } else {
-        clocale_append(text, size,
-                       "modulus of the %s %s, 95 %% interval %s to %s, standard error %s", group,
-                       value, low, high, format_percent(b->all.error).text);
-        append_contributions(b, text, size);
-    }
-    const char *before = "; no error is stated of: ";
-    for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++)
-        if (b->part[i].applies && !(b->part[i].source_error > 0)) {
-            clocale_append(text, size, "%s%s", before, b->part[i].words);
-            before = ", ";
-        }
-    if (isnan(b->part[RANGE].error))
-        clocale_append(text, size, "; not included, because no curve tests it: range of the fit");
-}
-
-static void add_budget_group(table_writer *t, const char *name, const wt_group_data *d)
-{
-    budget b;
-    char text[640];
-    if (t->status == WT_OK)
-        t->status = compute_budget(d, &b, t->err);
-    if (t->status != WT_OK)
-        return;
-    table_block(t);
-    add_budget_rows(t, name, &b);
-    const double e = b.group.geometric_mean,
-                 half_width = students_t_quantile(b.all.df) * b.all.error;
-    const bool bounded = !isnan(b.all.error) && isfinite(b.all.df);
-    describe_budget(name, &b, text, sizeof text);
-    TABLE_SET(modulus_budget, t, {e, e * b.all.error, 0, NULL}, bounded ? b.all.df : (double)NAN,
-              e * exp(-half_width), e * exp(half_width), text);
-}
-
-/* True if the curves share an error. Without one the table would repeat the scatter. */
-static bool has_shared_error(const wt_group_data *d)
-{
-    bool any = d->tip_error > 0 || d->loss_error != 0 || d->bend_error != 0 || d->range_error != 0;
-    for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++)
-        any = any || d->common_error[i] > 0 || d->assumed_error[i] > 0;
-    return any && d->group.n > 0;
-}
-
-wt_status modulus_budget_interval(const wt_group_data *d, wt_group_summary *summary, wt_error *err)
-{
-    budget b;
-    const wt_status status = compute_budget(d, &b, err);
-    if (status != WT_OK)
-        return status;
-    const double half_width = students_t_quantile(b.all.df) * b.all.error;
-    *summary = b.group;
-    summary->low = b.group.geometric_mean * exp(-half_width);
-    summary->high = b.group.geometric_mean * exp(half_width);
-    return WT_OK;
-}
-
-wt_status modulus_budget_create(const wt_group_data *groups, const char *const *names, size_t n,
-                                wt_table **table, wt_error *err)
-{
-    *table = NULL;
-    wt_table *result = NULL;
-    wt_status status = WT_OK;
-    for (size_t i = 0; status == WT_OK && i < n; i++) {
-        table_writer t = {0};
-        if (!has_shared_error(&groups[i]))
-            continue;
-        if (result == NULL) {
-            t = table_begin(&modulus_budget_schema, err);
-            status = table_end(&t, &result);
-            if (status != WT_OK)
-                break;
-        }
-        t = table_continue(result, &modulus_budget_schema, names[i], err);
-        add_budget_group(&t, names[i], &groups[i]);
-        status = table_end(&t, NULL);
-    }
-    if (status == WT_OK)
-        *table = result;
-    else
-        wt_table_free(result);
-    return status;
-}
-
-/* ---- effects of the calibration -------------------------------------------------------------- */
 
 /* Relative shift of a source without a stated error, and upper limit of each shift. A curve may no
  * longer be accepted after a larger shift. */
@@ -284,6 +42,25 @@ static const double default_step = 0.01, max_step = 0.3;
  * not known any better. */
 static const double assumed_spring_constant = 0.1, assumed_sensitivity = 0.03,
                     assumed_half_angle = M_PI / 180, assumed_radius = 0.1;
+
+/* Bend of the height over the travel of the approach. A piezo without a sensor has a hysteresis of
+ * 10 to 15 % over its whole range, by Rayleigh's law a tenth of it over a tenth of the range, and
+ * half of the hysteresis is the bend of one direction. Data sheets state 0.1 % with a sensor. */
+static const double assumed_bend = 0.005, assumed_sensor_bend = 0.001;
+
+/* A Gaussian spot on a split detector gives the error function, which lacks pi/12 (U/Um)^2 at the
+ * signal U (Thormann et al., Rev. Sci. Instrum. 80 (2009) 093701, measure such a shape). This is
+ * taken as two standard errors. Um is the usual full range [V]; files without a sensitivity have a
+ * usual one [m/V]. Practice stays below half of the range. */
+static const double detector_range = 10, usual_sensitivity = 50e-9, largest_signal = 0.5;
+
+/* A sample counts as thick from ten depths and contact radii on (Bueckle's rule). This limit is
+ * taken as two standard errors. */
+static const double assumed_shallowness = 0.05;
+
+/* Shift of the linearity of piezo and detector. Their effect is linear, and a smaller shift is lost
+ * in the tolerance of a fit. */
+static const double linearity_step = 0.01;
 
 static double stated_relative_error(double value, double error)
 {
@@ -326,11 +103,16 @@ void calibration_errors_begin(const wt_indent_job *job, calibration_errors *to)
                       stated_relative_error(s.value, s.standard_error), job->sensitivity_error),
                   [WT_SYSTEMATIC_HALF_ANGLE] =
                       stated_relative_error(tip->half_angle, tip->half_angle_error),
-                  [WT_SYSTEMATIC_RADIUS] = stated_relative_error(tip->radius, tip->radius_error)},
+                  [WT_SYSTEMATIC_RADIUS] = stated_relative_error(tip->radius, tip->radius_error),
+                  [WT_SYSTEMATIC_PIEZO] = first_stated((double)NAN, job->piezo_error),
+                  [WT_SYSTEMATIC_DETECTOR] = first_stated((double)NAN, job->detector_error),
+                  [WT_SYSTEMATIC_THICKNESS] = (double)NAN},
         .assumed = {[WT_SYSTEMATIC_SPRING_CONSTANT] = assumed_spring_constant,
                     [WT_SYSTEMATIC_SENSITIVITY] = assumed_sensitivity,
                     [WT_SYSTEMATIC_HALF_ANGLE] = assumed_half_angle / tip->half_angle,
-                    [WT_SYSTEMATIC_RADIUS] = assumed_radius},
+                    [WT_SYSTEMATIC_RADIUS] = assumed_radius,
+                    [WT_SYSTEMATIC_PIEZO] = assumed_sensor_bend,
+                    [WT_SYSTEMATIC_THICKNESS] = assumed_shallowness},
         .active = true,
         .stride = 1};
     for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++) {
@@ -339,6 +121,10 @@ void calibration_errors_begin(const wt_indent_job *job, calibration_errors *to)
             to->assumed[i] = (double)NAN;
         to->step[i] = fmin(to->error[i] > 0 ? to->error[i] : default_step, max_step);
     }
+    to->step[WT_SYSTEMATIC_PIEZO] = to->step[WT_SYSTEMATIC_DETECTOR] = linearity_step;
+    to->step[WT_SYSTEMATIC_THICKNESS] = assumed_shallowness / 2; /* from thin to thick */
+    if (tip->sample_thickness > 0 || job->thick_sample)
+        to->step[WT_SYSTEMATIC_THICKNESS] = 0;
     if (!(tip->half_angle > 0))
         to->step[WT_SYSTEMATIC_HALF_ANGLE] = 0;
     if (!(tip->radius > 0))
@@ -400,6 +186,24 @@ static void halve_curves(calibration_errors *to)
     to->stride *= 2;
 }
 
+/* Assumes the largest error of the linearity among the stored curves, where none is stated. */
+static void assume_linearity(calibration_errors *to, const wt_force_curve *curve,
+                             const wt_indent_fit *fit)
+{
+    const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
+    double *const piezo = &to->assumed[WT_SYSTEMATIC_PIEZO],
+                  *const detector = &to->assumed[WT_SYSTEMATIC_DETECTOR];
+    const double stated = curve->cantilever.sensitivity,
+                 sensitivity = stated > 0 ? stated : usual_sensitivity,
+                 deflection = fit->max_force / curve->cantilever.spring_constant,
+                 signal = fmin(deflection / sensitivity / detector_range, largest_signal);
+    if (*piezo > 0 &&
+        (approach == NULL || wt_segment_channel(approach, WT_Q_MEASURED_HEIGHT) == NULL))
+        *piezo = assumed_bend;
+    if (!isnan(*detector) && deflection > 0)
+        *detector = fmax(*detector, M_PI / 24 * signal * signal);
+}
+
 void calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
                               const wt_indent_fit *fit, const wt_contact_table *contact,
                               bool has_file_tip)
@@ -412,9 +216,12 @@ void calibration_errors_store(calibration_errors *to, const wt_force_curve *curv
             return;
     }
     common_curve *stored = &to->curve[to->n++];
+    assume_linearity(to, curve, fit);
     to->deepest = fmax(to->deepest, fit->max_indentation);
     *stored = (common_curve){.spring_constant = curve->cantilever.spring_constant,
                              .sensitivity_gain = fit->sensitivity_gain,
+                             .baseline_offset = fit->baseline_offset.value,
+                             .max_force = fit->max_force,
                              .contact = contact,
                              .has_file_tip = has_file_tip,
                              .without_adhesion = isnan(fit->work_of_adhesion.value) &&
@@ -429,8 +236,10 @@ void calibration_errors_store(calibration_errors *to, const wt_force_curve *curv
  * deepest indentation. Others take longer, but have no error. */
 static const double least_depth = 1e-11, depth_reserve = 4;
 
-/* Creates the contact tables of the shifted tips, for the depths of the stored curves. */
-static wt_status create_shifted_tables(calibration_errors *to, const wt_tip *tip, wt_error *err)
+/* Creates the contact tables of the shifted tips and of the assumed thickness, for the depths of
+ * the stored curves. */
+static wt_status create_shifted_tables(calibration_errors *to, const wt_tip *tip,
+                                       const wt_indent_options *options, wt_error *err)
 {
     wt_status status = WT_OK;
     for (int i = WT_SYSTEMATIC_HALF_ANGLE; i <= WT_SYSTEMATIC_RADIUS; i++)
@@ -440,6 +249,14 @@ static wt_status create_shifted_tables(calibration_errors *to, const wt_tip *tip
             status = wt_contact_table_new(&shifted, least_depth, depth_reserve * to->deepest,
                                           &to->tip[i][side], err);
         }
+    double g, slope;
+    wt_tip thin = *tip;
+    wt_contact_function(tip, to->deepest, &g, &slope);
+    thin.sample_thickness = to->thickness = fmax(to->deepest, slope / 2) / assumed_shallowness;
+    thin.unbonded = thin.unbonded || !indent_is_incompressible(options);
+    if (status == WT_OK && to->step[WT_SYSTEMATIC_THICKNESS] > 0)
+        status = wt_contact_table_new(&thin, least_depth, depth_reserve * to->deepest,
+                                      &to->tip[WT_SYSTEMATIC_THICKNESS][0], err);
     return status;
 }
 
@@ -447,38 +264,55 @@ typedef struct refit {
     calibration_errors *to;
     const wt_indent_options *options;
     wt_indent_workspace *const *workspaces;
-    double *scratch; /* scaled forces, [capacity] for each thread */
+    double *scratch; /* shifted heights and forces, [2 capacity] for each thread */
     size_t capacity;
     wt_error *errors; /* one error for each item */
 } refit;
 
-static curve_branch scale_branch(const common_branch *b, double factor, double *scaled)
+/* Branch of a curve with a source shifted by a signed step; scratch: [2 n]. */
+static curve_branch shift_branch(const common_curve *curve, const common_branch *b,
+                                 wt_systematic_source source, double step, double *scratch)
 {
-    for (size_t i = 0; i < b->n; i++)
-        scaled[i] = factor * b->force[i];
-    return (curve_branch){b->height, scaled, b->time, b->n};
+    const common_branch *approach = &curve->branch[0];
+    const double first = approach->n > 0 ? approach->height[0] : 0,
+                 last = approach->n > 0 ? approach->height[approach->n - 1] : 0;
+    const bool scales =
+        source == WT_SYSTEMATIC_SPRING_CONSTANT || source == WT_SYSTEMATIC_SENSITIVITY;
+    const double factor = scales ? exp(step) : 1,
+                 bend = source == WT_SYSTEMATIC_PIEZO ? 4 * step / (last - first) : 0,
+                 lack = source == WT_SYSTEMATIC_DETECTOR
+                            ? step / (curve->max_force * curve->max_force)
+                            : 0;
+    double *height = scratch, *force = scratch + b->n;
+    for (size_t i = 0; i < b->n; i++) {
+        const double z = b->height[i], f = b->force[i] - curve->baseline_offset;
+        height[i] = z + bend * (z - first) * (last - z);
+        force[i] = factor * b->force[i] + lack * f * f * f;
+    }
+    return (curve_branch){height, force, b->time, b->n};
 }
 
-/* Computes the logarithm of the modulus of a curve with a shifted source. The source scales the
- * forces or changes the tip. A fit that no longer passes its tests counts as well. */
+/* Computes the logarithm of the modulus of a curve with a shifted source. The source changes
+ * heights, forces or the law. A fit that no longer passes its tests counts as well. Adhesion has no
+ * law on a thin sample, so a change of the thickness is without. */
 static wt_status fit_shifted_source(const refit *f, size_t item, int side, unsigned worker,
                                     double *log_modulus)
 {
     const calibration_errors *to = f->to;
     const wt_systematic_source source = (wt_systematic_source)(item % WT_SYSTEMATIC_SOURCES);
     const common_curve *curve = &to->curve[item / WT_SYSTEMATIC_SOURCES];
-    const double factor = exp((2 * side - 1) * to->step[source]);
+    const double step = (2 * side - 1) * to->step[source];
     double *scratch = f->scratch + worker * f->capacity;
-    const bool is_spring_constant = source == WT_SYSTEMATIC_SPRING_CONSTANT,
-               scales_force = is_spring_constant || source == WT_SYSTEMATIC_SENSITIVITY;
-    const curve_branch scaled[2] = {
-        scale_branch(&curve->branch[0], scales_force ? factor : 1, scratch),
-        scale_branch(&curve->branch[1], scales_force ? factor : 1, scratch + curve->branch[0].n)};
+    const curve_branch shifted[2] = {
+        shift_branch(curve, &curve->branch[0], source, step, scratch),
+        shift_branch(curve, &curve->branch[1], source, step, scratch + 2 * curve->branch[0].n)};
+    const wt_contact_table *law = to->tip[source][side];
     wt_indent_workspace *workspace = f->workspaces[worker];
     wt_indent_fit fit;
     const wt_status status = curve_fit_branches(
-        scales_force ? curve->contact : to->tip[source][side], f->options, &scaled[0], &scaled[1],
-        curve->without_adhesion, curve->spring_constant * (is_spring_constant ? factor : 1),
+        law != NULL ? law : curve->contact, f->options, &shifted[0], &shifted[1],
+        curve->without_adhesion || source == WT_SYSTEMATIC_THICKNESS,
+        curve->spring_constant * (source == WT_SYSTEMATIC_SPRING_CONSTANT ? exp(step) : 1),
         workspace, &fit, &f->errors[item]);
     if (status == WT_OK)
         *log_modulus = fit.modulus.value > 0 ? log(fit.modulus.value) : (double)NAN;
@@ -502,11 +336,18 @@ static wt_status measure_source_gain(void *user, size_t item, unsigned worker)
     calibration_errors *to = f->to;
     const size_t at = item / WT_SYSTEMATIC_SOURCES;
     const wt_systematic_source source = (wt_systematic_source)(item % WT_SYSTEMATIC_SOURCES);
-    const bool is_tip_source = source == WT_SYSTEMATIC_HALF_ANGLE || source == WT_SYSTEMATIC_RADIUS;
-    const double step = is_tip_source && to->curve[at].has_file_tip ? 0 : to->step[source];
+    const bool is_of_cantilever =
+        source == WT_SYSTEMATIC_SPRING_CONSTANT || source == WT_SYSTEMATIC_SENSITIVITY;
+    const bool is_of_tip = to->tip[source][0] != NULL;
+    const bool has_error = to->error[source] > 0 || to->assumed[source] > 0;
+    /* one curve is enough for a usual linearity or thickness, whose effect need not be known well
+     */
+    const bool is_left_out = (is_of_tip && to->curve[at].has_file_tip) ||
+                             (source >= WT_SYSTEMATIC_PIEZO && !to->stated && at > 0);
+    const double step = has_error && !is_left_out ? to->step[source] : 0;
     double log_modulus[2] = {0, 0};
     to->gain[at][source] = (double)NAN;
-    if (!to->stated && !is_tip_source) {
+    if (!to->stated && is_of_cantilever) {
         set_assumed_gain(&to->curve[at], source, &to->gain[at][source]);
         return WT_OK;
     }
@@ -526,12 +367,12 @@ wt_status calibration_errors_fit(calibration_errors *to, const wt_tip *tip,
 {
     const size_t n = to->n * WT_SYSTEMATIC_SOURCES;
     refit f = {.to = to, .options = options, .workspaces = workspaces};
-    wt_status status = n > 0 ? create_shifted_tables(to, tip, err) : WT_OK;
+    wt_status status = n > 0 ? create_shifted_tables(to, tip, options, err) : WT_OK;
     if (n == 0 || status != WT_OK)
         return status;
     for (size_t i = 0; i < to->n; i++)
-        if (f.capacity < to->curve[i].branch[0].n + to->curve[i].branch[1].n)
-            f.capacity = to->curve[i].branch[0].n + to->curve[i].branch[1].n;
+        if (f.capacity < 2 * (to->curve[i].branch[0].n + to->curve[i].branch[1].n))
+            f.capacity = 2 * (to->curve[i].branch[0].n + to->curve[i].branch[1].n);
     f.scratch = wt_alloc(threads * f.capacity, sizeof *f.scratch);
     f.errors = wt_alloc(n, sizeof *f.errors);
     status = wt_parallel_for(n, threads, measure_source_gain, &f, NULL, "fitting curves anew");
@@ -568,14 +409,20 @@ static void append_assumed_error(const calibration_errors *of, wt_systematic_sou
                                  double gain, char *text, size_t size)
 {
     const double error = of->assumed[source];
-    clocale_append(text, size, "%s%s of the %s (%s of E)", *text != '\0' ? ", " : "",
-                   format_percent(error).text, calibration_source_text(source),
-                   format_percent(fabs(gain) * error).text);
+    char thickness[32];
+    wt_format_si(of->thickness, "m", 2, thickness, sizeof thickness);
+    clocale_append(text, size, "%s", *text != '\0' ? ", " : "");
+    if (source == WT_SYSTEMATIC_THICKNESS)
+        clocale_append(text, size, "a %s of %s", calibration_source_text(source), thickness);
+    else
+        clocale_append(text, size, "%s %s the %s", format_percent(error).text,
+                       source < WT_SYSTEMATIC_PIEZO ? "of" : "by", calibration_source_text(source));
+    clocale_append(text, size, " (%s of E)", format_percent(fabs(gain) * error).text);
 }
 
 void calibration_errors_set_keys(const calibration_errors *of, table_writer *rows)
 {
-    char text[400] = "";
+    char text[640] = "";
     for (int i = 0; i < WT_SYSTEMATIC_SOURCES && of->active; i++) {
         const wt_estimate gain = mean_gain(of, (wt_systematic_source)i);
         if (of->error[i] > 0)

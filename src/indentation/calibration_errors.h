@@ -1,5 +1,6 @@
 /* Systematic errors that all curves of a group share and that their scatter does not show: spring
- * constant, deflection sensitivity, half-angle and radius of the tip. Internal to indentation.
+ * constant, deflection sensitivity, half-angle and radius of the tip, linearity of piezo and
+ * detector, thickness of the sample. Internal to indentation.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_INDENTATION_CALIBRATION_ERRORS_H
 #define WT_INDENTATION_CALIBRATION_ERRORS_H
@@ -22,7 +23,8 @@ typedef struct common_branch {
 typedef struct common_curve {
     common_branch branch[2]; /* approach, retract */
     double spring_constant, sensitivity_gain;
-    const wt_contact_table *contact; /* table of the tip of the fit; borrowed */
+    double baseline_offset, max_force; /* [N] */
+    const wt_contact_table *contact;   /* table of the tip of the fit; borrowed */
     bool has_file_tip;     /* the tip belongs to the file, so the shifted tips do not apply */
     bool without_adhesion; /* the law of its fit, which a shifted source keeps */
 } common_curve;
@@ -38,10 +40,12 @@ typedef struct calibration_errors {
     wt_contact_table *tip[WT_SYSTEMATIC_SOURCES][2]; /* tables of the tips shifted down and up */
     common_curve curve[COMMON_CURVES];
     double gain[COMMON_CURVES][WT_SYSTEMATIC_SOURCES];
-    double deepest; /* largest indentation of the stored curves [m] */
+    double deepest;   /* largest indentation of the stored curves [m] */
+    double thickness; /* assumed thickness of the sample [m] */
     size_t n, n_offered, stride;
 } calibration_errors;
 
+const char *calibration_source_text(wt_systematic_source source);
 void calibration_errors_begin(const wt_indent_job *job, calibration_errors *to);
 /* Stores a copy of every n-th accepted curve. `contact` is the table of its tip and must outlive
  * the errors. `has_file_tip` states that this tip differs from the tip of the job. */

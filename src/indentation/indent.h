@@ -42,8 +42,6 @@ double indent_summary_range_error(const indent_summary *summary);
 /* Mean relative change of the modulus with one range of the fit, and its error by noise; NaN if no
  * curve has enough samples in the range. */
 wt_estimate indent_summary_range_shift(const indent_summary *summary, int range);
-/* Writes the systematic errors that curves of this depth cannot show, and how to detect them. */
-void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size);
 /* Reports the shifts that all moduli share and tests the mean residual. */
 void indent_summary_report(const indent_summary *summary, const wt_indent_job *job,
                            const wt_job *work, table_writer *rows);
@@ -75,6 +73,8 @@ wt_status indent_check_tip(const void *tip, wt_error *err);
  * several tips, or without a valid tip. */
 void indent_set_tip_keys(const wt_tip *tip, table_writer *rows);
 bool indent_tip_from_table(const table_view *indentation, wt_tip *tip);
+/* True if the law of a thin sample that is bonded to its base holds. */
+bool indent_is_incompressible(const wt_indent_options *options);
 /* Checks the parameters and their combinations. */
 wt_status indent_job_check(const wt_indent_job *job, wt_error *err);
 /* Describes the limits of the fit. Returns false if there are none. */

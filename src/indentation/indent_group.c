@@ -1,11 +1,10 @@
-/* Combined results of the curves of a group: modulus against depth, errors that no residual shows,
- * shared shifts and mean residual.
+/* Combined results of the curves of a group: modulus against depth, shared shifts and mean
+ * residual.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/number.h"
 #include "core/base/text.h"
-#include "core/math/root.h"
 #include "core/math/students_t.h"
 #include "core/table/table_rows.h"
 #include "indentation/curve_tables.h"
@@ -213,66 +212,6 @@ wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group,
     return table_end(&t, NULL);
 }
 
-/* ---- errors that no residual shows ----------------------------------------------------------- */
-
-/* Text on systematic errors that leave no residual and that no interval holds: a base below the
- * sample and a piezo that bends. The text states the effect and how to detect it. */
-
-/* Smallest relative effect of a base that is reported; most stated errors exceed a smaller one. */
-static const double min_base_effect = 0.05;
-
-/* Range of the thickness over the depth. A sample of a thousand depths is thick for any tip. */
-static const double min_thickness_ratio = 0.1, max_thickness_ratio = 1e3;
-
-typedef struct base_search {
-    wt_tip tip;
-    double depth;
-} base_search;
-
-/* Returns a value that rises with the logarithm of the thickness and is 0 at the limit. */
-static double base_effect_margin(double log_thickness, void *user)
-{
-    base_search *s = user;
-    const contact_point_values thick = contact_values(&s->tip, s->depth);
-    wt_tip thin = s->tip;
-    thin.sample_thickness = exp(log_thickness);
-    return min_base_effect - (thin_sample_values(&thin, thick).g / thick.g - 1);
-}
-
-/* Thickness at which a rigid base increases the modulus by min_base_effect; NaN if not known. */
-static double required_thickness(const wt_tip *tip, double depth)
-{
-    base_search search = {*tip, depth};
-    double found = (double)NAN;
-    const double low = log(min_thickness_ratio * depth), high = log(max_thickness_ratio * depth);
-    search.tip.sample_thickness = 0;
-    if (!(depth > 0) || !(base_effect_margin(low, &search) < 0) ||
-        !(base_effect_margin(high, &search) > 0) ||
-        root_find(base_effect_margin, &search, low, high, 1e-3, &found, NULL) != WT_OK)
-        return (double)NAN;
-    return exp(found);
-}
-
-void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size)
-{
-    const wt_tip *tip = &job->tip;
-    *text = '\0';
-    if (!(depth > 0))
-        return;
-    const double thin = tip->sample_thickness > 0 ? (double)NAN : required_thickness(tip, depth);
-    if (thin > 0) {
-        char thickness_text[32];
-        wt_format_si(thin, "m", 2, thickness_text, sizeof thickness_text);
-        clocale_append(
-            text, size,
-            "a sample on something hard (thinner than %s: a modulus more than %g %% too large; "
-            "--sample-thickness), ",
-            thickness_text, 100 * min_base_effect);
-    }
-    clocale_append(text, size,
-                   "a piezo that bends in contact only (calibrate it, or press on something hard)");
-}
-
 /* ---- the group ------------------------------------------------------------------------------- */
 
 static void add_shift(indent_shift_sum *all, double shift)
@@ -438,15 +377,11 @@ static void warn_implausible_radius(const indent_summary *summary, const wt_inde
 void indent_summary_report(const indent_summary *summary, const wt_indent_job *job,
                            const wt_job *work, table_writer *rows)
 {
-    char hidden_errors[512];
     warn_implausible_radius(summary, job, work);
     const double range_error = indent_summary_range_error(summary);
-    indent_systematic_errors(job, summary->max_depth, hidden_errors, sizeof hidden_errors);
-    if (isnan(range_error) && *hidden_errors != '\0')
-        clocale_append(hidden_errors, sizeof hidden_errors,
-                       ", a wrong contact law (no curve was fitted in a second range)");
-    if (*hidden_errors != '\0')
-        indentation_set_text(rows, INDENTATION_KEY_NOT_SHOWN, hidden_errors);
+    if (isnan(range_error) && summary->n > 0)
+        indentation_set_text(rows, INDENTATION_KEY_NOT_SHOWN,
+                             "a wrong contact law (no curve was fitted in a second range)");
     report_common_shifts(summary, job, work, rows);
     indentation_set_value(rows, INDENTATION_KEY_RANGE_ERROR, range_error, 0, 0);
     report_choices(summary, rows);

@@ -88,6 +88,8 @@ static const wt_param rows[] = {
      .value = "H", .help = SUCH_AS("of a thin sample on a rigid base, ", "2um", "; 0 is thick")},
     {PARAM_FLAG_OF("unbonded", wt_indent_job, tip.unbonded),
      .help = "the thin sample slides on its base"},
+    {PARAM_FLAG_OF("thick-sample", wt_indent_job, thick_sample),
+     .help = "the sample is so thick (100 contact radii) that no base has an effect"},
     {PARAM_TEXT_OF("group", wt_indent_job, group), .check = check_group_name, .value = "NAME",
      .flags = PARAM_NO_CASE, .help = "what these curves are: bulk, track or another name"},
     {PARAM("indentation-temperature", wt_indent_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
@@ -102,6 +104,16 @@ static const wt_param rows[] = {
      .value = "X", .flags = PARAM_NO_CASE,
      .help = SUCH_AS("relative standard error of a deflection sensitivity that states none, ",
                      "0.05", "")},
+    {PARAM("piezo-nonlinearity", wt_indent_job, piezo_error, WT_Q_NONE, FROM_BELOW(0, 1)),
+     .value = "X",
+     .help = SUCH_AS("standard error of the height by a bend of the piezo over the approach, of "
+                     "its travel, ",
+                     "0.001", "")},
+    {PARAM("detector-nonlinearity", wt_indent_job, detector_error, WT_Q_NONE, FROM_BELOW(0, 1)),
+     .value = "X",
+     .help = SUCH_AS("standard error of the largest force by a detector that is not linear, of "
+                     "the force, ",
+                     "0.002", "")},
     {PARAM_TEXTS_OF("curves", wt_indent_job, curves, n_curves), .check = check_curve_selection,
      .value = "WHICH", .unset = "",
      .help = "curves to look at, as the table curves: rejected, worst:N (of the largest relative "
@@ -117,10 +129,15 @@ PARAM_TABLE(wt_indent_job_params, wt_indent_job, rows, wt_indent_job_defaults,
 
 /* ---- combinations of parameters -------------------------------------------------------------- */
 
+bool indent_is_incompressible(const wt_indent_options *options)
+{
+    return options->poisson_ratio >= least_bonded_poisson;
+}
+
 static wt_status check_sample(const wt_indent_job *job, wt_error *err)
 {
     if (!(job->tip.sample_thickness > 0.0) || job->tip.unbonded ||
-        job->options.poisson_ratio >= least_bonded_poisson)
+        indent_is_incompressible(&job->options))
         return WT_OK;
     const wt_status status =
         wt_fail(err, WT_E_RANGE, "a thin sample bonded to its base is known for rubber only");

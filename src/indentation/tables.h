@@ -150,14 +150,23 @@
     X(INDENTATION_KEY_SENSITIVITY_ERROR, "sensitivity_error", NUMBER, OPTIONAL)                    \
     X(INDENTATION_KEY_HALF_ANGLE_ERROR, "half_angle_error", NUMBER, OPTIONAL)                      \
     X(INDENTATION_KEY_RADIUS_ERROR, "radius_error", NUMBER, OPTIONAL)                              \
+    X(INDENTATION_KEY_PIEZO_ERROR, "piezo_error", NUMBER, OPTIONAL)                                \
+    X(INDENTATION_KEY_DETECTOR_ERROR, "detector_error", NUMBER, OPTIONAL)                          \
+    X(INDENTATION_KEY_THICKNESS_ERROR, "sample_thickness_error", NUMBER, OPTIONAL)                 \
     X(INDENTATION_KEY_LEVER_ERROR_ASSUMED, "spring_constant_error_assumed", NUMBER, OPTIONAL)      \
     X(INDENTATION_KEY_SENSITIVITY_ERROR_ASSUMED, "sensitivity_error_assumed", NUMBER, OPTIONAL)    \
     X(INDENTATION_KEY_HALF_ANGLE_ERROR_ASSUMED, "half_angle_error_assumed", NUMBER, OPTIONAL)      \
     X(INDENTATION_KEY_RADIUS_ERROR_ASSUMED, "radius_error_assumed", NUMBER, OPTIONAL)              \
+    X(INDENTATION_KEY_PIEZO_ERROR_ASSUMED, "piezo_error_assumed", NUMBER, OPTIONAL)                \
+    X(INDENTATION_KEY_DETECTOR_ERROR_ASSUMED, "detector_error_assumed", NUMBER, OPTIONAL)          \
+    X(INDENTATION_KEY_THICKNESS_ERROR_ASSUMED, "sample_thickness_error_assumed", NUMBER, OPTIONAL) \
     X(INDENTATION_KEY_LEVER_GAIN, "spring_constant_gain", NUMBER, OPTIONAL)                        \
     X(INDENTATION_KEY_SENSITIVITY_GAIN, "sensitivity_gain", NUMBER, OPTIONAL)                      \
     X(INDENTATION_KEY_HALF_ANGLE_GAIN, "half_angle_gain", NUMBER, OPTIONAL)                        \
     X(INDENTATION_KEY_RADIUS_GAIN, "radius_gain", NUMBER, OPTIONAL)                                \
+    X(INDENTATION_KEY_PIEZO_GAIN, "piezo_gain", NUMBER, OPTIONAL)                                  \
+    X(INDENTATION_KEY_DETECTOR_GAIN, "detector_gain", NUMBER, OPTIONAL)                            \
+    X(INDENTATION_KEY_THICKNESS_GAIN, "sample_thickness_gain", NUMBER, OPTIONAL)                   \
     X(INDENTATION_KEY_LOSS_ERROR, "loss_error", NUMBER, OPTIONAL)                                  \
     X(INDENTATION_KEY_BEND_ERROR, "bend_error", NUMBER, OPTIONAL)                                  \
     X(INDENTATION_KEY_RANGE_ERROR, "range_error", NUMBER, OPTIONAL)                                \

@@ -9,6 +9,8 @@
 #include "core/table/result_value.h"
 #include "weartrack/study.h"
 
+#include <math.h>
+
 extern const char *const compare_group_name[2];
 
 /* Values in place of the index of a bin: an unknown rate (of a curve), and all bins (of a
@@ -54,17 +56,30 @@ typedef struct comparison_inputs {
     bool lacks_temperature_effect;    /* the temperatures differ, with an unknown effect */
     bool lacks_loss_effect;           /* the curves have a hysteresis loss with an unknown effect on
                                       the modulus */
+    bool lacks_second_range;          /* no curve of a group was fitted in a second range */
     bool rates_by_dma; /* the DMA corrects for different rates, as the curves cannot */
     char unreachable_temperature[160]; /* requested temperature that no shift law reaches */
     double temperature[2];             /* [K]; NaN if unknown */
-    char includes[256];                /* errors in the interval besides the scatter */
+    char includes[400];                /* errors in the interval besides the scatter */
     char lacks[160];                   /* errors of unknown size that are missing */
-    char cancels[128];                 /* errors that cancel except for different gains */
+    char cancels[256];                 /* errors that cancel except for different gains */
 } comparison_inputs;
 
 wt_status comparison_find_inputs(const compare_pair *p, const wt_compare_job *job,
                                  const wt_job *work, bool rates_by_dma, comparison_inputs *inputs,
                                  wt_error *err) WT_NODISCARD;
+
+/* Mean of the finite values; NaN without one. */
+static inline double compare_mean(const double *values, size_t n)
+{
+    double sum = 0, known = 0;
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(values[i])) {
+            sum += values[i];
+            known++;
+        }
+    return known > 0 ? sum / known : (double)NAN;
+}
 
 /* Temperature [K] and angular frequency [rad/s] of a modulus. */
 typedef struct material_state {

@@ -83,8 +83,9 @@ static bool has_tip_error(const wt_group_data *d)
            assumed[WT_SYSTEMATIC_HALF_ANGLE] > 0 || assumed[WT_SYSTEMATIC_RADIUS] > 0;
 }
 
-/* With one cantilever and tip their errors apply to both groups, and the difference of the gains
- * remains. The spring constant enters both moduli with the same power and cancels. */
+/* With one cantilever, tip, piezo and sample their errors apply to both groups, and the difference
+ * of the gains remains, or of the effects if the errors depend on the range of the curves. The
+ * spring constant enters both moduli with the same power and cancels. */
 static void add_calibration_error(const compare_pair *p, const wt_compare_job *job,
                                   wt_systematic_source source, bool separate, const char *words,
                                   comparison_inputs *k)
@@ -92,7 +93,13 @@ static void add_calibration_error(const compare_pair *p, const wt_compare_job *j
     calibration_error bulk = group_calibration(&p->data[0], job, source),
                       track = group_calibration(&p->data[1], job, source);
     if (!separate && bulk.is_stated != track.is_stated) /* one source: what is stated of it holds */
-        (bulk.is_stated ? &track : &bulk)->error = (double)NAN;
+        *(bulk.is_stated ? &track.error : &bulk.error) = bulk.is_stated ? bulk.error : track.error;
+    if (source == WT_SYSTEMATIC_THICKNESS) { /* one thickness, sufficient for the deeper curves */
+        const double depth[2] = {compare_mean(p->data[0].max_indentation, p->data[0].group.n),
+                                 compare_mean(p->data[1].max_indentation, p->data[1].group.n)};
+        bulk.error *= fmin(1, depth[0] / depth[1]);
+        track.error *= fmin(1, depth[1] / depth[0]);
+    }
     const double of_bulk = bulk.error > 0 ? bulk.gain * bulk.error : 0,
                  of_track = track.error > 0 ? track.gain * track.error : 0;
     if (separate) {
@@ -103,7 +110,9 @@ static void add_calibration_error(const compare_pair *p, const wt_compare_job *j
     if (!(error > 0))
         return;
     cancel_error(k, words);
-    if (source != WT_SYSTEMATIC_SPRING_CONSTANT)
+    if (source >= WT_SYSTEMATIC_PIEZO)
+        add_offset_error(k, fabs(of_track - of_bulk), words);
+    else if (source != WT_SYSTEMATIC_SPRING_CONSTANT)
         add_offset_error(k, fabs(track.gain - bulk.gain) * error, words);
 }
 
@@ -120,6 +129,10 @@ static void add_calibration_errors(const compare_pair *p, const wt_compare_job *
                           "deflection sensitivity", k);
     add_calibration_error(p, job, WT_SYSTEMATIC_SPRING_CONSTANT, k->has_two_cantilevers,
                           "spring constants", k);
+    add_calibration_error(p, job, WT_SYSTEMATIC_PIEZO, false, "bend of the piezo", k);
+    add_calibration_error(p, job, WT_SYSTEMATIC_DETECTOR, k->has_two_cantilevers || anew,
+                          "nonlinearity of the detector", k);
+    add_calibration_error(p, job, WT_SYSTEMATIC_THICKNESS, false, "thickness of the sample", k);
     if (has_tip_error(bulk) || has_tip_error(track)) {
         add_calibration_error(p, job, WT_SYSTEMATIC_HALF_ANGLE, k->has_two_cantilevers,
                               "half-angle of the tip", k);
@@ -156,6 +169,7 @@ static void add_curve_errors(const compare_pair *p, comparison_inputs *k)
                      k->has_two_cantilevers ? hypot(range[0], range[1]) : fabs(range[1] - range[0]);
     k->loss_and_curvature_error = hypot(hypot(of_loss, of_bend), of_range);
     k->lacks_loss_effect = isnan(of_loss);
+    k->lacks_second_range = isnan(of_range);
     add_offset_error(k, of_loss, "loss of unknown spectrum");
     add_offset_error(k, of_bend, "bend of the baselines");
     add_offset_error(k, of_range, "range of the fit");

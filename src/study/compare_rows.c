@@ -319,7 +319,7 @@ static wt_status write_comparison_table(const comparison_task *task, wt_table **
     table_writer t = table_begin(&comparison_schema, err);
     add_comparison_rows(&t, task->rows, n_rates + 1, v.is_unreportable, interval, &task->unstated);
     const bool given = interval && c->scatter_is_stated;
-    char includes[384];
+    char includes[544];
     snprintf(includes, sizeof includes, "%s%s%s",
              given ? "scatter of spots as given" : "scatter of the units", task->inputs.includes,
              task->unstated.plausible[0] != '\0' ? " + what else may well make the ratio" : "");

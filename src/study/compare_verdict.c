@@ -370,6 +370,10 @@ static void report_incomplete_interval(const wt_compare_job *job, const comparis
             v->settled_by, sizeof v->settled_by, "%s",
             "curves whose samples have times, or a DMA of the rubber: either determines the "
             "effect of the loss on the moduli");
+    else if (k->lacks_second_range)
+        clocale_print(v->settled_by, sizeof v->settled_by, "%s",
+                      "indent with --misfit-p-threshold 0.01, and curves with more samples in "
+                      "contact: either tests the contact law in a second range of the fit");
     else
         clocale_print(v->settled_by, sizeof v->settled_by, "the error or the effect of: %s",
                       k->lacks);

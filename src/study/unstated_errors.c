@@ -33,17 +33,6 @@ static const double usual_rate_slope = 0.06;
 /* Multiple of a stated standard error on both sides. */
 static const double two_errors = 2;
 
-static double finite_mean(const double *values, size_t n)
-{
-    double sum = 0, known = 0;
-    for (size_t i = 0; i < n; i++)
-        if (isfinite(values[i])) {
-            sum += values[i];
-            known++;
-        }
-    return known > 0 ? sum / known : (double)NAN;
-}
-
 /* Mean curve of a group at its largest force. Without a spring constant the cantilever is rigid. */
 typedef struct pressed_curve {
     double depth, force, bending;
@@ -51,8 +40,8 @@ typedef struct pressed_curve {
 
 static pressed_curve mean_pressed_curve(const wt_group_data *d)
 {
-    pressed_curve p = {finite_mean(d->max_indentation, d->group.n),
-                       finite_mean(d->max_force, d->group.n), 0};
+    pressed_curve p = {compare_mean(d->max_indentation, d->group.n),
+                       compare_mean(d->max_force, d->group.n), 0};
     if (d->spring_constant.value > 0 && p.force > 0)
         p.bending = p.force / d->spring_constant.value;
     return p;

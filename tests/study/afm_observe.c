@@ -163,9 +163,9 @@ static void observe(int scene, const void *prepared, random_source *random, scen
     if (s->radius_stated > 0) /* at a depth of 50 nm */
         snprintf(told, sizeof told, "pyramid:half-angle=35deg+-%.9g%%,radius=50nm+-%.9g%%",
                  100 * s->angle_stated, 100 * s->radius_stated);
-    if (s->calibration == CALIBRATION_EXACT) /* the tip of these scenes is a blunted pyramid */
+    if (s->calibration >= CALIBRATION_EXACT) /* the tip of these scenes is a blunted pyramid */
         snprintf(told, sizeof told, "pyramid:half-angle=35deg+-0.01%%,radius=20nm+-0.01%%");
-    const char *arguments[SPOTS + 24] = {"indent"};
+    const char *arguments[SPOTS + 32] = {"indent"};
     char values[FURTHER][32];
     spots from;
     int n = 1;
@@ -195,11 +195,19 @@ static void observe(int scene, const void *prepared, random_source *random, scen
             }
         if (s->unbonded)
             arguments[n++] = "--unbonded";
-        if (s->calibration == CALIBRATION_EXACT) {
+        if (s->calibration >= CALIBRATION_EXACT) {
             snprintf(cantilever, sizeof cantilever, "%.9gN/m+-0.01%%", sample->spring_constant);
-            const char *const exact[] = {"--spring-constant", cantilever, "--sensitivity-error",
+            const char *const exact[] = {"--spring-constant",
+                                         cantilever,
+                                         "--sensitivity-error",
+                                         "1e-4",
+                                         "--thick-sample",
+                                         "--piezo-nonlinearity",
+                                         "1e-4",
+                                         "--detector-nonlinearity",
                                          "1e-4"};
-            for (size_t i = 0; i < sizeof exact / sizeof exact[0]; i++)
+            const size_t stated = s->calibration == CALIBRATION_UNTOLD ? 4 : 9;
+            for (size_t i = 0; i < stated; i++)
                 arguments[n++] = exact[i];
         }
         if (scene_draw_run(t, arguments))

@@ -30,7 +30,8 @@ typedef enum calibration_kind {
     /* Without an error, off by 10 % (spring constant), 3 % (sensitivity), 1 degree and 10 %
      * (radius), normally distributed: what the program assumes of values without a stated error. */
     CALIBRATION_DRAWN,
-    CALIBRATION_EXACT, /* true values, stated with errors of 0.01 % */
+    CALIBRATION_EXACT,  /* true values, stated with errors of 0.01 %; linear, thick sample */
+    CALIBRATION_UNTOLD, /* as exact, but nothing is stated of piezo, detector and sample */
 } calibration_kind;
 
 /* Defaults: a four-sided pyramid of 35 degrees and 20 nm indents rubber of 5 MPa by 70 nm with a

@@ -6,7 +6,8 @@
  * the viscoelastic response. IT1 to IT14, IG1 to IG3, IB9 to IB12 and II1 to II8 belong to the
  * tips, samples, ranges and effects that they test. IM1 to IM17 come with the error of a lack of
  * fit, IC9, IC10 and IM0 after it. IM18 to IM25 were fixed with the laws of adhesion, before they
- * were drawn. IE1 to IE12 and IX1 to IX12 belong to the assumed errors of lever and tip.
+ * were drawn. IE1 to IE12 and IX1 to IX12 belong to the assumed errors of lever and tip, IX13 to
+ * IX16 to those of piezo, detector and sample.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "afm_scene.h"
 
@@ -331,6 +332,16 @@ const afm_scene afm_scenes[] = {
     {NAMED("IX12", "layer of 60 nm, ratio 1.3, lever and tip exact"),
      .facts.intervals_promised = true, .facts.right = ANYTHING, .noise = 0.005, .layer_ratio = 1.3,
      .layer_thickness = 60e-9, .calibration = CALIBRATION_EXACT},
+    /* The same values with errors of piezo, detector and sample that nothing states. */
+    {NAMED("IX13", "clean, lever and tip exact, the rest unsaid"), .facts.intervals_promised = true,
+     .facts.right = ANYTHING, .noise = 0.005, .calibration = CALIBRATION_UNTOLD},
+    {NAMED("IX14", "piezo that bends by 2 % of the depth, lever and tip exact"),
+     .facts.right = ANYTHING, .noise = 0.005, .piezo_bow = 1.4e-9,
+     .calibration = CALIBRATION_UNTOLD},
+    {NAMED("IX15", "sample of 1 um, lever and tip exact"), .facts.right = ANYTHING, .noise = 0.005,
+     .thickness = 1e-6, .untold = true, .calibration = CALIBRATION_UNTOLD},
+    {NAMED("IX16", "detector 1 % short at the largest force, lever and tip exact"),
+     .facts.right = ANYTHING, .noise = 0.005, .saturation = 0.1, .calibration = CALIBRATION_UNTOLD},
     {NAMED("IP1", "spikes in 1 %"), .facts.intervals_promised = true,
      .facts.verdict_promised = true, .facts.right = DESCRIBED, .noise = 0.005, .spikes = 0.01},
     {NAMED("IP2", "spikes in 10 %"), .facts.intervals_promised = true, .facts.right = DESCRIBED,

@@ -75,16 +75,23 @@ static wt_indent_job settings_of(const char *tip)
     return job;
 }
 
+/* States small errors of all that a job states but the tip. */
+static void state_small_errors(wt_indent_job *job)
+{
+    job->lever_error = job->sensitivity_error = 0.001;
+    job->piezo_error = job->detector_error = 0.001;
+    job->thick_sample = true;
+}
+
 /* A paraboloid of another radius has the force of another modulus, by the root of the ratio, and no
- * residual shows it. The assumed error of the radius covers radii with a normal error of 10 %;
- * those of the cantilever are stated as small. */
+ * residual shows it. The assumed error of the radius covers radii with a normal error of 10 %; the
+ * others are stated as small. */
 static void test_radius(void **state)
 {
     (void)state;
     uint64_t random = 20261129;
     wt_indent_job job = settings_of(HERTZ_TIP);
-    job.lever_error = 0.001;
-    job.sensitivity_error = 0.001;
+    state_small_errors(&job);
     int covered = 0, n_wide = 0;
     for (int i = 0; i < DRAWS; i++) {
         const double radius = 1 + 0.1 * truth_normal(&random);
@@ -114,7 +121,7 @@ static void test_stated(void **state)
         strstr(wt_table_key(t, "assumed_errors"), "10 % of the radius of the tip (5 % of E)"));
     wt_table_free(t);
     job = settings_of(HERTZ_TIP "+-1%");
-    job.lever_error = job.sensitivity_error = 0.01;
+    state_small_errors(&job);
     random = 7;
     write_group(1, &random);
     const group_result stated = fit_group(&job, &t);

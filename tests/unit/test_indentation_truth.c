@@ -174,7 +174,8 @@ static void test_curves(void **state)
 
 /* For a Hertz contact E is proportional to k and to 1/sqrt(R); the effect of the sensitivity is the
  * fit's own derivative. Only the errors of k (5 %) and R (10 %) are stated, that of the sensitivity
- * is assumed (3 %), and the scatter of one position is unknown. */
+ * is assumed (3 %), like those of piezo, detector and sample, and the scatter of one position is
+ * unknown. */
 static void test_budget(void **state)
 {
     (void)state;
@@ -197,10 +198,25 @@ static void test_budget(void **state)
         assert_near(cell(budget, i, "relative_error"), fabs(expected[i].error * expected[i].gain),
                     i == 1 ? 1e-2 : 1e-5);
     }
-    assert_string_equal(cell_text(budget, 3, "source"), "range of the fit");
-    assert_true(cell(budget, 3, "relative_error") < 0.01);
-    assert_string_equal(cell_text(budget, 5, "kind"), "together");
-    assert_true(isnan(cell(budget, 5, "relative_error")));
+    const struct {
+        const char *source;
+        double error, low, high; /* assumed; limits of the gain */
+    } assumed[] = {{"bend of the piezo", 0.005, 0, 20},
+                   {"nonlinearity of the detector", cell(budget, 4, "source_error"), 0.5, 3},
+                   /* a base increases the force at the largest depth by 5.9 %, that at others less,
+                    * so that the contact point moves and the modulus changes more */
+                   {"thickness of the sample", 0.05, log(1.059) / 0.05, 2 * log(1.059) / 0.05}};
+    for (size_t i = 0; i < 3; i++) {
+        assert_string_equal(cell_text(budget, 3 + i, "source"), assumed[i].source);
+        assert_near(cell(budget, 3 + i, "source_error"), assumed[i].error, 1e-9);
+        const double gain = cell(budget, 3 + i, "gain");
+        if (!(gain > assumed[i].low && gain < assumed[i].high))
+            fail_msg("%s: gain %g", assumed[i].source, gain);
+    }
+    assert_string_equal(cell_text(budget, 6, "source"), "range of the fit");
+    assert_true(cell(budget, 6, "relative_error") < 0.01);
+    assert_string_equal(cell_text(budget, 8, "kind"), "together");
+    assert_true(isnan(cell(budget, 8, "relative_error")));
     assert_non_null(strstr(wt_table_key(budget, "says_track"), "one spot does not determine "
                                                                "the scatter"));
     assert_non_null(strstr(wt_table_key(budget, "says_track"), "(deflection sensitivity)"));

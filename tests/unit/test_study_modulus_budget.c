@@ -61,9 +61,12 @@ static void test_every_source(void **state)
 {
     (void)state;
     static const char *const names[] = {"track"};
-    static const double error[] = {0.05, 0.03, 0.02, 0.1}, gain[] = {1.2, -1.5, -2, 0.4};
-    static const char *const words[] = {"spring constant", "deflection sensitivity",
-                                        "half-angle of the tip", "radius of the tip"};
+    static const double error[] = {0.05, 0.03, 0.02, 0.1, 0.005, 0.01, 0.05},
+                        gain[] = {1.2, -1.5, -2, 0.4, 8, 3, 0.5};
+    static const char *const words[] = {"spring constant",        "deflection sensitivity",
+                                        "half-angle of the tip",  "radius of the tip",
+                                        "bend of the piezo",      "nonlinearity of the detector",
+                                        "thickness of the sample"};
     const double scatter = spot_variance(), none = (double)NAN;
     for (unsigned which = 1; which < 1u << WT_SYSTEMATIC_SOURCES; which++) {
         wt_group_data d = make_group();

@@ -42,7 +42,7 @@ typedef struct result_row {
     result_row_kind kind;
     row_number number; /* of RESULT_ROW_NUMBER */
     char text[64];     /* of RESULT_ROW_TEXT: a verdict or a count */
-    char note[320];
+    char note[480];
     bool missing;                                  /* of an answer: its first reason says why */
     bool open;                                     /* a verdict that does not answer the question */
     result_row_reason reasons[RESULT_ROW_REASONS]; /* unused ones have no text */

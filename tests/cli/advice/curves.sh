@@ -45,3 +45,14 @@ piece 'give --indentation-temperature, and --track-temperature if the track diff
 "$weartrack" indent -q --group track --indentation-temperature 40degC --tip "$tip" --spring-constant 0.3N/m "$track" -o warm.h5 2> err
 cause 'only the curves of the track state' compare bulk.h5 warm.h5
 helps compare --indentation-temperature 23degC --track-temperature 40degC bulk.h5 warm.h5
+
+piece 'indent with --misfit-p-threshold 0.01'
+pair() {
+  "$weartrack" indent -q --misfit-p-threshold "$1" --tip "$tip" "$curve" -o one.h5 2> err
+  "$weartrack" indent -q --misfit-p-threshold "$1" --group track --tip "$tip" \
+    "$fixtures/case/bulk-2.jpk-force-map" "$fixtures/case/bulk-3.jpk-force-map" -o other.h5 2> err
+}
+pair 0
+cause 'indent with --misfit-p-threshold 0.01' compare --verbose --spot-scatter 0.1 --equivalence-margin 5 one.h5 other.h5
+pair 0.01
+helps compare --verbose --spot-scatter 0.1 --equivalence-margin 5 one.h5 other.h5

@@ -12,7 +12,6 @@ not_advice 'Give a shear stress and a layer to' 'a remark of a result, which nee
 not_advice 'Compare with a friction record (weartrack validate).' 'a remark of a result, which needs a measured record'
 no_input 'a Poisson' 'an obstacle in a table: tests/unit/test_study_track_layer.c'
 no_input 'the same curves once more through this version of weartrack indent' 'a result of an older version'
-no_input 'a sample on something hard (thinner than' 'a list of possible causes in a warning'
 no_input 'that of --pixel-size is taken' 'says what was done'
 not_advice 'a result of weartrack run, beside which those of curves stand' 'what is expected: taken with collect'
 no_input '--conditioning mend' 'the option of an action in the table data_quality: cli_conditioning'
