@@ -357,6 +357,10 @@ static double log_pull_off(const wt_contact_table *table, double reduced, double
     return log(fmax(-adhesion_contact_value(&law, adhesion_release(&law, k)).force, DBL_MIN));
 }
 
+/* Factor around the work of a sphere with the same pull-off force that mostly holds the solution.
+ */
+static const double usual_factor = 3.0;
+
 /* Solves with the Illinois variant of false position. The function is nearly linear in logarithms.
  */
 double adhesion_work(const wt_contact_table *table, double reduced, double k, double pull_off)
@@ -367,9 +371,15 @@ double adhesion_work(const wt_contact_table *table, double reduced, double k, do
     if (tip->shape == WT_TIP_PUNCH)
         return pull_off * pull_off / (8.0 * M_PI * reduced * pow(tip->radius, 3));
     const double target = log(pull_off), close = 1e-12;
-    double low = log(min_work), high = log(max_work);
+    const double sphere = pull_off / (1.5 * M_PI * tip->radius);
+    double low = log(fmin(fmax(sphere / usual_factor, min_work), max_work)),
+           high = log(fmax(fmin(sphere * usual_factor, max_work), min_work));
     double below = log_pull_off(table, reduced, k, low) - target;
     double above = log_pull_off(table, reduced, k, high) - target;
+    if (!(below < 0.0))
+        below = log_pull_off(table, reduced, k, low = log(min_work)) - target;
+    if (!(above > 0.0))
+        above = log_pull_off(table, reduced, k, high = log(max_work)) - target;
     if (!(below < 0.0) || !(above > 0.0))
         return (double)NAN;
     for (int i = 0, side = 0; i < MAX_ROUNDS && high - low > close; i++) {
