@@ -296,10 +296,11 @@ static bool is_spike(const curve_samples *s, size_t i, size_t n_kept, double spi
         return x - level > spike_threshold + 2.0 * fabs(level - next) &&
                (start || !continues_contact(s, i, n_kept, spike_threshold));
     }
-    const double neighbour_excess = fmin(s->force[n_kept - 1], s->force[i + 1]) - x;
-    if (!(neighbour_excess > spike_threshold) &&
-        !(exceeds_majority(left, x - 0.5 * spike_threshold) &&
-          exceeds_majority(right, x - 0.5 * spike_threshold)))
+    const double last = s->force[n_kept - 1], next = s->force[i + 1];
+    const double neighbour_excess = (last < next ? last : next) - x;
+    if (!(neighbour_excess > spike_threshold) && /* a contact fails with the right side already */
+        !(exceeds_majority(right, x - 0.5 * spike_threshold) &&
+          exceeds_majority(left, x - 0.5 * spike_threshold)))
         return false; /* this test avoids the slower medians */
     const double before = small_median(left, SPIKE_SIDE), after = small_median(right, SPIKE_SIDE);
     const double above = x - fmax(before, after), below = fmin(before, after) - x;
