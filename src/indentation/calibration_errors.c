@@ -343,7 +343,7 @@ static wt_status measure_source_gain(void *user, size_t item, unsigned worker)
     /* one curve is enough for a usual linearity or thickness, whose effect need not be known well
      */
     const bool is_left_out = (is_of_tip && to->curve[at].has_file_tip) ||
-                             (source >= WT_SYSTEMATIC_PIEZO && !to->stated && at > 0);
+                             (source >= WT_SYSTEMATIC_PIEZO && to->assumed[source] > 0 && at > 0);
     const double step = has_error && !is_left_out ? to->step[source] : 0;
     double log_modulus[2] = {0, 0};
     to->gain[at][source] = (double)NAN;

@@ -447,8 +447,8 @@ static void check_curves(const char *asks, const ran *r)
                     count[CHANNELS] <= channels * groups * (fitted + CURVES_OF_A_FILE) + lines);
     }
     /* With a stated error of the cantilever at most 8 curves, here every eighth, are fitted again
-     * with four error sources moved down and up. */
-    const size_t moved = fitted / 8 * 4 * 2;
+     * with four error sources moved down and up, and the first of them with three more. */
+    const size_t moved = (fitted / 8 * 4 + 3) * 2;
     const bool common = shown(r, FLOW_MODULUS_GROUPS) || shown(r, FLOW_MODULUS_BUDGET) ||
                         shown(r, FLOW_COMPARISON) || shown(r, FLOW_MODULUS_RATIO);
     check(asks, AGAIN, count[CURVES] + (common ? groups * moved : 0));

@@ -214,9 +214,9 @@ static const expectation measured[] = {
     {&indentation_schema, "sensitivity_gain", "kk"},
     {&indentation_schema, "half_angle_gain", "kk"},
     {&indentation_schema, "radius_gain", "kk"},
-    {&indentation_schema, "piezo_gain", "kn"}, /* of one curve, unless an error is stated */
-    {&indentation_schema, "detector_gain", "kn"},
-    {&indentation_schema, "sample_thickness_gain", "kn"},
+    {&indentation_schema, "piezo_gain", "nn"}, /* of one curve */
+    {&indentation_schema, "detector_gain", "nn"},
+    {&indentation_schema, "sample_thickness_gain", "nn"},
     {&indentation_schema, "range_error", "00"},
     {&indentation_schema, "loss_error", "00"},
     {&indentation_schema, "bend_error", "00"},
