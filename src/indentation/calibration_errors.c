@@ -391,17 +391,13 @@ wt_status calibration_errors_fit(calibration_errors *to, const wt_tip *tip,
 /* Mean gain of a source over the stored curves, with its standard error; NaN if unknown. */
 static wt_estimate mean_gain(const calibration_errors *of, wt_systematic_source source)
 {
-    double sum = 0, squares = 0;
+    double known[COMMON_CURVES];
     size_t n = 0;
-    for (size_t j = 0; j < of->n; j++) {
-        if (isnan(of->gain[j][source]))
-            continue;
-        const double step = of->gain[j][source] - sum;
-        sum += step / (double)++n;
-        squares += step * (of->gain[j][source] - sum);
-    }
-    return (wt_estimate){n > 0 ? sum : (double)NAN,
-                         n > 1 ? sqrt(squares / (double)((n - 1) * n)) : (double)NAN, 0, "1"};
+    for (size_t j = 0; j < of->n; j++)
+        if (!isnan(of->gain[j][source]))
+            known[n++] = of->gain[j][source];
+    const moments m = sample_moments(known, n); /* NaN without a gain */
+    return (wt_estimate){m.mean, sqrt(m.variance / m.n), 0, "1"};
 }
 
 /* Names an assumed error and its effect on the modulus. */

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 /* Depths of the curve, and steps of the search for the contact point: to 1e-6 of the depth. */
-enum { NODES = 64, STEPS = 30 };
+enum { NODES = 64, STEPS = 36 };
 
 /* Weights of the residuals. Noise of the force also moves the tip, so that a residual counts less
  * by 1 + contact stiffness over spring constant. Samples are equidistant along the piezo, which
@@ -44,7 +44,6 @@ static double wear_residual_squares(const worn_curve *c, double shift, double *m
 wt_status wt_tip_wear_fit(const wt_tip *tip, double radius, double depth, double bending,
                           wt_tip_wear *fit, wt_error *err)
 {
-    const double section = 0.5 * (3 - sqrt(5)); /* ratio of the golden section search */
     wt_contact_table *table = NULL;
     wt_tip worn = *tip;
     worn.radius = radius;
@@ -61,23 +60,12 @@ wt_status wt_tip_wear_fit(const wt_tip *tip, double radius, double depth, double
         samples += c.travel[i];
     }
     double low = -depth / 2, high = depth / 2, modulus;
-    double a = low + section * (high - low), b = high - section * (high - low);
-    double of_a = wear_residual_squares(&c, a, &modulus),
-           of_b = wear_residual_squares(&c, b, &modulus);
-    for (int step = 0; step < STEPS; step++) {
-        if (of_a < of_b) {
+    for (int step = 0; step < STEPS; step++) { /* ternary search */
+        const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+        if (wear_residual_squares(&c, a, &modulus) < wear_residual_squares(&c, b, &modulus))
             high = b;
-            b = a;
-            of_b = of_a;
-            a = low + section * (high - low);
-            of_a = wear_residual_squares(&c, a, &modulus);
-        } else {
+        else
             low = a;
-            a = b;
-            of_a = of_b;
-            b = high - section * (high - low);
-            of_b = wear_residual_squares(&c, b, &modulus);
-        }
     }
     const double left = wear_residual_squares(&c, 0.5 * (low + high), &modulus);
     *fit = (wt_tip_wear){log(modulus), sqrt(left / samples) / largest};
