@@ -10,10 +10,12 @@ rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
 
-# A case in its own folder: sample, condition, softening, variant of the measurement errors.
+# A case in its own folder: sample, condition, softening, variant of the measurement errors. Piezo and
+# detector of the generator are linear, and its sample is thick.
 make_case() {
   mkdir -p "$1-$2"
   sed -e "s#</title>#</title><sample>$1</sample><condition>$2</condition>#" -e '/<roughness>/,$d' \
+    -e 's#<temperature>23degC#<piezo-nonlinearity>1e-6</piezo-nonlinearity><detector-nonlinearity>1e-6</detector-nonlinearity><thick-sample>yes</thick-sample>&#' \
     "$fixtures/case.xml" >"$1-$2/case.xml"
   echo '<compare><track-to-bulk/><by-rate/></compare></case>' >>"$1-$2/case.xml"
   "$generator" "$1-$2" "$fixtures/stated-road.xml" "$4" "$3"
