@@ -481,6 +481,59 @@ static void thermal_expansion_enters_the_physical_shift(void **state)
 }
 
 /* A second relaxation with another temperature dependence, in E'' only. */
+static double linear_congruential(uint64_t *state)
+{
+    *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return ((double)(*state >> 11) + 0.5) / 9007199254740992.0;
+}
+
+static double small_noise(uint64_t *state, double size)
+{
+    const double radius = sqrt(-2.0 * log(linear_congruential(state)));
+    return exp(size * radius * cos(2.0 * M_PI * linear_congruential(state)));
+}
+
+/* With these draws the errors of the vertical shifts between neighbours add up to decades. */
+static void a_thousand_isotherms_are_joined(void **state)
+{
+    (void)state;
+    enum { N = 1000, POINTS = 13 };
+    const wt_wlf law = {293.15, 8.5, 130.0};
+    wt_sweep sweep = {0};
+    uint64_t seed = 77;
+    for (int i = 0; i < N; i++) {
+        wt_isotherm *isotherm = wt_sweep_add(&sweep, POINTS, 0);
+        assert_non_null(isotherm);
+        isotherm->temperature = 253.15 + 80.0 * i / N;
+        const double log_a = wt_wlf_log_shift(&law, isotherm->temperature);
+        for (int k = 0; k < POINTS; k++) {
+            const double w = 0.1 * pow(10.0, 0.25 * k);
+            double storage = 1e6, loss = 0.0;
+            for (int term = 0; term < 56; term++) {
+                const double place = 0.25 * term, z = w * pow(10.0, log_a + 2.0 - place),
+                             modulus = 2.5e5 * pow(10.0, 0.22 * place);
+                storage += modulus * z * z / (1.0 + z * z);
+                loss += modulus * z / (1.0 + z * z);
+            }
+            isotherm->angular_frequency[k] = w;
+            isotherm->storage_modulus[k] = storage * small_noise(&seed, 0.005);
+            isotherm->loss_modulus[k] = loss * small_noise(&seed, 0.01);
+        }
+    }
+    wt_sweep_sort(&sweep);
+    wt_master_options at = at_reference(293.15, WT_VERTICAL_TIED);
+    at.series_only = at.skip_fitted_moduli = true;
+    wt_master master = fit_good(&sweep, &at, NULL);
+    for (size_t i = 0; i < master.n_shifts; i++) {
+        const wt_master_shift *shift = &master.shifts[i];
+        assert_true(shift->determined);
+        assert_near_abs(shift->log_a.value, wt_wlf_log_shift(&law, shift->temperature), 0.3);
+    }
+    assert_near_abs(master.c1.value, law.c1, 4.0 * master.c1.standard_error);
+    wt_master_clear(&master);
+    wt_sweep_clear(&sweep);
+}
+
 static void failed_superposition_is_reported(void **state)
 {
     (void)state;
@@ -770,6 +823,7 @@ int main(void)
         cmocka_unit_test(the_reference_temperature_need_not_be_measured),
         cmocka_unit_test(a_moved_reference_moves_all_shifts_alike),
         cmocka_unit_test(thermal_expansion_enters_the_physical_shift),
+        cmocka_unit_test(a_thousand_isotherms_are_joined),
         cmocka_unit_test(failed_superposition_is_reported),
         cmocka_unit_test(mixed_strain_amplitudes_are_reported),
         cmocka_unit_test(dense_points_are_merged),

@@ -462,6 +462,10 @@ static bool shift_pair_fit(const shift_set *set, size_t onto, size_t from, bool 
 
 /* Number of neighbours on which an isotherm is tried before it counts as unplaced. */
 enum { NEIGHBOURS = 3 };
+/* Largest departure of a tied vertical shift from that of rubber elasticity at the start [decade]:
+ * ten standard deviations of the fit that follows. Errors of fitted ones add up from isotherm to
+ * isotherm, and with hundreds of them the fit would not return. */
+static const double max_start_departure = 0.20;
 
 /* Places curve i on the nearest placed curve towards the anchor, or on the one after it if that
  * fails. */
@@ -479,6 +483,11 @@ static void find_initial_shift(const shift_set *set, size_t anchor, wt_vertical_
         if (placed[p]) {
             tried++;
             placed[i] = shift_pair_fit(set, (size_t)p, i, free_b, &by, &vertical);
+            if (placed[i] && kind == WT_VERTICAL_TIED &&
+                fabs(b[p] + vertical - b[i]) > max_start_departure) {
+                vertical = b[i] - b[p];
+                placed[i] = shift_pair_fit(set, (size_t)p, i, false, &by, &vertical);
+            }
         }
         if (placed[i]) {
             a[i] = a[p] + by;
