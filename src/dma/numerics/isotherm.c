@@ -541,9 +541,11 @@ size_t spectrum_select_connected(const shift_set *set, size_t anchor, const doub
         for (size_t k = 0; k < 2 * n; k++) {
             const size_t p = k < n ? k : 2 * n - 1 - k;
             for (size_t i = 0; placed[p] && overlap[p] > 0.0 && i < n; i++) {
+                if (!placed[i])
+                    continue; /* it may have no points */
                 const double both =
                     fmin(overlap[p], shared_decades(&set->curves[p], a[p], &set->curves[i], a[i]));
-                if (!placed[i] || !(both > overlap[i]))
+                if (!(both > overlap[i]))
                     continue;
                 overlap[i] = both;
                 is_changed = true;
