@@ -9,8 +9,6 @@
 #include "core/table/result_value.h"
 #include "weartrack/study.h"
 
-#include <math.h>
-
 extern const char *const compare_group_name[2];
 
 /* Values in place of the index of a bin: an unknown rate (of a curve), and all bins (of a
@@ -70,16 +68,7 @@ wt_status comparison_find_inputs(const compare_pair *p, const wt_compare_job *jo
                                  wt_error *err) WT_NODISCARD;
 
 /* Mean of the finite values; NaN without one. */
-static inline double compare_mean(const double *values, size_t n)
-{
-    double sum = 0, known = 0;
-    for (size_t i = 0; i < n; i++)
-        if (isfinite(values[i])) {
-            sum += values[i];
-            known++;
-        }
-    return known > 0 ? sum / known : (double)NAN;
-}
+double compare_mean(const double *values, size_t n);
 
 /* Temperature [K] and angular frequency [rad/s] of a modulus. */
 typedef struct material_state {

@@ -61,10 +61,10 @@ static calibration_error group_calibration(const wt_group_data *d, const wt_comp
     const double given[WT_SYSTEMATIC_SOURCES] = {[WT_SYSTEMATIC_SPRING_CONSTANT] = job->lever_error,
                                                  [WT_SYSTEMATIC_SENSITIVITY] =
                                                      job->sensitivity_error};
-    const double usual[WT_SYSTEMATIC_SOURCES] = {[WT_SYSTEMATIC_SPRING_CONSTANT] = 1,
-                                                 [WT_SYSTEMATIC_SENSITIVITY] = d->sensitivity_gain,
-                                                 [WT_SYSTEMATIC_HALF_ANGLE] = (double)NAN,
-                                                 [WT_SYSTEMATIC_RADIUS] = (double)NAN};
+    const double usual[WT_SYSTEMATIC_SOURCES] = {
+        [WT_SYSTEMATIC_SPRING_CONSTANT] = 1,      [WT_SYSTEMATIC_SENSITIVITY] = d->sensitivity_gain,
+        [WT_SYSTEMATIC_HALF_ANGLE] = (double)NAN, [WT_SYSTEMATIC_RADIUS] = (double)NAN,
+        [WT_SYSTEMATIC_PIEZO] = (double)NAN,      [WT_SYSTEMATIC_DETECTOR] = (double)NAN};
     calibration_error c = {d->common_error[source], d->common_gain[source].value, true};
     if (!(c.error > 0))
         c.error = stated[source] > 0 ? stated[source] : given[source];
@@ -81,6 +81,17 @@ static bool has_tip_error(const wt_group_data *d)
     const double *const common = d->common_error, *const assumed = d->assumed_error;
     return common[WT_SYSTEMATIC_HALF_ANGLE] > 0 || common[WT_SYSTEMATIC_RADIUS] > 0 ||
            assumed[WT_SYSTEMATIC_HALF_ANGLE] > 0 || assumed[WT_SYSTEMATIC_RADIUS] > 0;
+}
+
+double compare_mean(const double *values, size_t n)
+{
+    double sum = 0, known = 0;
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(values[i])) {
+            sum += values[i];
+            known++;
+        }
+    return known > 0 ? sum / known : (double)NAN;
 }
 
 /* With one cantilever, tip, piezo and sample their errors apply to both groups, and the difference
