@@ -19,6 +19,9 @@ static const double least_span = 5, ramp_turn = 2;
 /* Minimum share of the temperature change that occurs within a cycle of frequencies. It is near 0
  * for isotherms and above one half in a ramp. */
 static const double least_drift = 0.25;
+/* Cycles of fewer frequencies are no isotherms, whose shifts need four points, but steps of a
+ * temperature sweep. */
+enum { ISOTHERM_POINTS_MIN = 4 };
 
 /* Adds a temperature sweep. With `turns` there was heating and cooling, and the source states the
  * direction. */
@@ -118,8 +121,9 @@ static double temperature_step(const sweep_builder *b, size_t row, size_t other)
     return isnan(kelvin) ? 0 : kelvin;
 }
 
-/* True if the temperature keeps changing during the cycles of frequencies. */
-static bool temperature_drifts(const sweep_builder *b, const size_t *rows, size_t n)
+/* True if the cycles of frequencies are no isotherms: the temperature keeps changing during them,
+ * or they have few frequencies. */
+static bool cycles_are_sweeps(const sweep_builder *b, const size_t *rows, size_t n)
 {
     double within = 0, between = 0;
     size_t first = 0, turns = 1;
@@ -136,14 +140,16 @@ static bool temperature_drifts(const sweep_builder *b, const size_t *rows, size_
         direction = 0;
         turns++;
     }
-    return turns >= RAMP_POINTS_MIN && between >= least_span && within > least_drift * between;
+    const bool drifts = within > least_drift * between;
+    return turns >= RAMP_POINTS_MIN && between >= least_span &&
+           (drifts || n < ISOTHERM_POINTS_MIN * turns);
 }
 
 /* Extracts the sweeps of cycled frequencies, one for each frequency. `chosen` has space for n
  * rows. */
 static void extract_interleaved(sweep_builder *b, size_t *rows, size_t *n, size_t *chosen)
 {
-    if (!temperature_drifts(b, rows, *n))
+    if (!cycles_are_sweeps(b, rows, *n))
         return;
     while (*n > 0) {
         const size_t like = rows[0];
