@@ -253,6 +253,12 @@ typedef struct wt_master {
     bool *is_outlier;                 /* [n] excluded as an outlier in a modulus */
     double noise_storage, noise_loss; /* relative standard deviation */
     double correlation;               /* correlation of the noise of adjacent points */
+    /* Errors of the instrument that all isotherms share; spectrum and shifts are without them. NaN
+     * after a step or for one quantity. */
+    wt_interval phase_lag; /* [rad] at the highest frequency; it is proportional to the frequency */
+    wt_interval inertia; /* share of the storage modulus that inertia takes, where that is largest;
+                            it takes as much as the square of the frequency */
+    wt_interval frame_compliance; /* [1/Pa] of frame and clamps, the assumed error about 0 */
     size_t n_outliers;
 
     wt_shift_law law;   /* kind WT_LAW_NONE: no law, `no_law_reason` has the reason */

@@ -174,6 +174,12 @@
       LABEL("Noise of the loss modulus, relative"), OPTIONAL)                                      \
     X(MASTER_CURVE_KEY_NOISE_CORRELATION, "noise_correlation", PLAIN, SHOWS(correlation),          \
       LABEL("Correlation of the noise of neighbouring points"))                                    \
+    X(MASTER_CURVE_KEY_PHASE_LAG, AS(phase_lag), SI(ANGLE), OPTIONAL,                              \
+      LABEL("Phase lag of the instrument at the highest frequency"))                               \
+    X(MASTER_CURVE_KEY_INERTIA, AS(inertia), PLAIN, OPTIONAL,                                      \
+      LABEL("Largest share of inertia in the storage modulus"))                                    \
+    X(MASTER_CURVE_KEY_FRAME_COMPLIANCE, AS(frame_compliance), SI(CREEP_COMPLIANCE), OPTIONAL,     \
+      LABEL("Compliance of frame and clamps"))                                                     \
     X(MASTER_CURVE_KEY_REFERENCE_TEMPERATURE, AS(reference_temperature), SI(TEMPERATURE))          \
     X(MASTER_CURVE_KEY_DEFORMATION, "deformation", ENUM(deformation))
 

@@ -34,6 +34,7 @@ typedef struct shift_curve {
 /* All isotherms by rising temperature. */
 typedef struct shift_set {
     wt_shift_quantity quantity; /* not WT_SHIFT_MODULI if a modulus is missing */
+    bool without_instrument;    /* errors of the instrument are not fitted */
     wt_loading loading;
     bool used[MODULI]; /* fitted quantities; tan delta takes the place of LOSS */
     size_t n;

@@ -244,8 +244,8 @@ static wt_status new_spectrum(master_work *work, wt_error *err)
     p->temperature = arena_numbers(m, n);
     p->mean_b = arena_numbers(m, n);
     p->slope = arena_numbers(m, n);
-    p->scratch = arena_numbers(m, 9 * n + 4 * work->s->n_linear);
-    p->border = arena_numbers(m, work->s->n_linear + SPECTRUM_MAX_SMOOTH);
+    p->scratch = arena_numbers(m, 9 * n + 4 * work->s->n_shared);
+    p->border = arena_numbers(m, work->s->n_shared + SPECTRUM_MAX_SMOOTH);
     p->side = arena_numbers(m, BLOCK_SIDE * n);
     work->vertical.mean = p->mean_b;
     size_t curve = 0;
@@ -481,6 +481,7 @@ wt_status master_use_overlap_shifts(master_work *work, wt_error *err)
         set->curves[i].is_shift_fixed = work->placed[i];
         set->curves[i].fixed_log_a = work->a[i];
     }
+    set->without_instrument = true; /* they would take up part of the misfit */
     work->route = WT_SHIFTS_FROM_OVERLAP;
     work->options.vertical = physical ? WT_VERTICAL_PHYSICAL : WT_VERTICAL_NONE;
     work->lines = false;

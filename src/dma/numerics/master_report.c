@@ -343,6 +343,9 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
         m.has_converged = m.has_converged && work->posterior->components[i].cell->has_converged;
     master_fill_shifts(work, &m);
     fill_shift_law(work->posterior, &m);
+    m.phase_lag = posterior_instrument(work->posterior, PHASE_LAG);
+    m.inertia = posterior_instrument(work->posterior, INERTIA);
+    m.frame_compliance = posterior_instrument(work->posterior, FRAME_COMPLIANCE);
     clear_law_errors(work->s, &m);
     wt_status status = master_check_reference(work, &m, err);
     if (status == WT_OK)

@@ -206,10 +206,55 @@ static void warn_of_note(const master_work *work, const wt_master *m, size_t i, 
                    m->shifts[last].temperature - WT_ZERO_CELSIUS, m->shifts[i].note);
 }
 
+/* Standard errors from which an error of the instrument is told: one false note in 400 sets. */
+static const double told_errors = 3.0;
+
+static bool is_told(wt_interval x)
+{
+    return fabs(x.value) > told_errors * x.standard_error;
+}
+
+/* Tells the errors of the instrument that the isotherms show, and what is assumed of the frame if
+ * that is more than the noise. */
+static void note_instrument(const master_work *work, const wt_master *m, wt_log *log)
+{
+    const double degree = M_PI / 180.0;
+    const char *const corrected = m->superposition == WT_SUPERPOSITION_FAILS
+                                      ? "shifts, law and spectrum are corrected for it, although "
+                                        "superposition fails, so that "
+                                        "the material may be the cause"
+                                      : "shifts, law and spectrum are corrected for it";
+    double stiffest = 0.0;
+    for (size_t i = 0; i < m->n; i++)
+        stiffest = fmax(stiffest, pow(10.0, m->log_storage[i]));
+    if (is_told(m->phase_lag))
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "the phase angle is too %s by %.2g ± %.1g degrees at the highest frequency, in "
+                   "proportion to the frequency: %s",
+                   m->phase_lag.value > 0.0 ? "large" : "small", fabs(m->phase_lag.value) / degree,
+                   m->phase_lag.standard_error / degree, corrected);
+    if (is_told(m->inertia))
+        wt_log_add(
+            log, WT_WARNING, NULL, NULL,
+            "the storage modulus is too %s by up to %s (standard error %s), in proportion to "
+            "the square of the frequency, as by inertia: %s",
+            m->inertia.value > 0.0 ? "low" : "high", format_percent(fabs(m->inertia.value)).text,
+            format_percent(m->inertia.standard_error).text, corrected);
+    const double assumed = 2.0 * stiffest * m->frame_compliance.standard_error;
+    if (assumed > work->s->noise[LOSS])
+        wt_log_add(log, WT_NOTE, NULL, NULL,
+                   "nothing is stated of the compliance of frame and clamps: the errors contain %s "
+                   "of the strain of a sample of 1 GPa, which is %s of the loss modulus where the "
+                   "sample is stiffest",
+                   format_percent(1e9 * instrument_deviation[FRAME_COMPLIANCE]).text,
+                   format_percent(assumed).text);
+}
+
 void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_log *log)
 {
     note_quantity(work, log);
     note_route(work, log);
+    note_instrument(work, m, log);
     for (size_t i = 0; i < m->n_shifts; i++)
         note_shift(work, i, &m->shifts[i]);
     note_repeated_runs(m);
@@ -270,6 +315,8 @@ static const double relevant_misfit = 0.004, possible_misfit = 0.01;
 /* Narrower windows hide a second process [decade]. E'' of one relaxation time is 1.14 decades
  * wide at half height, and a window must be wider to separate two. */
 static const double least_window = 1.5;
+/* Frequencies are exported with four digits, so a window of 1.5 decades may be this much less. */
+static const double window_rounding = 0.001;
 /* Relevance and significance of the Kramers-Kronig difference between measured and predicted
  * E''. The level of 0.001 is strict, because this is an additional test. */
 static const double relevant_loss_factor = 0.01, loss_significant = 0.001;
@@ -409,7 +456,7 @@ void master_assess(const master_work *work, wt_master *m)
         clocale_print(m->superposition_reason, sizeof m->superposition_reason,
                       "a misfit is likely (p %s) but below %.1f %%",
                       format_probability(lack->p).text, round_up_percent(lack->misfit_high));
-    } else if (window < least_window) {
+    } else if (window < least_window - window_rounding) {
         clocale_print(
             m->superposition_reason, sizeof m->superposition_reason,
             "isotherms over %.1f decades can hide a second process; 1.5 decades or more would "

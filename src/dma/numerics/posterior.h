@@ -56,8 +56,8 @@ struct wt_posterior {
     double *temperature;     /* [n_curves] */
     double *mean_b;          /* [n_curves] prior of ln b */
     double *slope;           /* [n_curves] slope of the law */
-    double *scratch;         /* [9 n_curves + 4 n_linear] */
-    double *border, *side;   /* [n_linear + SPECTRUM_MAX_SMOOTH], [BLOCK_SIDE n_curves] scratch */
+    double *scratch;         /* [9 n_curves + 4 n_shared] */
+    double *border, *side;   /* [n_shared + SPECTRUM_MAX_SMOOTH], [BLOCK_SIDE n_curves] scratch */
     char no_law_reason[256]; /* reason why there is no law */
     size_t *curve;           /* [isotherms of the sweep] index in the spectrum */
     double *closed_form; /* [isotherms of the sweep] log10 a of ISO 18437-6, against the anchor */
@@ -115,6 +115,8 @@ wt_interval posterior_a_to_law(const wt_posterior *p, const posterior_place *pla
 wt_interval posterior_b(const wt_posterior *p, size_t curve);
 wt_interval posterior_law(const wt_posterior *p, double temperature);
 wt_interval posterior_slope(const wt_posterior *p, double temperature); /* decade/K */
+/* Error of the instrument in the unit of instrument_deviation; NaN without such unknowns. */
+wt_interval posterior_instrument(const wt_posterior *p, instrument_error which);
 wt_interval posterior_constant(const wt_posterior *p, size_t unknown);
 /* Quantities of posterior_moduli: ln E', ln E'' and ln tan delta at ln w and the reference
  * temperature. */

@@ -331,6 +331,16 @@ wt_interval posterior_a_to_law(const wt_posterior *p, const posterior_place *pla
     return offset_unknown_interval(p, column, scale, given, variance, 1.0);
 }
 
+wt_interval posterior_instrument(const wt_posterior *p, instrument_error which)
+{
+    const spectrum *s = &p->frame;
+    const double none = (double)NAN;
+    if (instrument_count(s) == 0)
+        return (wt_interval){none, none, none, none};
+    return offset_unknown_interval(p, (long[]){(long)(s->n_linear + which), -1},
+                                   (double[]){instrument_deviation[which], 0.0}, 0.0, 0.0, 0.0);
+}
+
 /* Returns the moments of a quantity with the value and these derivatives, without the law. */
 static mixture_component spectrum_moments(const wt_posterior *p,
                                           const posterior_component *component, double value,

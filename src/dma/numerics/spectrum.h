@@ -47,6 +47,16 @@ typedef struct spectrum_modes {
     double *share;          /* [n * n] root / (rate - root), root by root */
 } spectrum_modes;
 
+/* Errors of the instrument that all isotherms share (instrument_errors.c): a phase lag in
+ * proportion to the frequency, the inertia of the moving parts, and the compliance of frame and
+ * clamps. */
+typedef enum instrument_error {
+    PHASE_LAG,
+    INERTIA,
+    FRAME_COMPLIANCE,
+    INSTRUMENT_ERRORS
+} instrument_error;
+
 typedef struct spectrum {
     arena memory;          /* owner of all arrays below */
     wt_loading loading;    /* for a step, x is ln of 1/t, and STORAGE has E(t) or 1/J(t) */
@@ -66,13 +76,16 @@ typedef struct spectrum {
     double *given_a;        /* [n_curves] its fixed value */
     double *given_b;        /* [n_curves] stated vertical shift, NaN: none */
 
-    /* unknowns: ln of the terms, ln of the equilibrium modulus, a, b */
+    /* unknowns: ln of the terms, ln of the equilibrium modulus, instrument, a, b */
     size_t n_terms, n_linear; /* number of terms; the same plus the equilibrium modulus */
-    size_t n_fast;            /* terms faster than the measured range */
-    size_t n_measured;        /* terms faster than its slow end */
-    double log_tau, step;     /* ln of the first relaxation time; step of ln time */
-    double *time;             /* [n_terms] relaxation times relative to the first */
-    bool liquid;              /* no equilibrium modulus */
+    size_t n_shared;          /* the same plus the errors of the instrument */
+    double instrument[INSTRUMENT_ERRORS]; /* prior standard deviation, the unit of each unknown:
+                                             [s], [Pa s^2], [1/Pa] */
+    size_t n_fast;                        /* terms faster than the measured range */
+    size_t n_measured;                    /* terms faster than its slow end */
+    double log_tau, step;                 /* ln of the first relaxation time; step of ln time */
+    double *time;                         /* [n_terms] relaxation times relative to the first */
+    bool liquid;                          /* no equilibrium modulus */
     size_t n_unknowns;
     double *value;             /* [n_unknowns] */
     long *column_a, *column_b; /* [n_curves] index of the unknown of a curve, -1: fixed */
@@ -96,7 +109,7 @@ typedef struct spectrum {
     size_t evaluations; /* number of evaluations so far */
     /* last evaluation: whitened rows, curve by curve; E' of a point, then E'' */
     double *residual[MODULI]; /* [n] */
-    double *row[MODULI];      /* [n * (n_linear + 2)] d/d terms, d/da, d/db */
+    double *row[MODULI];      /* [n * (n_shared + 2)] d/d terms and instrument, d/da, d/db */
     double objective;
     /* Border: terms, then one unknown for each column of prior->smooth, with 1 on the diagonal
      * and -P S at the side. Eliminating these gives the equations with the prior. Blocks: a and
@@ -160,6 +173,21 @@ void spectrum_step_response(const spectrum *s, const double *term, double x, dou
                             double *slope, double *gradient);
 void spectrum_modes_new(spectrum *s);
 void spectrum_terms(const spectrum *s, const double *value, double *term); /* [n_linear] */
+
+/* ---- instrument_errors.c */
+/* Prior standard deviations: [rad] at the highest frequency; share of E' where inertia takes most;
+ * [1/Pa]. */
+extern const double instrument_deviation[INSTRUMENT_ERRORS];
+/* Sets the priors of the errors. Moduli of a step, or one quantity alone, have none. */
+void instrument_set_priors(spectrum *s);
+static inline size_t instrument_count(const spectrum *s)
+{
+    return s->n_shared - s->n_linear;
+}
+/* Computes ln E' and ln E'' of a point without the errors of the instrument, and their derivatives
+ * by these unknowns. */
+void instrument_correct(const spectrum *s, const double *unknown, size_t k,
+                        double log_modulus[MODULI], double by[MODULI][INSTRUMENT_ERRORS]);
 
 /* ---- spectrum_model.c: rows, normal equations, priors */
 void spectrum_evaluate(spectrum *s, const double *value, bool with_rows);

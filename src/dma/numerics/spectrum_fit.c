@@ -45,14 +45,14 @@ static bool factor_damped(spectrum *s, double damping)
         return true; /* of the same precision */
     s->inverted = false;
     bordered_copy(&s->factor, &s->precision);
-    for (size_t i = 0; i < s->n_linear; i++)
+    for (size_t i = 0; i < s->n_shared; i++)
         *gsl_matrix_ptr(s->factor.border, i, i) *= 1.0 + damping;
     for (size_t i = 0; i < s->n_curves; i++) {
         double *diagonal = s->factor.diagonal + BLOCK_DIAGONAL * i;
         double smooth_sum = 0.0;
         for (size_t j = 0; j < s->prior->n_smooth; j++)
             smooth_sum +=
-                pow(gsl_matrix_get(s->precision.side, BLOCK_SIDE * i + 1, s->n_linear + j), 2);
+                pow(gsl_matrix_get(s->precision.side, BLOCK_SIDE * i + 1, s->n_shared + j), 2);
         diagonal[0] += s->column_a[i] < 0 ? 0.0 : damping * diagonal[0];
         diagonal[2] += s->column_b[i] < 0 ? 0.0 : damping * (diagonal[2] - smooth_sum);
     }
@@ -61,7 +61,7 @@ static bool factor_damped(spectrum *s, double damping)
 
 void spectrum_split(const spectrum *s, const double *y, double *border, double *side)
 {
-    memcpy(border, y, s->n_linear * sizeof *border);
+    memcpy(border, y, s->n_shared * sizeof *border);
     for (size_t i = 0; i < s->n_curves; i++) {
         side[BLOCK_SIDE * i] = s->column_a[i] < 0 ? 0.0 : y[s->column_a[i]];
         side[BLOCK_SIDE * i + 1] = s->column_b[i] < 0 ? 0.0 : y[s->column_b[i]];
@@ -70,7 +70,7 @@ void spectrum_split(const spectrum *s, const double *y, double *border, double *
 
 void spectrum_join(const spectrum *s, const double *border, const double *side, double *x)
 {
-    memcpy(x, border, s->n_linear * sizeof *border);
+    memcpy(x, border, s->n_shared * sizeof *border);
     for (size_t i = 0; i < s->n_curves; i++) {
         if (s->column_a[i] >= 0)
             x[s->column_a[i]] = side[BLOCK_SIDE * i];
@@ -204,13 +204,13 @@ wt_status spectrum_refresh(spectrum *s, wt_error *err)
 
 void spectrum_step_residuals(spectrum *s)
 {
-    const int m = (int)s->n_linear;
+    const int m = (int)s->n_shared;
     const double *const step = s->direction->data;
     (void)spectrum_step_left(s);
     for (size_t i = 0; i < s->n_curves; i++)
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++)
             for (int q = 0; q < MODULI; q++) {
-                const double *const row = s->row[q] + k * (s->n_linear + 2);
+                const double *const row = s->row[q] + k * (s->n_shared + 2);
                 s->residual[q][k] -= cblas_ddot(m, row, 1, step, 1);
                 s->residual[q][k] -= s->column_a[i] < 0 ? 0.0 : row[m] * step[s->column_a[i]];
                 s->residual[q][k] -= s->column_b[i] < 0 ? 0.0 : row[m + 1] * step[s->column_b[i]];
@@ -233,6 +233,8 @@ void spectrum_start_from(spectrum *s, const spectrum *fitted)
         slower += fitted->log_tau + (double)j * fitted->step > end ? exp(fitted->value[j]) : 0.0;
     if (!s->liquid && slower > 0.0)
         s->value[s->n_terms] = log(slower);
+    for (size_t i = 0; i < instrument_count(s); i++)
+        s->value[s->n_linear + i] = fitted->value[fitted->n_linear + i];
 }
 
 double spectrum_expected_objective(spectrum *s)

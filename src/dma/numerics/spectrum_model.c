@@ -78,9 +78,9 @@ static void set_extrapolation(spectrum *s)
 static void allocate_spectrum(spectrum *s)
 {
     arena *m = &s->memory;
-    const size_t most = s->n_linear + 2 * s->n_curves;
+    const size_t most = s->n_shared + 2 * s->n_curves;
     const size_t n_smooth = s->n_curves < SPECTRUM_MAX_SMOOTH ? s->n_curves : SPECTRUM_MAX_SMOOTH;
-    const size_t border = s->n_linear + n_smooth;
+    const size_t border = s->n_shared + n_smooth;
     s->first = arena_alloc(m, s->n_curves + 1, sizeof *s->first);
     s->column_a = arena_alloc(m, s->n_curves, sizeof *s->column_a);
     s->column_b = arena_alloc(m, s->n_curves, sizeof *s->column_b);
@@ -96,8 +96,8 @@ static void allocate_spectrum(spectrum *s)
         s->previous_weight[q] = arena_numbers(m, s->n);
         s->spread[q] = arena_numbers(m, s->n);
         s->residual[q] = arena_numbers(m, s->n);
-        s->row[q] = arena_numbers(m, (s->n + TILE_ROWS - 1) * (s->n_linear + 2));
-        s->normal[q] = bordered_new(m, s->n_linear, s->n_curves);
+        s->row[q] = arena_numbers(m, (s->n + TILE_ROWS - 1) * (s->n_shared + 2));
+        s->normal[q] = bordered_new(m, s->n_shared, s->n_curves);
         s->normal_residual[q] = arena_numbers(m, s->n);
         s->right[q] = arena_numbers(m, most);
     }
@@ -216,6 +216,10 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     s->n_measured = (size_t)ceil((high + fast - low) * terms_per_decade);
     s->n_terms = 1 + s->n_measured + (size_t)ceil(slow * terms_per_decade);
     s->n_linear = s->n_terms + (liquid ? 0 : 1);
+    s->n_shared = s->n_linear;
+    if (set->loading == WT_OSCILLATION && set->quantity == WT_SHIFT_MODULI &&
+        !set->without_instrument)
+        s->n_shared += INSTRUMENT_ERRORS;
     s->log_tau = -(high + fast) * M_LN10;
     allocate_spectrum(s);
     double *start = s->candidate; /* a, then b */
@@ -242,6 +246,8 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         s->kappa[curve++] = 1.0;
     }
     s->first[curve] = k;
+    if (instrument_count(s) > 0)
+        instrument_set_priors(s);
     set_start_terms(s, start, start + s->n_curves);
     s->smoothness = 0.3;
     for (size_t j = 0; j < s->n_terms; j++) {
@@ -252,7 +258,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     for (int q = 0; q < MODULI; q++)
         s->noise[q] = 0.05;
     /* until a prior is set: the shifts follow the terms, including the anchor */
-    s->n_unknowns = s->n_linear;
+    s->n_unknowns = s->n_shared;
     for (size_t i = 0; i < s->n_curves; i++) {
         s->column_a[i] = (long)s->n_unknowns;
         s->value[s->n_unknowns++] = start[i] - start[s->anchor];
@@ -298,7 +304,7 @@ void spectrum_set_prior(spectrum *s, const spectrum_prior *prior)
         shift[2 * i + 1] = spectrum_b(s, i);
     }
     s->prior = prior;
-    s->n_unknowns = s->n_linear;
+    s->n_unknowns = s->n_shared;
     for (size_t i = 0; i < s->n_curves; i++) {
         s->column_a[i] = s->column_b[i] = -1;
         if (!s->given[i]) {
@@ -462,7 +468,7 @@ static void convert_to_loss_factor(const spectrum *s, double modulus[MODULI], do
 
 void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
 {
-    const size_t width = s->n_linear + 2;
+    const size_t m = s->n_shared, width = m + 2;
     s->evaluations++;
     spectrum_terms(s, value, s->term);
     for (size_t i = 0; i < s->n_curves; i++) {
@@ -470,18 +476,23 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
         const double b = spectrum_trial_b(s, value, i);
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
             double *const row[MODULI] = {s->row[STORAGE] + k * width, s->row[LOSS] + k * width};
-            double modulus[MODULI], slope[MODULI];
+            double modulus[MODULI], slope[MODULI], by[MODULI][INSTRUMENT_ERRORS];
+            double measured[MODULI] = {s->y[STORAGE][k], s->y[LOSS][k]};
             spectrum_measured_moduli(s, s->term, s->x[k] + a, modulus, slope,
                                      with_rows ? row : NULL);
             if (s->ratio)
                 convert_to_loss_factor(s, modulus, slope, with_rows ? row : NULL);
+            if (m > s->n_linear)
+                instrument_correct(s, value + s->n_linear, k, measured, by);
             for (int q = 0; q < MODULI; q++) {
                 const double w = spectrum_weight(s, k, q);
-                s->residual[q][k] = w * (s->y[q][k] - modulus[q] + (s->ratio ? 0.0 : b));
+                s->residual[q][k] = w * (measured[q] - modulus[q] + (s->ratio ? 0.0 : b));
                 if (with_rows)
                     scale_row(row[q], s->n_linear, w);
-                row[q][s->n_linear] = w * slope[q];
-                row[q][s->n_linear + 1] = s->ratio ? 0.0 : -w;
+                for (size_t u = s->n_linear; u < m; u++)
+                    row[q][u] = -w * by[q][u - s->n_linear];
+                row[q][m] = w * slope[q];
+                row[q][m + 1] = s->ratio ? 0.0 : -w;
             }
         }
         for (int q = 0; q < MODULI; q++) {
@@ -509,7 +520,7 @@ static void add_row_products(gsl_matrix *normal, size_t m, const double *row, si
 /* Adds the products of the shifts of a curve with the terms and with each other. */
 static void add_shift_products(spectrum *s, size_t curve, int q)
 {
-    const size_t m = s->n_linear, width = m + 2, n = s->first[curve + 1] - s->first[curve];
+    const size_t m = s->n_shared, width = m + 2, n = s->first[curve + 1] - s->first[curve];
     const long column[BLOCK_SIDE] = {s->column_a[curve], s->column_b[curve]};
     const double *first = s->row[q] + s->first[curve] * width;
     double *diagonal = s->normal[q].diagonal + BLOCK_DIAGONAL * curve;
@@ -529,7 +540,7 @@ static void add_shift_products(spectrum *s, size_t curve, int q)
 /* Forms the products of the rows of a modulus with each other. */
 static void form_products(spectrum *s, int q)
 {
-    const size_t m = s->n_linear, width = m + 2;
+    const size_t m = s->n_shared, width = m + 2;
     gsl_matrix *normal = s->normal[q].border;
     bordered_zero(&s->normal[q]);
     for (size_t k = 0; k < s->n; k += TILE_CACHED_ROWS) /* the last rows are zeros */
@@ -557,7 +568,7 @@ static bool products_serve(const spectrum *s)
 
 void spectrum_normal(spectrum *s)
 {
-    const size_t m = s->n_linear, width = m + 2;
+    const size_t m = s->n_shared, width = m + 2;
     const bool serve = products_serve(s);
     for (int q = 0; q < MODULI; q++) {
         if (!s->used[q])

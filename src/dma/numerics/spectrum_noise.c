@@ -383,7 +383,7 @@ void spectrum_update_curvature(spectrum *s)
 
 void spectrum_student_weights(spectrum *s)
 {
-    const size_t width = s->n_linear + 2;
+    const size_t width = s->n_shared + 2;
     for (size_t i = 0; i < s->n_curves; i++)
         for (int q = 0; q < MODULI; q++)
             for (size_t k = s->first[i]; spectrum_is_fitted(s, i, q) && k < s->first[i + 1]; k++) {

@@ -244,6 +244,8 @@ double spectrum_objective(const spectrum *s, const double *value)
     }
     if (s->ratio)
         sum += pow(level_residual(s, value), 2);
+    for (size_t i = s->n_linear; i < s->n_shared; i++)
+        sum += value[i] * value[i];
     return sum + vertical_penalty(s, value);
 }
 
@@ -275,11 +277,11 @@ static void add_vertical_prior(spectrum *s)
             w * unsmooth_residual(s, s->value, i);
         s->precision.diagonal[BLOCK_DIAGONAL * i + 2] += w;
         for (size_t j = 0; j < p->n_smooth; j++)
-            gsl_matrix_set(s->precision.side, BLOCK_SIDE * i + 1, s->n_linear + j,
+            gsl_matrix_set(s->precision.side, BLOCK_SIDE * i + 1, s->n_shared + j,
                            -w * gsl_matrix_get(p->smooth_part, i, j));
     }
     for (size_t j = 0; j < p->n_smooth; j++)
-        gsl_matrix_set(s->precision.border, s->n_linear + j, s->n_linear + j, 1.0);
+        gsl_matrix_set(s->precision.border, s->n_shared + j, s->n_shared + j, 1.0);
 }
 
 static void add_priors(spectrum *s)
@@ -297,6 +299,10 @@ static void add_priors(spectrum *s)
         *gsl_vector_ptr(s->gradient, j) -= share * off;
         for (size_t i = 0; i < s->n_terms; i++)
             *gsl_matrix_ptr(s->precision.border, j, i) += share * share;
+    }
+    for (size_t i = s->n_linear; i < s->n_shared; i++) {
+        *gsl_matrix_ptr(s->precision.border, i, i) += 1.0;
+        *gsl_vector_ptr(s->gradient, i) -= s->value[i];
     }
     add_vertical_prior(s);
 }
@@ -319,7 +325,7 @@ void spectrum_assemble(spectrum *s)
 {
     s->inverted = false;
     gsl_vector_set_zero(s->gradient);
-    s->precision.m = s->n_linear + s->prior->n_smooth;
+    s->precision.m = s->n_shared + s->prior->n_smooth;
     bordered_zero(&s->precision);
     for (int q = 0; q < MODULI; q++) {
         const double scale = 1.0 / (s->noise[q] * s->noise[q]);

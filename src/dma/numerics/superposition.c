@@ -51,7 +51,7 @@ struct columns {
                    MOST_COLUMNS]; /* products of the columns; later what the model leaves */
     double right[MOST_COLUMNS];   /* products with the residuals */
     double length[MOST_COLUMNS];  /* length of a column before it is scaled to 1 */
-    double *border[MOST_COLUMNS]; /* [n_linear] products with the terms, without the shifts */
+    double *border[MOST_COLUMNS]; /* [n_shared] products with the terms, without the shifts */
 };
 
 /* Squares of the residuals that the columns explain, which share only the terms. */
@@ -66,8 +66,8 @@ struct test_work {
     size_t n;       /* number of filled columns */
     double *column; /* [MOST_COLUMNS * 2 longest] whitened columns of one isotherm, E' then E'' */
     size_t longest; /* largest number of points of an isotherm */
-    gsl_matrix *common_products; /* [n_linear^2] products of the columns through the terms */
-    double *common_residuals;    /* [n_linear] the same with the residuals */
+    gsl_matrix *common_products; /* [n_shared^2] products of the columns through the terms */
+    double *common_residuals;    /* [n_shared] the same with the residuals */
     double *share;               /* [PARTINGS * n_terms] dependence of a term on a separation */
     explanation total;
     double squares, points, freedom;
@@ -152,7 +152,7 @@ static void add_parting_columns(struct test_work *x, size_t curve, size_t k, con
 static void add_products(const struct test_work *x, size_t curve, struct columns *to)
 {
     const spectrum *s = x->s;
-    const size_t m = s->n_linear, width = m + 2, from = s->first[curve], end = s->first[curve + 1];
+    const size_t m = s->n_shared, width = m + 2, from = s->first[curve], end = s->first[curve + 1];
     const double *diagonal = s->factor.diagonal + BLOCK_DIAGONAL * curve;
     const double *side[BLOCK_SIDE] = {
         gsl_matrix_const_ptr(s->factor.side, BLOCK_SIDE * curve, 0),
@@ -191,7 +191,7 @@ static void clear_products(const struct test_work *x, size_t n, struct columns *
 {
     c->n = n;
     for (size_t i = 0; i < n; i++) {
-        memset(c->border[i], 0, x->s->n_linear * sizeof *c->border[i]);
+        memset(c->border[i], 0, x->s->n_shared * sizeof *c->border[i]);
         memset(c->product + i * MOST_COLUMNS, 0, MOST_COLUMNS * sizeof *c->product);
         c->right[i] = c->length[i] = 0.0;
     }
@@ -205,7 +205,7 @@ static void scale_products(const struct test_work *x, struct columns *c)
     for (size_t i = 0; i < c->n; i++) {
         const double by = c->length[i] > 0.0 ? 1.0 / c->length[i] : 1.0;
         c->right[i] *= by;
-        for (size_t j = 0; j < x->s->n_linear; j++)
+        for (size_t j = 0; j < x->s->n_shared; j++)
             c->border[i][j] *= by;
         for (size_t j = 0; j < c->n; j++)
             c->product[(j > i ? j : i) * MOST_COLUMNS + (j > i ? i : j)] *= i == j ? by * by : by;
@@ -215,7 +215,7 @@ static void scale_products(const struct test_work *x, struct columns *c)
 /* Multiplies by the inverse of the factor of the border. */
 static void apply_border_inverse(const spectrum *s, double *v)
 {
-    const size_t m = s->n_linear; /* with free shifts the border has only terms */
+    const size_t m = s->n_shared; /* with free shifts the border has only terms */
     gsl_matrix_const_view root = gsl_matrix_const_submatrix(s->factor.border, 0, 0, m, m);
     dense_forward(&root.matrix, v);
 }
@@ -226,7 +226,7 @@ static void project_out_terms(const struct test_work *x, struct columns *c)
     for (size_t i = 0; i < c->n; i++) {
         apply_border_inverse(x->s, c->border[i]);
         for (size_t j = 0; j <= i; j++)
-            for (size_t k = 0; k < x->s->n_linear; k++)
+            for (size_t k = 0; k < x->s->n_shared; k++)
                 c->product[i * MOST_COLUMNS + j] -= c->border[i][k] * c->border[j][k];
     }
 }
@@ -282,12 +282,12 @@ static void orthogonalise(struct test_work *x, struct columns *c)
         }
         const double root = 1.0 / sqrt(d);
         c->right[rank] *= root;
-        for (size_t j = 0; j < x->s->n_linear; j++)
+        for (size_t j = 0; j < x->s->n_shared; j++)
             c->border[rank][j] *= root;
         for (size_t i = rank + 1; i < c->n; i++) {
             const double f = a[i * MOST_COLUMNS + rank] * root, less = -f;
             c->right[i] -= f * c->right[rank];
-            dense_add_rows(c->border[i], x->s->n_linear, &less, 1, c->border[rank], 1, 1);
+            dense_add_rows(c->border[i], x->s->n_shared, &less, 1, c->border[rank], 1, 1);
             for (size_t j = rank + 1; j < c->n; j++)
                 a[i * MOST_COLUMNS + j] -= f * a[rank * MOST_COLUMNS + j] * root;
         }
@@ -300,7 +300,7 @@ static void orthogonalise(struct test_work *x, struct columns *c)
 /* Adds the products of the orthogonal columns of an isotherm through the terms. */
 static void accumulate_common(struct test_work *x, const struct columns *c)
 {
-    const size_t m = x->s->n_linear;
+    const size_t m = x->s->n_shared;
     for (size_t i = 0; i < c->n; i++) {
         dense_add_rows(x->common_residuals, m, &c->right[i], 1, c->border[i], m, 1);
         for (size_t j = 0; j < m; j++)
@@ -313,7 +313,7 @@ static void accumulate_common(struct test_work *x, const struct columns *c)
  * common products the model leaves 1 minus the eigenvalue. */
 static void project_out_common(struct test_work *x)
 {
-    const size_t m = x->s->n_linear;
+    const size_t m = x->s->n_shared;
     gsl_vector *value = arena_vector(&x->memory, m);
     gsl_matrix *vector = arena_matrix(&x->memory, m, m);
     gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(m);
@@ -358,8 +358,8 @@ static void fill_shared_columns(struct test_work *x, struct columns *c)
 {
     const spectrum *s = x->s;
     double *share = x->share = arena_numbers(&x->memory, PARTINGS * s->n_terms);
-    double *const part[MODULI] = {arena_numbers(&x->memory, s->n_linear),
-                                  arena_numbers(&x->memory, s->n_linear)};
+    double *const part[MODULI] = {arena_numbers(&x->memory, s->n_shared),
+                                  arena_numbers(&x->memory, s->n_shared)};
     set_parting_shares(s, share);
     clear_products(x, WITH_FACTOR, c);
     for (size_t i = 0; i < s->n_curves; i++) {
@@ -477,10 +477,10 @@ static void allocate_test(struct test_work *x, struct columns *c)
         x->longest = points > x->longest ? points : x->longest;
     }
     x->column = arena_numbers(&x->memory, MOST_COLUMNS * MODULI * x->longest);
-    x->common_products = arena_matrix(&x->memory, s->n_linear, s->n_linear);
-    x->common_residuals = arena_numbers(&x->memory, s->n_linear);
+    x->common_products = arena_matrix(&x->memory, s->n_shared, s->n_shared);
+    x->common_residuals = arena_numbers(&x->memory, s->n_shared);
     for (size_t i = 0; i < MOST_COLUMNS; i++)
-        c->border[i] = arena_numbers(&x->memory, s->n_linear);
+        c->border[i] = arena_numbers(&x->memory, s->n_shared);
 }
 
 lack_of_fit superposition_test(const spectrum *s, double uncertainty)
