@@ -399,6 +399,7 @@ static void observe(int scene, const void *what, random_source *random, scene_dr
     line l = {.words = {"master", sweep}, .n = 2};
     if (measured == NULL)
         abort();
+    t->reads_part = true; /* without an isotherm that does not belong to the others */
     sample_draw(s, &p->rubber, random, measured);
     append_number(&l, "--reference-temperature", s->reference, "degC");
     append_argument(&l, "--vertical-shift", s->vertical);

@@ -38,12 +38,25 @@ static void crystallise(isotherm *at, int k, double strength)
     at->loss[k] *= pow(10, 0.008 * below);
 }
 
+/* What the instrument makes of E*: a spring in series, the inertia, a phase lag. */
+static void distort(const dma_scene *s, double omega, double *storage, double *loss)
+{
+    const double re = 1 + s->compliance * *storage, im = s->compliance * *loss,
+                 square = re * re + im * im;
+    const double soft = (*storage * re + *loss * im) / square - s->inertia * omega * omega,
+                 lost = (*loss * re - *storage * im) / square,
+                 angle = s->phase_lag * omega / (2 * M_PI * pow(10, s->lg_last));
+    *storage = soft * cos(angle) - lost * sin(angle);
+    *loss = soft * sin(angle) + lost * cos(angle);
+}
+
 static void draw_isotherm(const dma_scene *s, const rubber *r, random_source *random, int number,
-                          isotherm *to)
+                          bool bad, isotherm *to)
 {
     const bool loud = s->loud > 0 && (number == 3 || number == 8);
     const double noise[2] = {loud ? s->loud : s->noise_storage, loud ? s->loud : s->noise_loss};
-    to->true_temperature = to->temperature + s->temperature_error * random_normal(random);
+    to->true_temperature = to->temperature + s->temperature_error * random_normal(random) +
+                           (bad ? s->bad_temperature : 0);
     const double geometry = exp(s->geometry_error * random_normal(random));
     rubber_state state = dma_state(s, r, to->true_temperature);
     state.factor = pow(10, -dma_vertical(s, to->temperature)) / geometry;
@@ -53,8 +66,18 @@ static void draw_isotherm(const dma_scene *s, const rubber *r, random_source *ra
     before[1] = random_normal(random);
     for (int k = 0; k < to->n; k++) {
         double *to_modulus[2] = {&to->storage[k], &to->loss[k]};
+        to->drift[k] = s->ramp ? s->step * k / to->n : 0;
+        if (s->ramp)
+            state = dma_state(s, r, to->true_temperature + to->drift[k]);
+        if (s->ramp)
+            state.factor = pow(10, -dma_vertical(s, to->temperature + to->drift[k])) / geometry;
         state_moduli(&state, 2 * M_PI * to->frequency[k], &to->storage[k], &to->loss[k]);
         crystallise(to, k, s->crystallises);
+        if (s->relaxation)
+            to->storage[k] = state_relaxation(&state, 1 / (2 * M_PI * to->frequency[k]));
+        distort(s, 2 * M_PI * to->frequency[k], &to->storage[k], &to->loss[k]);
+        to->storage[k] *= bad ? 1 + s->bad_stiffness : 1;
+        to->loss[k] *= bad ? (1 + s->bad_stiffness) * (1 + s->bad_loss) : 1;
         for (int q = 0; q < 2; q++) {
             double e = random_normal(random);
             if (s->correlation > 0)
@@ -75,11 +98,12 @@ static void draw_isotherm(const dma_scene *s, const rubber *r, random_source *ra
 void sample_draw(const dma_scene *s, const rubber *r, random_source *random, sample *to)
 {
     to->n = 0;
-    for (int i = 0; i < ISOTHERMS_MAX && s->first + s->step * i <= s->last + 1e-9; i++) {
-        to->isotherms[i].temperature = s->first + s->step * i;
-        draw_isotherm(s, r, random, i + 1, &to->isotherms[i]);
-        to->n++;
-    }
+    for (int i = 0; to->n < ISOTHERMS_MAX && s->first + s->step * i <= s->last + 1e-9; i++)
+        for (int again = i == 4 && s->twice ? 0 : 1; again < 2; again++) {
+            isotherm *const at = &to->isotherms[to->n++];
+            at->temperature = s->first + s->step * i;
+            draw_isotherm(s, r, random, i + 1, i == 4 && again == 1, at);
+        }
 }
 
 int sample_write(const dma_scene *s, const sample *from, const char *path)
@@ -88,7 +112,9 @@ int sample_write(const dma_scene *s, const sample *from, const char *path)
     const double unit = (s->other_layout ? 1e-6 : 1) * dma_part_of_e(s);
     if (file == NULL)
         return -1;
-    if (s->other_layout)
+    if (s->relaxation)
+        fputs("T (degC),t (s),E(t) (Pa)\n", file);
+    else if (s->other_layout)
         fputs("T\tf\tE'\tE''\ndegC\tHz\tMPa\tMPa\n", file);
     else
         fputs(s->shear ? "T_C,f_Hz,G_storage_Pa,G_loss_Pa\n" : "T_C,f_Hz,E_storage_Pa,E_loss_Pa\n",
@@ -96,8 +122,13 @@ int sample_write(const dma_scene *s, const sample *from, const char *path)
     for (int i = 0; i < from->n; i++) {
         const isotherm *at = &from->isotherms[i];
         for (int k = 0; k < at->n; k++)
-            fprintf(file, s->other_layout ? "%.2f\t%.6g\t%.6g\t%.6g\n" : "%g,%.7g,%.6g,%.6g\n",
-                    at->temperature, at->frequency[k], unit * at->storage[k], unit * at->loss[k]);
+            if (s->relaxation)
+                fprintf(file, "%g,%.7g,%.6g\n", at->temperature, 1 / (2 * M_PI * at->frequency[k]),
+                        unit * at->storage[k]);
+            else
+                fprintf(file, s->other_layout ? "%.2f\t%.6g\t%.6g\t%.6g\n" : "%g,%.7g,%.6g,%.6g\n",
+                        at->temperature + at->drift[k], at->frequency[k], unit * at->storage[k],
+                        unit * at->loss[k]);
     }
     const int bad = ferror(file);
     return fclose(file) != 0 || bad ? -1 : 0;

@@ -10,6 +10,7 @@ typedef struct isotherm {
     double temperature, true_temperature; /* degC */
     int n;
     double frequency[POINTS_MAX], storage[POINTS_MAX], loss[POINTS_MAX]; /* Hz, Pa */
+    double drift[POINTS_MAX]; /* [K], of the temperature since the first point */
 } isotherm;
 
 typedef struct sample {

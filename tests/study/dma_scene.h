@@ -7,7 +7,7 @@
 #include "facts.h"
 #include "material.h"
 
-#define ISOTHERMS_MAX 40
+#define ISOTHERMS_MAX 220
 #define POINTS_MAX 64
 
 typedef struct dma_scene {
@@ -30,9 +30,17 @@ typedef struct dma_scene {
     double outliers, outlier_size;    /* share of the points, and size in ln E */
     double missing;                   /* share of the points */
     double bathtub;                   /* noise ratio of the ends and the middle of an isotherm */
+    bool ramp;                        /* the temperature rises steadily, also during a cycle */
+    bool relaxation;                  /* E(t) after a step at 1/(2 pi f), not E' and E'' */
     bool ragged;                      /* each isotherm has different frequencies */
     bool exchanged;                   /* E' in the column of E'' */
     double crystallises;              /* crystallization below 10 degC; 1 is strong */
+    double phase_lag;                 /* [rad] at the highest frequency, in proportion to it */
+    double inertia;                   /* [Pa s^2], taken off E' times the square of omega */
+    double compliance;                /* [1/Pa], of the frame, in series with the sample */
+    double bad_loss, bad_stiffness;   /* relative, E'' or both moduli of the fifth isotherm */
+    double bad_temperature;           /* [K], true minus stated, of the fifth isotherm */
+    bool twice;                       /* the fifth isotherm is measured before, without that */
 
     const char *vertical; /* value of --vertical-shift; NULL: the default */
     const char *by;       /* value of --shift-by; NULL: both moduli */

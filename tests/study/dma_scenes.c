@@ -276,6 +276,41 @@ const dma_scene dma_scenes[] = {
     {NAMED("crystallises_little", "a quarter of V5, 1 %"), VERDICT_PROMISED, .rubber = RUBBER_BROAD,
      BASE_LAW, G10, NOISE(.01), .crystallises = .25, BAD},
 
+    /* errors of the instrument, which all isotherms share */
+    {NAMED("lag", "phase lag of 1 degree at the highest frequency"), .rubber = RUBBER_BROAD,
+     BASE_LAW, G10, NOISE(.01), .phase_lag = .0175, GOOD, .contact = &contact_d1},
+    {NAMED("lag_two", "phase lag of -0.3 degrees"), .rubber = RUBBER_TWO, TWO_LAW, G13, NOISE(.015),
+     .phase_lag = -.0052, GOOD, .contact = &contact_d6},
+    {NAMED("inertia", "2 % of E' at the warmest and fastest point"), .rubber = RUBBER_BROAD,
+     BASE_LAW, G10, NOISE(.01), .inertia = .06, GOOD, .contact = &contact_d1},
+    {NAMED("frame", "frame compliance of 1 % of the strain at 1 GPa"), .rubber = RUBBER_BROAD,
+     BASE_LAW, G10, NOISE(.01), .compliance = 1e-11, GOOD, .contact = &contact_d1},
+
+    /* other kinds of measurements */
+    {NAMED("ramp_2", "temperature ramp at two frequencies"), .rubber = RUBBER_BROAD, BASE_LAW,
+     .first = -30, .last = 60, .step = 1, .lg_first = 0, .lg_last = 1, .frequencies = 2, NOISE(.01),
+     .ramp = true, .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE), .contact = &contact_d1},
+    {NAMED("ramp_4", "temperature ramp at four frequencies"), .rubber = RUBBER_BROAD, BASE_LAW,
+     .first = -30, .last = 60, .step = 2, .lg_first = -0.5, .lg_last = 1, .frequencies = 4,
+     NOISE(.01), .ramp = true, .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE),
+     .contact = &contact_d1},
+    {NAMED("relaxation", "relaxation modulus in place of E' and E''"), .rubber = RUBBER_BROAD,
+     BASE_LAW, G10, NOISE(.01), .relaxation = true, OPEN, .contact = &contact_d1},
+
+    /* one isotherm that does not belong to the others */
+    {NAMED("bad_loss", "E'' of one isotherm 40 % too high"), .rubber = RUBBER_BROAD, BASE_LAW, G10,
+     NOISE(.01), .bad_loss = .4, .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE),
+     .contact = &contact_d1},
+    {NAMED("bad_stiffness", "one isotherm 25 % too stiff"), .rubber = RUBBER_BROAD, BASE_LAW, G10,
+     NOISE(.01), .bad_stiffness = .25, .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE),
+     .contact = &contact_d1},
+    {NAMED("bad_temperature", "one isotherm 5 K warmer than stated"), .rubber = RUBBER_BROAD,
+     BASE_LAW, G10, NOISE(.01), .bad_temperature = 5,
+     .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE), .contact = &contact_d1},
+    {NAMED("twice", "one isotherm measured twice, 25 % stiffer then"), .rubber = RUBBER_BROAD,
+     BASE_LAW, G10, NOISE(.01), .bad_stiffness = .25, .twice = true,
+     .facts.right = RIGHT(YES) | RIGHT(INCONCLUSIVE), .contact = &contact_d1},
+
     /* held out: unused while the methods were chosen */
     {NAMED("held_two", "two, another law and grid, 2 %, 0.15 K"), PROMISED, .rubber = RUBBER_TWO,
      .law = {1100, -70, 0, NONE, 1, 0}, .reference = 34, .first = -10, .last = 100, .step = 11,

@@ -130,6 +130,15 @@ void state_moduli(const rubber_state *state, double omega, double *storage, doub
     *loss *= state->factor;
 }
 
+double state_relaxation(const rubber_state *state, double time)
+{
+    const rubber *r = state->rubber;
+    double sum = r->equilibrium;
+    for (size_t i = 0; i < r->n; i++)
+        sum += r->strength[i] * exp(-time / (r->tau[i] * state->a[r->process[i]]));
+    return state->factor * sum;
+}
+
 bool rubber_write(const rubber *r, const char *path)
 {
     FILE *out = fopen(path, "w");

@@ -55,6 +55,8 @@ typedef struct rubber_state {
     double a[2], factor;
 } rubber_state;
 
+/* Relaxation modulus [Pa] at the time [s], of Debye terms. */
+double state_relaxation(const rubber_state *state, double time);
 void state_moduli(const rubber_state *state, double omega, double *storage, double *loss);
 
 #endif

@@ -65,11 +65,12 @@ bool scene_draw_run(scene_draw *t, const char *const *arguments)
     clock_gettime(CLOCK_MONOTONIC, &after);
     t->draw->seconds +=
         (double)(after.tv_sec - before.tv_sec) + 1e-9 * (double)(after.tv_nsec - before.tv_nsec);
-    if (status != 0)
+    const bool partial = status == 3 && t->reads_part;
+    if (status != 0 && !partial)
         note_failure(t, status, errors);
     unlink(errors);
     t->n_files--;
-    return status == 0;
+    return status == 0 || partial;
 }
 
 void scene_draw_add(scene_draw *t, quantity q, double truth, estimate found)

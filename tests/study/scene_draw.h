@@ -40,6 +40,7 @@ typedef struct scene_draw {
     int number;
     char files[SCENE_DRAW_FILES_MAX][512];
     int n_files;
+    bool reads_part; /* an answer in part (exit status 3) is read like a whole one */
     draw *draw;
 } scene_draw;
 
