@@ -160,10 +160,13 @@ typedef enum wt_reference_choice {
 } wt_reference_choice;
 
 typedef struct wt_master_options {
-    double reference_temperature; /* [K], not necessarily that of an isotherm; NaN (default): the
-                                     middle isotherm */
-    wt_vertical_shift vertical;   /* default TIED */
-    double expansion;             /* volumetric thermal expansion in rho T [1/K], default 0 */
+    double reference_temperature;    /* [K], not necessarily that of an isotherm; NaN (default): the
+                                        middle isotherm */
+    wt_vertical_shift vertical;      /* default TIED */
+    double expansion;                /* volumetric thermal expansion in rho T [1/K], default 0 */
+    double sample_temperature_error; /* standard error of the temperature of the sample against the
+                                        stated one, the same for all isotherms [K], default 0; the
+                                        draws contain it */
     double terms_per_decade; /* terms of the spectrum per decade; NaN (default): 3, or 10 for sharp
                                 lines */
     bool liquid;             /* equilibrium modulus 0 */
@@ -231,9 +234,10 @@ typedef struct wt_posterior wt_posterior;
 typedef struct wt_master {
     wt_deformation deformation;
     wt_loading loading;
-    double reference_temperature;   /* [K] */
-    double strain_low, strain_high; /* range of the mean strain amplitudes of the isotherms; NaN if
-                                       the files state none */
+    double reference_temperature;    /* [K] */
+    double strain_low, strain_high;  /* range of the mean strain amplitudes of the isotherms; NaN if
+                                        the files state none */
+    double sample_temperature_error; /* [K], that of the options; in the draws alone */
     wt_vertical_shift vertical;
     wt_shift_route shift_route;
     double terms_per_decade; /* of the spectrum */

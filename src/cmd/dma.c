@@ -333,7 +333,8 @@ int cmd_master(int argc, char **argv)
     enum { EXPORTED = 2 };
     cmd_option_group parts[] = {
         {wt_master_job_params(), &job,
-         "reference-temperature reference-at vertical-shift expansion terms-per-decade liquid "
+         "reference-temperature reference-at vertical-shift expansion "
+         "sample-temperature-error terms-per-decade liquid "
          "shift-by exclude shift-law shift",
          0},
         {saved_params(), &saved, NULL, 0},

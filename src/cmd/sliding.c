@@ -21,7 +21,8 @@ typedef struct cmd_contact {
 
 /* Options for DMA files, which weartrack master documents. */
 #define CMD_DMA_OPTIONS                                                                            \
-    "shift-law reference-temperature vertical-shift temperature temperature-in-name units format " \
+    "shift-law reference-temperature vertical-shift sample-temperature-error temperature "         \
+    "temperature-in-name units format "                                                            \
     "sheet deformation sample conditioning"
 
 /* Option groups; CMD_SUBCOMMAND has those of the subcommand itself. */
@@ -103,7 +104,9 @@ static void cmd_sliding_init(cmd_sliding *s, cmd_option_group own)
     s->parts[CMD_WORK] = (cmd_option_group){wt_job_params(), &s->session.work, NULL, 0};
     s->parts[CMD_MASTER] =
         (cmd_option_group){wt_master_job_params(), &s->master,
-                           "poisson-ratio reference-temperature shift-law vertical-shift", 0};
+                           "poisson-ratio reference-temperature shift-law vertical-shift "
+                           "sample-temperature-error",
+                           0};
     s->parts[CMD_READ] = (cmd_option_group){
         wt_read_params(), &s->set.read,
         "temperature temperature-in-name units pixel-size height-unit format sheet deformation "

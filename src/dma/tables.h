@@ -178,6 +178,8 @@
       LABEL("Phase lag of the instrument at the highest frequency"))                               \
     X(MASTER_CURVE_KEY_INERTIA, AS(inertia), PLAIN, OPTIONAL,                                      \
       LABEL("Largest share of inertia in the storage modulus"))                                    \
+    X(MASTER_CURVE_KEY_SAMPLE_TEMPERATURE_ERROR, AS(sample_temperature_error),                     \
+      SI(TEMPERATURE_DIFFERENCE), OPTIONAL, LABEL("Error of the temperature of the sample"))       \
     X(MASTER_CURVE_KEY_FRAME_COMPLIANCE, AS(frame_compliance), SI(CREEP_COMPLIANCE), OPTIONAL,     \
       LABEL("Compliance of frame and clamps"))                                                     \
     X(MASTER_CURVE_KEY_REFERENCE_TEMPERATURE, AS(reference_temperature), SI(TEMPERATURE))          \

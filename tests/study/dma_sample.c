@@ -51,11 +51,11 @@ static void distort(const dma_scene *s, double omega, double *storage, double *l
 }
 
 static void draw_isotherm(const dma_scene *s, const rubber *r, random_source *random, int number,
-                          bool bad, isotherm *to)
+                          bool bad, double oven, isotherm *to)
 {
     const bool loud = s->loud > 0 && (number == 3 || number == 8);
     const double noise[2] = {loud ? s->loud : s->noise_storage, loud ? s->loud : s->noise_loss};
-    to->true_temperature = to->temperature + s->temperature_error * random_normal(random) +
+    to->true_temperature = to->temperature + oven + s->temperature_error * random_normal(random) +
                            (bad ? s->bad_temperature : 0);
     const double geometry = exp(s->geometry_error * random_normal(random));
     rubber_state state = dma_state(s, r, to->true_temperature);
@@ -97,12 +97,13 @@ static void draw_isotherm(const dma_scene *s, const rubber *r, random_source *ra
 
 void sample_draw(const dma_scene *s, const rubber *r, random_source *random, sample *to)
 {
+    const double oven = s->oven > 0 ? s->oven * random_normal(random) : 0;
     to->n = 0;
     for (int i = 0; to->n < ISOTHERMS_MAX && s->first + s->step * i <= s->last + 1e-9; i++)
         for (int again = i == 4 && s->twice ? 0 : 1; again < 2; again++) {
             isotherm *const at = &to->isotherms[to->n++];
             at->temperature = s->first + s->step * i;
-            draw_isotherm(s, r, random, i + 1, i == 4 && again == 1, at);
+            draw_isotherm(s, r, random, i + 1, i == 4 && again == 1, oven, at);
         }
 }
 

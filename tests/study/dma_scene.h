@@ -38,6 +38,7 @@ typedef struct dma_scene {
     double phase_lag;                 /* [rad] at the highest frequency, in proportion to it */
     double inertia;                   /* [Pa s^2], taken off E' times the square of omega */
     double compliance;                /* [1/Pa], of the frame, in series with the sample */
+    double oven;                      /* [K], true minus stated, of all isotherms; it is stated */
     double bad_loss, bad_stiffness;   /* relative, E'' or both moduli of the fifth isotherm */
     double bad_temperature;           /* [K], true minus stated, of the fifth isotherm */
     bool twice;                       /* the fifth isotherm is measured before, without that */

@@ -286,6 +286,9 @@ const dma_scene dma_scenes[] = {
     {NAMED("frame", "frame compliance of 1 % of the strain at 1 GPa"), .rubber = RUBBER_BROAD,
      BASE_LAW, G10, NOISE(.01), .compliance = 1e-11, GOOD, .contact = &contact_d1},
 
+    {NAMED("oven", "a sample that is warmer or colder than stated by 0.5 K"),
+     .rubber = RUBBER_BROAD, BASE_LAW, G10, NOISE(.01), .oven = .5, GOOD, .contact = &contact_d1},
+
     /* other kinds of measurements */
     {NAMED("ramp_2", "temperature ramp at two frequencies"), .rubber = RUBBER_BROAD, BASE_LAW,
      .first = -30, .last = 60, .step = 1, .lg_first = 0, .lg_last = 1, .frequencies = 2, NOISE(.01),

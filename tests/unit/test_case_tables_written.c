@@ -214,6 +214,9 @@ static void test_cases(void **state)
              "<decades>yes</decades>");
     run_case("<temperature>30degC", "<flash-temperature>yes</flash-temperature>"
                                     "<temperature>30degC");
+    run_case("<vertical-shift>tied</vertical-shift>",
+             "<vertical-shift>tied</vertical-shift>"
+             "<sample-temperature-error>0.5K</sample-temperature-error>");
     run_case("</dma>", "<transverse><axial-storage>1.2</axial-storage></transverse></dma>");
     run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>",
              "<observed-thickness>3um</observed-thickness>");

@@ -168,6 +168,51 @@ static void one_quantity_has_no_such_errors(void **state)
     wt_sweep_clear(&sweep);
 }
 
+/* Draws of a sample that may be warmer than stated: at any temperature the times move by the slope
+ * of the law there. */
+static void a_warmer_sample_moves_the_draws(void **state)
+{
+    (void)state;
+    enum { DRAWS = 100 };
+    static const double temperature[] = {283.15, 293.15, 323.15};
+    wt_sweep sweep = {0};
+    wt_master m[2] = {{0}};
+    dma_usual(&sweep, true, NOISE, 5);
+    wt_master_options options = wt_master_options_defaults();
+    options.reference_temperature = 293.15;
+    assert_int_equal(wt_master_fit(&sweep, &options, NULL, &m[0], NULL), WT_OK);
+    options.sample_temperature_error = 0.5;
+    assert_int_equal(wt_master_fit(&sweep, &options, NULL, &m[1], NULL), WT_OK);
+    assert_true(isnan(m[0].sample_temperature_error));
+    assert_near(m[1].sample_temperature_error, 0.5, 0.0);
+    assert_near(m[1].c2.standard_error, m[0].c2.standard_error, 1e-9);
+    double kelvin[3] = {0}, square[3] = {0};
+    for (size_t i = 0; i < DRAWS; i++) {
+        wt_prony p[2] = {{0}};
+        wt_shift_law law[2];
+        for (int k = 0; k < 2; k++)
+            assert_int_equal(wt_master_draw(&m[k], 1, i, &p[k], &law[k], NULL, NULL), WT_OK);
+        for (int t = 0; t < 3; t++) {
+            double log_time[2];
+            for (int k = 0; k < 2; k++)
+                log_time[k] =
+                    log10(p[k].relaxation_time[0]) + wt_shift_law_log_a(&law[k], temperature[t]);
+            const double slope = wt_shift_law_log_a(&law[0], temperature[t] + 0.01) -
+                                 wt_shift_law_log_a(&law[0], temperature[t] - 0.01);
+            kelvin[t] = (log_time[0] - log_time[1]) * 0.02 / slope;
+            square[t] += kelvin[t] * kelvin[t] / DRAWS;
+            assert_near_abs(kelvin[t], kelvin[0], 0.03 * fabs(kelvin[0]) + 1e-9);
+        }
+        wt_prony_clear(&p[0]);
+        wt_prony_clear(&p[1]);
+    }
+    for (int t = 0; t < 3; t++)
+        assert_near(sqrt(square[t]), 0.5, 0.2);
+    wt_master_clear(&m[0]);
+    wt_master_clear(&m[1]);
+    wt_sweep_clear(&sweep);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -176,6 +221,7 @@ int main(void)
         cmocka_unit_test(inertia_is_found_and_corrected),
         cmocka_unit_test(the_compliance_of_the_frame_widens_the_errors),
         cmocka_unit_test(one_quantity_has_no_such_errors),
+        cmocka_unit_test(a_warmer_sample_moves_the_draws),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

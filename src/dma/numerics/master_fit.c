@@ -76,6 +76,13 @@ static const wt_param rows[] = {
      .help =
          "volumetric thermal expansion in 1/K for the vertical shift of rubber elasticity; that "
          "of rubber is about 7e-4"},
+    {PARAM("sample-temperature-error", wt_master_options, sample_temperature_error,
+           WT_Q_TEMPERATURE_DIFFERENCE, FROM_TO(0, 20)),
+     .value = "DT",
+     .help =
+         SUCH_AS("standard error of the temperature of the DMA sample against the stated one, the "
+                 "same for all isotherms, ",
+                 "0.5K", "; friction and layer contain it")},
     {PARAM("terms-per-decade", wt_master_options, terms_per_decade, WT_Q_NONE, FROM_TO(2, 10)),
      .value = "X", .unset = "as the spectrum needs: 3, or 10 of sharp lines",
      .help = "of the relaxation spectrum"},

@@ -328,6 +328,9 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
     wt_master m = {.deformation = sweep->deformation,
                    .loading = sweep->loading,
                    .reference_temperature = work->reference,
+                   .sample_temperature_error = work->options.sample_temperature_error > 0.0
+                                                   ? work->options.sample_temperature_error
+                                                   : (double)NAN,
                    .vertical = work->options.vertical,
                    .shift_route = work->route,
                    .terms_per_decade = work->terms_per_decade,
@@ -425,6 +428,22 @@ void wt_master_spectrum(const wt_master *master, size_t term, wt_interval *log_d
         interval_offset(posterior_term(master->posterior, term, slope), -log(step)), 1.0 / M_LN10);
 }
 
+/* Moves a draw by the temperature difference of the oven. The law found is that of the stated
+ * temperatures, so the one of true temperatures has its reference moved; its constants are then
+ * referred to the former reference again, to which the returned log10 factor takes the times. */
+static double move_by_oven(double kelvin, wt_shift_law *law)
+{
+    const double reference = law->wlf.reference_temperature,
+                 factor = wt_shift_law_log_a(law, reference - kelvin);
+    const double c2 = law->wlf.c2 - kelvin;
+    if (isnan(factor) || (law->kind != WT_LAW_ARRHENIUS && !(c2 > 0.0)))
+        return 0.0; /* there is no law so near to its pole */
+    law->wlf.c1 *= law->wlf.c2 / c2;
+    law->wlf.c2 = c2;
+    law->joint += kelvin;
+    return factor;
+}
+
 wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, wt_prony *prony,
                          wt_shift_law *law, double *log_b, wt_error *err)
 {
@@ -435,14 +454,19 @@ wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, w
     double *b = value + p->frame.n_unknowns;
     posterior_draw(p, seed, index, value, unknown, b);
     (void)err;
-    terms_to_prony(p, value, unknown[0], posterior_end_index(seed, index), prony);
+    *law = master->law;
+    double offset = unknown[0];
+    if (master->law.kind != WT_LAW_NONE) {
+        *law = law_constants(&p->shape, unknown);
+        const double off = master->sample_temperature_error;
+        if (off > 0.0)
+            offset += move_by_oven(off * posterior_oven_draw(seed, index), law);
+    }
+    terms_to_prony(p, value, offset, posterior_end_index(seed, index), prony);
     prony->deformation = master->deformation;
     prony->reference_temperature = master->reference_temperature;
     prony->frequency_min = master->prony.frequency_min;
     prony->frequency_max = master->prony.frequency_max;
-    *law = master->law;
-    if (master->law.kind != WT_LAW_NONE)
-        *law = law_constants(&p->shape, unknown);
     for (size_t i = 0; log_b != NULL && i < master->n_shifts; i++)
         log_b[i] = master->shifts[i].determined ? b[p->curve[i]] : (double)NAN;
     free(value);

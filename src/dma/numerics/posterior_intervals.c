@@ -489,6 +489,12 @@ size_t posterior_end_index(uint64_t seed, size_t index)
     return (size_t)(at * SPECTRUM_ENDS);
 }
 
+double posterior_oven_draw(uint64_t seed, size_t index)
+{
+    struct random_stream s = {splitmix64(splitmix64(splitmix64(seed)) ^ (uint64_t)index)};
+    return draw_normal(&s);
+}
+
 /* Draws the unknowns of the law. */
 static void draw_law(const posterior_component *component, struct random_stream *s,
                      double unknown[LAW_MAX_UNKNOWNS])

@@ -163,7 +163,7 @@
     const parts = section ? [...section.children] : [], files = parts.filter((c) => c.localName === 'files');
     if (!parts.some((c) => c.localName === 'shift') || files.some((c) => c.attributes.length > 0)) return [];
     const options = ['exclude', 'shift-law', 'shift', 'reference-temperature', 'reference-at', 'vertical-shift',
-      'expansion', 'terms-per-decade', 'shift-by'];
+      'expansion', 'sample-temperature-error', 'terms-per-decade', 'shift-by'];
     return [['weartrack master', ...parts.filter((c) => options.includes(c.localName)).map((c) =>
       `--${c.localName} ${View.quote(c.textContent.trim())}`), ...(View.get('dma/liquid') === 'yes' ? ['--liquid'] : []),
     ...files.flatMap((c) => c.textContent.trim().split(/\s+/)).map(View.quote), '-o master.h5'].join(' ')];

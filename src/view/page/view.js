@@ -115,7 +115,8 @@ const View = (() => {
   /* Sections whose elements have an order in the schema. */
   const orders = {
     dma: ['poisson-ratio', 'reference-temperature', 'moduli', 'extrapolation', 'exclude', 'shift-law', 'shift',
-      'reference-at', 'vertical-shift', 'expansion', 'terms-per-decade', 'liquid', 'shift-by', 'at',
+      'reference-at', 'vertical-shift', 'expansion', 'sample-temperature-error',
+      'terms-per-decade', 'liquid', 'shift-by', 'at',
       'peak-points', 'prony-terms', 'prony-error', 'prony-long-term', 'files'],
     roughness: ['form', 'window', 'scan-lines', 'points-per-wave', 'tip-radius', 'end', 'end-slope',
       'files'],
