@@ -1,4 +1,5 @@
-/* Results of weartrack master for measured isotherms, one row for each set:
+/* Results of weartrack master for measured isotherms, one row for each set, with what the shifts
+ * become with each other isotherm as the reference and without each isotherm:
  *   study_measured WEARTRACK FOLDER [OPTION]...
  * FOLDER has the DMA files of the shared data; options go to master. Exit status 77 without them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
@@ -9,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 /* Published law lg aT = -B (1/(Tr - Tinf) - 1/(T - Tinf)), if there is one. */
@@ -29,6 +31,7 @@ static const set sets[] = {
     {"glassy polymer, 22 files", "stare/T*.txt", 0, 0},
     {"glassy polymer, tidy", "tidy/stare_E.csv", 0, 0},
     {"hydrogel", "rheocompass/cnf*.csv", 0, 0},
+    {"filled EPDM", "../dma-scans/epdm_70_tf_015p.csv", 0, 0},
 };
 
 /* rms of the shifts against the published law, without the reference isotherm. */
@@ -81,10 +84,113 @@ static void print_error(const char *path)
         fclose(words);
 }
 
+typedef struct run {
+    const char *program, *made, *errors;
+    const char *arguments[48]; /* the first n are those of all runs */
+    int n;
+} run;
+
+/* Runs master with two more arguments, or NULL. */
+static int run_master(run *r, const char *option, const char *value)
+{
+    r->arguments[r->n] = option;
+    r->arguments[r->n + 1] = value;
+    return program_run(r->program, r->arguments, r->errors);
+}
+
+static double half_width(const estimate *e)
+{
+    return (e->high - e->low) / 2;
+}
+
+/* Differences of shifts, [decade] and in half widths. */
+typedef struct spread {
+    double decades;
+    int outside; /* number of shifts outside of their interval */
+} spread;
+
+/* Adds the changes of the shifts by another reference. */
+static void add_changes(const stream *at, const stream *moved, spread *s)
+{
+    const double reference = stream_number(at, place_shift.table, PLACE_REFERENCE, NULL);
+    double offset = (double)NAN; /* shift of the former reference */
+    for (int row = 0; row < stream_rows(moved, place_shift.table); row++)
+        if (fabs(stream_cell(moved, place_shift.table, PLACE_TEMPERATURE, row) - reference) < 0.02)
+            offset = place_row(moved, &place_shift, row).value;
+    for (int row = 0; row < stream_rows(at, place_shift.table); row++) {
+        const estimate before = place_row(at, &place_shift, row),
+                       after = place_row(moved, &place_shift, row);
+        const double change = fabs(after.value - offset - before.value);
+        if (isnan(change))
+            continue;
+        s->decades = fmax(s->decades, change);
+        s->outside += change > fmax(half_width(&before), half_width(&after));
+    }
+}
+
+/* Moves the reference to each isotherm. */
+static spread move_reference(run *r, const stream *at)
+{
+    spread s = {0};
+    for (int row = 0; row < stream_rows(at, place_shift.table); row++) {
+        char kelvin[40];
+        snprintf(kelvin, sizeof kelvin, "%.6gK",
+                 stream_cell(at, place_shift.table, PLACE_TEMPERATURE, row));
+        if (isnan(place_row(at, &place_shift, row).value) ||
+            run_master(r, "--reference-temperature", kelvin) != 0)
+            continue;
+        stream *moved = stream_read(r->made);
+        if (moved != NULL)
+            add_changes(at, moved, &s);
+        stream_free(moved);
+    }
+    return s;
+}
+
+/* Leaves out each isotherm. */
+static spread leave_out(run *r)
+{
+    spread s = {0};
+    stream *left = run_master(r, "--influence", NULL) == 0 ? stream_read(r->made) : NULL;
+    for (int row = 0; left != NULL && row < stream_rows(left, PLACE_INFLUENCES); row++) {
+        const double change = stream_cell(left, PLACE_INFLUENCES, PLACE_INFLUENCE_CHANGE, row);
+        s.decades = fmax(s.decades, isnan(change) ? 0 : fabs(change));
+        s.outside += (int)stream_cell(left, PLACE_INFLUENCES, PLACE_INFLUENCE_OUTSIDE, row);
+    }
+    stream_free(left);
+    return s;
+}
+
+/* Prints a set; returns the exit status of the first run. */
+static int observe_set(run *r, const set *from)
+{
+    struct timespec before, after;
+    clock_gettime(CLOCK_MONOTONIC, &before);
+    const int status = run_master(r, NULL, NULL);
+    clock_gettime(CLOCK_MONOTONIC, &after);
+    printf("%s", from->name);
+    stream *at = status == 0 || status == 3 ? stream_read(r->made) : NULL;
+    if (at == NULL) {
+        print_error(r->errors);
+        putchar('\n');
+        return status;
+    }
+    print_set(r->made, from);
+    const spread moved = move_reference(r, at), left = leave_out(r);
+    stream_free(at);
+    printf("\t%.2g\t%d\t%.2g\t%d\t%.2g\n", moved.decades, moved.outside, left.decades, left.outside,
+           (double)(after.tv_sec - before.tv_sec) +
+               1e-9 * (double)(after.tv_nsec - before.tv_nsec));
+    return status;
+}
+
 int main(int argc, char **argv)
 {
     char folder[] = "/tmp/weartrack-measured-XXXXXX", files[1024], made[64], errors[64];
-    const char *arguments[40] = {"master", files, "-o", made, "--no-provenance"};
+    run r = {.made = made,
+             .errors = errors,
+             .arguments = {"master", files, "-o", made, "--no-provenance"},
+             .n = 5};
     int broken = 0;
     if (argc < 3 || argc > 30) {
         fputs("usage: study_measured WEARTRACK FOLDER [OPTION]...\n", stderr);
@@ -96,18 +202,14 @@ int main(int argc, char **argv)
         return 1;
     snprintf(made, sizeof made, "%s/master.tsv", folder);
     snprintf(errors, sizeof errors, "%s/errors.txt", folder);
+    r.program = argv[1];
     for (int i = 3; i < argc; i++)
-        arguments[i + 2] = argv[i];
-    puts("set\tisotherms\tplaced\tC1\thalf_width\tC2\thalf_width\trms_against_law\tverdict");
+        r.arguments[r.n++] = argv[i];
+    puts("set\tisotherms\tplaced\tC1\thalf_width\tC2\thalf_width\trms_against_law\tverdict\t"
+         "reference_moved\toutside\tleft_out\toutside\tseconds");
     for (size_t i = 0; i < sizeof sets / sizeof sets[0]; i++) {
         snprintf(files, sizeof files, "%s/%s", argv[2], sets[i].files);
-        const int status = program_run(argv[1], arguments, errors);
-        printf("%s", sets[i].name);
-        if (status == 0)
-            print_set(made, &sets[i]);
-        else
-            print_error(errors);
-        putchar('\n');
+        const int status = observe_set(&r, &sets[i]);
         broken += status != 0 && status != 1 && status != 3;
         unlink(made);
         unlink(errors);

@@ -81,6 +81,9 @@ extern const place place_settled_predicted, place_settled_measured,
 #define PLACE_PRONY_MODULUS "modulus"
 
 /* In `place_shift.table`. */
+#define PLACE_INFLUENCES "influences"
+#define PLACE_INFLUENCE_CHANGE "log_a_change"   /* [decade], of a row for each isotherm left out */
+#define PLACE_INFLUENCE_OUTSIDE "outside"       /* shifts that leave their interval then */
 #define PLACE_REFERENCE "reference_temperature" /* [K] */
 #define PLACE_CORRELATION "wlf_correlation"
 #define PLACE_LAW "law" /* name of the law; WLF without it */

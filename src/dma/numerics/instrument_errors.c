@@ -1,6 +1,5 @@
-/* Errors of the instrument that all isotherms share. Measured is E* turned by a phase lag, less the
- * inertia, in series with the compliance of frame and clamps (Menard, Dynamic Mechanical Analysis,
- * 2nd ed., 2008, chapter 4).
+/* Errors of the instrument that all isotherms share. The measured modulus is that of the sample in
+ * series with frame and clamps, less the inertia of the moving parts, with a phase lag.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/spectrum.h"
 
@@ -33,20 +32,20 @@ void instrument_correct(const spectrum *s, const double *unknown, size_t k,
                         double log_modulus[MODULI], double by[MODULI][INSTRUMENT_ERRORS])
 {
     const double omega = exp(s->x[k]), *const unit = s->instrument;
-    const double complex i = CMPLX(0.0, 1.0),
-                         measured = CMPLX(exp(s->y[STORAGE][k]), exp(s->y[LOSS][k]));
-    const double complex turned =
+    const double complex i = (double complex)I,
+                         measured = exp(s->y[STORAGE][k]) + i * exp(s->y[LOSS][k]);
+    const double complex in_phase =
         measured * cexp(-i * omega * unit[PHASE_LAG] * unknown[PHASE_LAG]);
-    const double complex heavy = turned + omega * omega * unit[INERTIA] * unknown[INERTIA];
+    const double complex with_mass = in_phase + omega * omega * unit[INERTIA] * unknown[INERTIA];
     const double complex series =
-        1.0 / (1.0 - unit[FRAME_COMPLIANCE] * unknown[FRAME_COMPLIANCE] * heavy);
+        1.0 / (1.0 - unit[FRAME_COMPLIANCE] * unknown[FRAME_COMPLIANCE] * with_mass);
     const double complex change[INSTRUMENT_ERRORS] = {
-        [PHASE_LAG] = -i * omega * unit[PHASE_LAG] * turned * series * series,
+        [PHASE_LAG] = -i * omega * unit[PHASE_LAG] * in_phase * series * series,
         [INERTIA] = omega * omega * unit[INERTIA] * series * series,
-        [FRAME_COMPLIANCE] = unit[FRAME_COMPLIANCE] * heavy * heavy * series * series};
+        [FRAME_COMPLIANCE] = unit[FRAME_COMPLIANCE] * with_mass * with_mass * series * series};
     const double modulus[MODULI] = {
-        [STORAGE] = fmax(creal(heavy * series), least_share * creal(measured)),
-        [LOSS] = fmax(cimag(heavy * series), least_share * cimag(measured))};
+        [STORAGE] = fmax(creal(with_mass * series), least_share * creal(measured)),
+        [LOSS] = fmax(cimag(with_mass * series), least_share * cimag(measured))};
     for (int q = 0; q < MODULI; q++)
         log_modulus[q] = log(modulus[q]);
     for (int u = 0; u < INSTRUMENT_ERRORS; u++) {

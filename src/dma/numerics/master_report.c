@@ -428,18 +428,20 @@ void wt_master_spectrum(const wt_master *master, size_t term, wt_interval *log_d
         interval_offset(posterior_term(master->posterior, term, slope), -log(step)), 1.0 / M_LN10);
 }
 
-/* Moves a draw by the temperature difference of the oven. The law found is that of the stated
+/* Moves a law to a sample that is warmer than stated. The law found is that of the stated
  * temperatures, so the one of true temperatures has its reference moved; its constants are then
  * referred to the former reference again, to which the returned log10 factor takes the times. */
-static double move_by_oven(double kelvin, wt_shift_law *law)
+static double move_to_warmer_sample(double kelvin, wt_shift_law *law)
 {
     const double reference = law->wlf.reference_temperature,
                  factor = wt_shift_law_log_a(law, reference - kelvin);
     const double c2 = law->wlf.c2 - kelvin;
     if (isnan(factor) || (law->kind != WT_LAW_ARRHENIUS && !(c2 > 0.0)))
         return 0.0; /* there is no law so near to its pole */
-    law->wlf.c1 *= law->wlf.c2 / c2;
-    law->wlf.c2 = c2;
+    if (law->kind != WT_LAW_ARRHENIUS) {
+        law->wlf.c1 *= law->wlf.c2 / c2;
+        law->wlf.c2 = c2;
+    }
     law->joint += kelvin;
     return factor;
 }
@@ -460,7 +462,7 @@ wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, w
         *law = law_constants(&p->shape, unknown);
         const double off = master->sample_temperature_error;
         if (off > 0.0)
-            offset += move_by_oven(off * posterior_oven_draw(seed, index), law);
+            offset += move_to_warmer_sample(off * posterior_temperature_draw(seed, index), law);
     }
     terms_to_prony(p, value, offset, posterior_end_index(seed, index), prony);
     prony->deformation = master->deformation;

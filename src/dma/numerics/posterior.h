@@ -127,9 +127,9 @@ void posterior_moduli(const wt_posterior *p, double x, bool measured,
 /* ln of the equilibrium modulus, averaged over the end of the spectrum. */
 wt_interval posterior_equilibrium(const wt_posterior *p);
 /* Returns the index of the end of the spectrum in a draw. */
-/* Normal deviate of the temperature difference of the oven in a draw. */
-double posterior_oven_draw(uint64_t seed, size_t index);
 size_t posterior_end_index(uint64_t seed, size_t index);
+/* Returns the normal deviate of the temperature of the sample in a draw. */
+double posterior_temperature_draw(uint64_t seed, size_t index);
 /* ln of the spectrum at the time of a term with the mean offset of the law; slope: d ln/d ln
  * tau. */
 wt_interval posterior_term(const wt_posterior *p, size_t term, double slope);

@@ -489,7 +489,7 @@ size_t posterior_end_index(uint64_t seed, size_t index)
     return (size_t)(at * SPECTRUM_ENDS);
 }
 
-double posterior_oven_draw(uint64_t seed, size_t index)
+double posterior_temperature_draw(uint64_t seed, size_t index)
 {
     struct random_stream s = {splitmix64(splitmix64(splitmix64(seed)) ^ (uint64_t)index)};
     return draw_normal(&s);
