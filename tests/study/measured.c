@@ -1,6 +1,7 @@
-/* Results of weartrack master for measured isotherms, one row for each set, with what the shifts
- * become with each other isotherm as the reference and without each isotherm:
- *   study_measured WEARTRACK FOLDER [OPTION]...
+/* Results of weartrack master for measured isotherms, one row for each set:
+ *   study_measured WEARTRACK FOLDER [--choices] [OPTION]...
+ * With --choices also what the shifts become with each other isotherm as the reference, and without
+ * each isotherm.
  * FOLDER has the DMA files of the shared data; options go to master. Exit status 77 without them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "places.h"
@@ -88,6 +89,7 @@ typedef struct run {
     const char *program, *made, *errors;
     const char *arguments[48]; /* the first n are those of all runs */
     int n;
+    bool choices; /* the reference is moved, and isotherms are left out */
 } run;
 
 /* Runs master with two more arguments, or NULL. */
@@ -176,7 +178,11 @@ static int observe_set(run *r, const set *from)
         return status;
     }
     print_set(r->made, from);
-    const spread moved = move_reference(r, at), left = leave_out(r);
+    spread moved = {(double)NAN, 0}, left = moved;
+    if (r->choices) {
+        moved = move_reference(r, at);
+        left = leave_out(r);
+    }
     stream_free(at);
     printf("\t%.2g\t%d\t%.2g\t%d\t%.2g\n", moved.decades, moved.outside, left.decades, left.outside,
            (double)(after.tv_sec - before.tv_sec) +
@@ -193,7 +199,7 @@ int main(int argc, char **argv)
              .n = 5};
     int broken = 0;
     if (argc < 3 || argc > 30) {
-        fputs("usage: study_measured WEARTRACK FOLDER [OPTION]...\n", stderr);
+        fputs("usage: study_measured WEARTRACK FOLDER [--choices] [OPTION]...\n", stderr);
         return 2;
     }
     if (access(argv[2], R_OK) != 0)
@@ -203,7 +209,8 @@ int main(int argc, char **argv)
     snprintf(made, sizeof made, "%s/master.tsv", folder);
     snprintf(errors, sizeof errors, "%s/errors.txt", folder);
     r.program = argv[1];
-    for (int i = 3; i < argc; i++)
+    r.choices = argc > 3 && strcmp(argv[3], "--choices") == 0;
+    for (int i = r.choices ? 4 : 3; i < argc; i++)
         r.arguments[r.n++] = argv[i];
     puts("set\tisotherms\tplaced\tC1\thalf_width\tC2\thalf_width\trms_against_law\tverdict\t"
          "reference_moved\toutside\tleft_out\toutside\tseconds");
