@@ -19,9 +19,9 @@ static const double least_span = 5, ramp_turn = 2;
 /* Minimum share of the temperature change that occurs within a cycle of frequencies. It is near 0
  * for isotherms and above one half in a ramp. */
 static const double least_drift = 0.25;
-/* Cycles of fewer frequencies are no isotherms, whose shifts need four points, but steps of a
- * temperature sweep. */
-enum { ISOTHERM_POINTS_MIN = 4 };
+/* Cycles of fewer frequencies in the mean are no isotherms, whose shifts need four points, but
+ * steps of a temperature sweep. Single points may be missing. */
+static const double isotherm_points_min = 3.5;
 
 /* Adds a temperature sweep. With `turns` there was heating and cooling, and the source states the
  * direction. */
@@ -142,7 +142,7 @@ static bool cycles_are_sweeps(const sweep_builder *b, const size_t *rows, size_t
     }
     const bool drifts = within > least_drift * between;
     return turns >= RAMP_POINTS_MIN && between >= least_span &&
-           (drifts || n < ISOTHERM_POINTS_MIN * turns);
+           (drifts || (double)n < isotherm_points_min * (double)turns);
 }
 
 /* Extracts the sweeps of cycled frequencies, one for each frequency. `chosen` has space for n
