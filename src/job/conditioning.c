@@ -98,10 +98,9 @@ static void check_frequencies(const wt_isotherm *t, wt_log *log)
 
 /* Temperatures of one set point differ by less in all instruments of the source formats. */
 static const double same_temperature = 0.5; /* [K] */
-/* Largest share of the mean step of at least so many isotherms, because their steps may be as small
- * as that. */
-static const double same_share = 0.5;
-enum { STEPS_MIN = 5 };
+/* Isotherms may be measured in steps as small as that: two of one temperature are nearer than this
+ * share of the mean step, unless all are within the range of one set point [K]. */
+static const double same_share = 0.5, one_set_point = 2.5;
 /* A clamp that is closed again changes a modulus by 3 to 5 % (ISO 6721-1). */
 static const double same_modulus = 0.05;
 
@@ -128,12 +127,11 @@ static void check_repeated(const wt_sweep *sweep, wt_log *log)
     size_t n = 0;
     double largest = 0;
     const wt_isotherm *first = NULL, *const all = sweep->isotherms;
+    const size_t steps = sweep->n_isotherms > 0 ? sweep->n_isotherms - 1 : 0;
+    const double range = steps > 0 ? fabs(all[steps].temperature - all[0].temperature) : 0;
     double nearest = same_temperature;
-    if (sweep->n_isotherms > STEPS_MIN) {
-        const size_t steps = sweep->n_isotherms - 1;
-        const double range = fabs(all[steps].temperature - all[0].temperature);
+    if (range > one_set_point)
         nearest = fmin(nearest, same_share * range / (double)steps);
-    }
     for (size_t i = 0; i + 1 < sweep->n_isotherms; i++) {
         const wt_isotherm *const a = &sweep->isotherms[i], *const b = a + 1;
         const double difference = modulus_difference(a, b);
