@@ -237,7 +237,7 @@ typedef struct wt_master {
     double reference_temperature;    /* [K] */
     double strain_low, strain_high;  /* range of the mean strain amplitudes of the isotherms; NaN if
                                         the files state none */
-    double sample_temperature_error; /* [K], that of the options; in the draws alone */
+    double sample_temperature_error; /* [K], stated, in the draws alone; NaN: none */
     wt_vertical_shift vertical;
     wt_shift_route shift_route;
     double terms_per_decade; /* of the spectrum */

@@ -176,7 +176,7 @@
       LABEL("Correlation of the noise of neighbouring points"))                                    \
     X(MASTER_CURVE_KEY_PHASE_LAG, AS(phase_lag), SI(ANGLE), OPTIONAL,                              \
       LABEL("Phase lag of the instrument at the highest frequency"))                               \
-    X(MASTER_CURVE_KEY_INERTIA, AS(inertia), PLAIN, OPTIONAL,                                      \
+    X(MASTER_CURVE_KEY_INERTIA, AS(inertia), NUMBER, OPTIONAL,                                     \
       LABEL("Largest share of inertia in the storage modulus"))                                    \
     X(MASTER_CURVE_KEY_SAMPLE_TEMPERATURE_ERROR, AS(sample_temperature_error),                     \
       SI(TEMPERATURE_DIFFERENCE), OPTIONAL, LABEL("Error of the temperature of the sample"))       \

@@ -6,15 +6,22 @@
 #include <complex.h>
 #include <math.h>
 
-/* Makers state phase angles to 0.1 to 0.5 degrees; the lag has the larger one at the highest
- * frequency. Instruments correct inertia and compliance for nominal values. What is left is assumed
- * to be 3 % of the storage modulus where inertia takes most, and 1 % of the strain of a sample of
- * 1 GPa. Isotherms hardly show the compliance, because a spring in series with a viscoelastic
- * sample is a viscoelastic sample; its error is that of the prior. */
+/* Assumed sizes of what the corrections of an instrument leave: half a degree of phase at the
+ * highest frequency, 3 % of the storage modulus where inertia takes most, and 1 % of the strain of
+ * a sample of 1 GPa. Isotherms hardly show the compliance, because a spring in series with a
+ * viscoelastic sample is a viscoelastic sample; its error is that of the prior. */
 const double instrument_deviation[INSTRUMENT_ERRORS] = {
     [PHASE_LAG] = 0.5 * M_PI / 180.0, [INERTIA] = 0.03, [FRAME_COMPLIANCE] = 0.01 / 1e9};
 /* Least share of a measured modulus that is left of it: a step of the fit must not reach zero. */
 static const double least_share = 0.1;
+
+size_t instrument_unknowns(const shift_set *set)
+{
+    return set->loading == WT_OSCILLATION && set->quantity == WT_SHIFT_MODULI &&
+                   !set->without_instrument
+               ? INSTRUMENT_ERRORS
+               : 0;
+}
 
 void instrument_set_priors(spectrum *s)
 {

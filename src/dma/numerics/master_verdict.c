@@ -206,7 +206,7 @@ static void warn_of_note(const master_work *work, const wt_master *m, size_t i, 
                    m->shifts[last].temperature - WT_ZERO_CELSIUS, m->shifts[i].note);
 }
 
-/* Standard errors from which an error of the instrument is told: one false note in 400 sets. */
+/* Standard errors from which an error of the instrument is told: one false note in 370 sets. */
 static const double told_errors = 3.0;
 
 static bool is_told(wt_interval x)
@@ -219,11 +219,11 @@ static bool is_told(wt_interval x)
 static void note_instrument(const master_work *work, const wt_master *m, wt_log *log)
 {
     const double degree = M_PI / 180.0;
-    const char *const corrected = m->superposition == WT_SUPERPOSITION_FAILS
-                                      ? "shifts, law and spectrum are corrected for it, although "
-                                        "superposition fails, so that "
-                                        "the material may be the cause"
-                                      : "shifts, law and spectrum are corrected for it";
+    const char *const corrected =
+        m->superposition == WT_SUPERPOSITION_FAILS
+            ? "shifts, law and spectrum are corrected for it; as superposition fails, the material "
+              "may be the cause instead"
+            : "shifts, law and spectrum are corrected for it";
     double stiffest = 0.0;
     for (size_t i = 0; i < m->n; i++)
         stiffest = fmax(stiffest, pow(10.0, m->log_storage[i]));
@@ -292,6 +292,10 @@ void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master 
                    "does not describe this material, and results at other temperatures are "
                    "wrong by as much",
                    m->law_rms);
+    if (m->law.kind == WT_LAW_NONE && m->sample_temperature_error > 0.0)
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "without a law of the shift factors, the error of the temperature of the sample "
+                   "is in no result");
     if (m->law.kind == WT_LAW_NONE && m->n_shifts > 1)
         wt_log_add(log, WT_WARNING, NULL, NULL, "no law of the shift factors: %s",
                    m->no_law_reason);

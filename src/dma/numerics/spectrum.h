@@ -178,7 +178,9 @@ void spectrum_terms(const spectrum *s, const double *value, double *term); /* [n
 /* Prior standard deviations: [rad] at the highest frequency; share of E' where inertia takes most;
  * [1/Pa]. */
 extern const double instrument_deviation[INSTRUMENT_ERRORS];
-/* Sets the priors of the errors. Moduli of a step, or one quantity alone, have none. */
+/* Returns their number for a set. Moduli of a step, or one quantity alone, have none. */
+size_t instrument_unknowns(const shift_set *set);
+/* Sets the units of the unknowns from the data. */
 void instrument_set_priors(spectrum *s);
 static inline size_t instrument_count(const spectrum *s)
 {

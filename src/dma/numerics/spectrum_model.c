@@ -216,10 +216,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     s->n_measured = (size_t)ceil((high + fast - low) * terms_per_decade);
     s->n_terms = 1 + s->n_measured + (size_t)ceil(slow * terms_per_decade);
     s->n_linear = s->n_terms + (liquid ? 0 : 1);
-    s->n_shared = s->n_linear;
-    if (set->loading == WT_OSCILLATION && set->quantity == WT_SHIFT_MODULI &&
-        !set->without_instrument)
-        s->n_shared += INSTRUMENT_ERRORS;
+    s->n_shared = s->n_linear + instrument_unknowns(set);
     s->log_tau = -(high + fast) * M_LN10;
     allocate_spectrum(s);
     double *start = s->candidate; /* a, then b */
@@ -246,8 +243,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
         s->kappa[curve++] = 1.0;
     }
     s->first[curve] = k;
-    if (instrument_count(s) > 0)
-        instrument_set_priors(s);
+    instrument_set_priors(s);
     set_start_terms(s, start, start + s->n_curves);
     s->smoothness = 0.3;
     for (size_t j = 0; j < s->n_terms; j++) {
