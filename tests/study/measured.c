@@ -100,15 +100,21 @@ static int run_master(run *r, const char *option, const char *value)
     return program_run(r->program, r->arguments, r->errors);
 }
 
+/* Wholly or in part. */
+static bool answered(int status)
+{
+    return status == 0 || status == 3;
+}
+
 static double half_width(const estimate *e)
 {
     return (e->high - e->low) / 2;
 }
 
-/* Differences of shifts, [decade] and in half widths. */
+/* Changes of shifts; NaN if none is known. */
 typedef struct spread {
-    double decades;
-    int outside; /* number of shifts outside of their interval */
+    double decades; /* the largest */
+    int outside;    /* number of shifts outside of their interval */
 } spread;
 
 /* Adds the changes of the shifts by another reference. */
@@ -133,13 +139,13 @@ static void add_changes(const stream *at, const stream *moved, spread *s)
 /* Moves the reference to each isotherm. */
 static spread move_reference(run *r, const stream *at)
 {
-    spread s = {0};
+    spread s = {(double)NAN, 0};
     for (int row = 0; row < stream_rows(at, place_shift.table); row++) {
         char kelvin[40];
         snprintf(kelvin, sizeof kelvin, "%.6gK",
                  stream_cell(at, place_shift.table, PLACE_TEMPERATURE, row));
         if (isnan(place_row(at, &place_shift, row).value) ||
-            run_master(r, "--reference-temperature", kelvin) != 0)
+            !answered(run_master(r, "--reference-temperature", kelvin)))
             continue;
         stream *moved = stream_read(r->made);
         if (moved != NULL)
@@ -152,11 +158,11 @@ static spread move_reference(run *r, const stream *at)
 /* Leaves out each isotherm. */
 static spread leave_out(run *r)
 {
-    spread s = {0};
-    stream *left = run_master(r, "--influence", NULL) == 0 ? stream_read(r->made) : NULL;
+    spread s = {(double)NAN, 0};
+    stream *left = answered(run_master(r, "--influence", NULL)) ? stream_read(r->made) : NULL;
     for (int row = 0; left != NULL && row < stream_rows(left, PLACE_INFLUENCES); row++) {
         const double change = stream_cell(left, PLACE_INFLUENCES, PLACE_INFLUENCE_CHANGE, row);
-        s.decades = fmax(s.decades, isnan(change) ? 0 : fabs(change));
+        s.decades = fmax(s.decades, fabs(change));
         s.outside += (int)stream_cell(left, PLACE_INFLUENCES, PLACE_INFLUENCE_OUTSIDE, row);
     }
     stream_free(left);
@@ -171,7 +177,7 @@ static int observe_set(run *r, const set *from)
     const int status = run_master(r, NULL, NULL);
     clock_gettime(CLOCK_MONOTONIC, &after);
     printf("%s", from->name);
-    stream *at = status == 0 || status == 3 ? stream_read(r->made) : NULL;
+    stream *at = answered(status) ? stream_read(r->made) : NULL;
     if (at == NULL) {
         print_error(r->errors);
         putchar('\n');
