@@ -165,8 +165,8 @@ typedef struct wt_master_options {
     wt_vertical_shift vertical;      /* default TIED */
     double expansion;                /* volumetric thermal expansion in rho T [1/K], default 0 */
     double sample_temperature_error; /* standard error of the temperature of the sample against the
-                                        stated one, the same for all isotherms [K], default 0; the
-                                        draws contain it */
+                                        stated one, the same for all isotherms [K], default 0.5;
+                                        the draws contain it */
     double terms_per_decade; /* terms of the spectrum per decade; NaN (default): 3, or 10 for sharp
                                 lines */
     bool liquid;             /* equilibrium modulus 0 */
@@ -237,7 +237,7 @@ typedef struct wt_master {
     double reference_temperature;    /* [K] */
     double strain_low, strain_high;  /* range of the mean strain amplitudes of the isotherms; NaN if
                                         the files state none */
-    double sample_temperature_error; /* [K], stated, in the draws alone; NaN: none */
+    double sample_temperature_error; /* [K], in the draws alone; NaN: none */
     wt_vertical_shift vertical;
     wt_shift_route shift_route;
     double terms_per_decade; /* of the spectrum */

@@ -100,6 +100,7 @@ static void draw_part(figure_drawing *d, const char *part)
         span_add_section(&time, d, section[i], 0, true);
         span_add_section(&error, d, section[i], 1, true);
         span_add_section(&error, d, section[i], 2, true);
+        span_add_section(&error, d, section[i], 3, true);
     }
     if (span_is_empty(&time) || span_is_empty(&error))
         return;

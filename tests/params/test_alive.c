@@ -24,7 +24,7 @@ static const struct {
 } moved[] = {
     {"reference-temperature", "35degC", NULL, NULL},
     {"terms-per-decade", "2.7", NULL, NULL},
-    {"sample-temperature-error", "0.5K", NULL, NULL},
+    {"sample-temperature-error", "2K", NULL, NULL},
     {"exclude", "temperature:..0degC", NULL, NULL},
     {"shift", "30degC=-0.6", NULL, NULL},
     {"shift-law", "wlf:reference-temperature=20degC,c1=9,c2=100K", NULL, NULL},

@@ -216,7 +216,7 @@ static void test_cases(void **state)
                                     "<temperature>30degC");
     run_case("<vertical-shift>tied</vertical-shift>",
              "<vertical-shift>tied</vertical-shift>"
-             "<sample-temperature-error>0.5K</sample-temperature-error>");
+             "<sample-temperature-error>0.7K</sample-temperature-error>");
     run_case("</dma>", "<transverse><axial-storage>1.2</axial-storage></transverse></dma>");
     run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>",
              "<observed-thickness>3um</observed-thickness>");

@@ -72,6 +72,7 @@ static int make(void **state)
     job.sets = &set;
     job.n_sets = 1;
     job.fit.reference_temperature = REFERENCE;
+    job.fit.sample_temperature_error = 0; /* the temperatures are true */
     job.poisson_ratio = 0.45;
     if (wt_master_compute(&job, &common, &tables, &rubber, &err) == WT_OK)
         return 0;

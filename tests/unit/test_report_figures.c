@@ -588,7 +588,7 @@ static void test_numbers_of_captions(void **state)
         {"friction", " numerical error of the hysteresis part: 0.0020 %, not in the bands."},
         {"friction", " Up to 4.0 % of the hysteresis part comes"},
         {"layer", " Balance thickness 3.16 µm (95 %: 1.60 to 4.72). Incubation time 1.20 s (95 %: "
-                  "0.896 to 1.51). Relaxation time 46.5 s (95 %: 14.8 to 78.2)."},
+                  "0.882 to 1.53). Relaxation time 46.5 s (95 %: 14.8 to 78.2)."},
     };
     for (size_t i = 0; i < sizeof captions / sizeof *captions; i++)
         check_caption("out", captions[i][0], captions[i][1]);

@@ -12,7 +12,8 @@ typedef struct answer_context {
     result_value_tables values;
     table_view failures;
     table_view indentation[2]; /* bulk, track */
-    table_view modulus_depth, dma_comparison, shift_factors, roughness, softening, flash, wear;
+    table_view modulus_depth, dma_comparison, shift_factors, master_curve, roughness, softening,
+        flash, wear;
 } answer_context;
 
 /* ---- limits.c: what the numbers of a result leave out, assume, or make doubtful. */

@@ -23,6 +23,7 @@ wt_status answer_context_bind(answer_context *context, const wt_result *result, 
         {&modulus_depth_schema, "", &context->modulus_depth},
         {&dma_comparison_schema, "", &context->dma_comparison},
         {&shift_factors_schema, "", &context->shift_factors},
+        {&master_curve_schema, "", &context->master_curve},
         {&softening_schema, "", &context->softening},
         {&flash_schema, "", &context->flash},
         {&roughness_schema, "", &context->roughness},
@@ -231,6 +232,13 @@ static void add_material_limits(limit_list *list, const answer_context *context)
         add(list, WT_WARNING, LIMITS_MATERIAL,
             "The data do not determine the shift of %zu of %zu isotherms; they are left out.",
             undetermined, shifts->n_rows);
+    const double off =
+        master_curve_value(&context->master_curve, MASTER_CURVE_KEY_SAMPLE_TEMPERATURE_ERROR).value;
+    if (off > 0)
+        add(list, WT_NOTE, LIMITS_MATERIAL,
+            "The temperature of the DMA sample has a standard error of %s, which is assumed unless "
+            "it is stated (--sample-temperature-error).",
+            format_with_unit(off, "K").text);
 }
 
 /* The interval of a value excludes the model and what has no stated error. */

@@ -52,10 +52,15 @@ static const double lines_smooth = 5.0, noise_ratio_limit = 1.3, noise_significa
  * reduce the noise of one of two moduli by noise_ratio_limit they leave 0.8. */
 static const double most_promising = 0.9;
 
+/* [K]; between the tolerances of platinum thermometers (0.15 K, IEC 60751) and of thermocouples
+ * (1.5 K, IEC 60584), which are placed beside the sample. */
+static const double assumed_temperature_error = 0.5;
+
 wt_master_options wt_master_options_defaults(void)
 {
     return (wt_master_options){.reference_temperature = (double)NAN,
                                .vertical = WT_VERTICAL_TIED,
+                               .sample_temperature_error = assumed_temperature_error,
                                .terms_per_decade = (double)NAN};
 }
 
@@ -82,7 +87,7 @@ static const wt_param rows[] = {
      .help =
          SUCH_AS("standard error of the temperature of the DMA sample against the stated one, the "
                  "same for all isotherms, ",
-                 "0.5K", "; friction and layer contain it")},
+                 "0.2K", "; friction and layer contain it")},
     {PARAM("terms-per-decade", wt_master_options, terms_per_decade, WT_Q_NONE, FROM_TO(2, 10)),
      .value = "X", .unset = "as the spectrum needs: 3, or 10 of sharp lines",
      .help = "of the relaxation spectrum"},

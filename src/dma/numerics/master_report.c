@@ -328,9 +328,7 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
     wt_master m = {.deformation = sweep->deformation,
                    .loading = sweep->loading,
                    .reference_temperature = work->reference,
-                   .sample_temperature_error = work->options.sample_temperature_error > 0.0
-                                                   ? work->options.sample_temperature_error
-                                                   : (double)NAN,
+                   .sample_temperature_error = (double)NAN,
                    .vertical = work->options.vertical,
                    .shift_route = work->route,
                    .terms_per_decade = work->terms_per_decade,
@@ -346,6 +344,8 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
         m.has_converged = m.has_converged && work->posterior->components[i].cell->has_converged;
     master_fill_shifts(work, &m);
     fill_shift_law(work->posterior, &m);
+    if (m.law.kind != WT_LAW_NONE && work->options.sample_temperature_error > 0.0)
+        m.sample_temperature_error = work->options.sample_temperature_error;
     m.phase_lag = posterior_instrument(work->posterior, PHASE_LAG);
     m.inertia = posterior_instrument(work->posterior, INERTIA);
     m.frame_compliance = posterior_instrument(work->posterior, FRAME_COMPLIANCE);

@@ -292,8 +292,8 @@ void master_add_notes(const master_work *work, const wt_sweep *sweep, wt_master 
                    "does not describe this material, and results at other temperatures are "
                    "wrong by as much",
                    m->law_rms);
-    if (m->law.kind == WT_LAW_NONE && m->sample_temperature_error > 0.0)
-        wt_log_add(log, WT_WARNING, NULL, NULL,
+    if (m->law.kind == WT_LAW_NONE && work->options.sample_temperature_error > 0.0)
+        wt_log_add(log, WT_NOTE, NULL, NULL,
                    "without a law of the shift factors, the error of the temperature of the sample "
                    "is in no result");
     if (m->law.kind == WT_LAW_NONE && m->n_shifts > 1)
