@@ -232,12 +232,16 @@ static void add_material_limits(limit_list *list, const answer_context *context)
         add(list, WT_WARNING, LIMITS_MATERIAL,
             "The data do not determine the shift of %zu of %zu isotherms; they are left out.",
             undetermined, shifts->n_rows);
+}
+
+static void add_assumed_temperature(limit_list *list, const answer_context *context)
+{
     const double off =
         master_curve_value(&context->master_curve, MASTER_CURVE_KEY_SAMPLE_TEMPERATURE_ERROR).value;
     if (off > 0)
         add(list, WT_NOTE, LIMITS_MATERIAL,
-            "The temperature of the DMA sample has a standard error of %s, which is assumed unless "
-            "it is stated (--sample-temperature-error).",
+            "The standard error of the temperature of the DMA sample is %s, which is assumed "
+            "unless it is stated (--sample-temperature-error).",
             format_with_unit(off, "K").text);
 }
 
@@ -384,6 +388,7 @@ static limit_list find_limits(const answer_context *context)
     add_friction_limits(&list, context);
     add_comparison_limits(&list, context);
     add_depth_limits(&list, context);
+    add_assumed_temperature(&list, context);
     return list;
 }
 
