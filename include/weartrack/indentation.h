@@ -28,15 +28,15 @@ typedef enum wt_tip_shape {
 
 typedef struct wt_tip {
     wt_tip_shape shape;
-    unsigned sides;           /* sides of the pyramid, >= 3; 0 = blunted cone (m = 1) */
-    double half_angle;        /* axis to FACE [rad] */
-    double radius;            /* radius of cap, sphere or punch [m]; 0 only if b is 0 */
-    double transition_radius; /* radius b where the cap meets the faces [m]; 0 = sharp */
-    double sample_thickness; /* thickness of rubber on a rigid base [m]; 0 (default) = half-space */
-    bool unbonded;           /* the rubber slides on that base */
-    double half_angle_error; /* standard errors [rad] and [m]; 0 (default) = not stated. The laws do
-                                not */
-    double radius_error;     /* use them: they are common to all curves of a group */
+    unsigned sides;               /* sides of the pyramid, >= 3; 0 = blunted cone (m = 1) */
+    double half_angle;            /* axis to FACE [rad] */
+    double radius;                /* radius of cap, sphere or punch [m]; 0 only if b is 0 */
+    double transition_radius;     /* radius b where the cap meets the faces [m]; 0 = sharp */
+    wt_estimate sample_thickness; /* of rubber on a rigid base [m]; 0 (default) = half-space */
+    bool unbonded;                /* the rubber slides on that base */
+    /* Standard errors [rad] and [m]; 0 (default) = not stated. The laws do not use them: they are
+     * common to all curves of a group. */
+    double half_angle_error, radius_error;
 } wt_tip;
 
 /* Returns b = R cos(theta), for a sphere tangent to the faces (the default of common AFM programs).

@@ -63,6 +63,9 @@ int cmd_indent(int argc, char **argv)
     wt_indent_tables tables = {0};
     wt_table *groups = NULL, *budget = NULL;
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !cmd_begin_files(&s, &set) ||
+        (job.thick_sample && job.tip.sample_thickness.value > 0 &&
+         !cmd_usage_error(&s, "the sample is stated as thick and as thin; leave out --thick-sample "
+                              "or --sample-thickness")) ||
         (own.master == NULL && parts[PART_DMA].given != 0 &&
          !cmd_usage_error(&s, "--sample goes with --master")))
         return cmd_session_free(&s);

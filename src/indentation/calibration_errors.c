@@ -58,6 +58,9 @@ static const double detector_range = 10, usual_sensitivity = 50e-9, largest_sign
  * taken as two standard errors. */
 static const double assumed_shallowness = 0.05;
 
+/* Relative standard error of a stated thickness, as that of the radius. */
+static const double assumed_thickness = 0.1;
+
 /* Shift of the linearity of piezo and detector. Their effect is linear, and a smaller shift is lost
  * in the tolerance of a fit. */
 static const double linearity_step = 0.01;
@@ -79,7 +82,9 @@ static wt_tip shifted_tip(const wt_tip *tip, wt_systematic_source source, double
     const bool is_default =
         tip->transition_radius > 0 &&
         tip->transition_radius == tip_default_transition(tip->radius, tip->half_angle, tip->sides);
-    *(source == WT_SYSTEMATIC_RADIUS ? &shifted.radius : &shifted.half_angle) *= factor;
+    *(source == WT_SYSTEMATIC_THICKNESS ? &shifted.sample_thickness.value
+      : source == WT_SYSTEMATIC_RADIUS  ? &shifted.radius
+                                        : &shifted.half_angle) *= factor;
     /* A larger transition radius would make the tip concave. */
     const double largest =
         tip_largest_transition(shifted.radius, shifted.half_angle, shifted.sides);
@@ -95,6 +100,7 @@ static wt_tip shifted_tip(const wt_tip *tip, wt_systematic_source source, double
 void calibration_errors_begin(const wt_indent_job *job, calibration_errors *to)
 {
     const wt_tip *tip = &job->tip;
+    const bool is_thin = tip->sample_thickness.value > 0;
     const wt_estimate k = job->spring_constant, s = job->sensitivity;
     *to = (calibration_errors){
         .error = {[WT_SYSTEMATIC_SPRING_CONSTANT] = first_stated(
@@ -106,13 +112,14 @@ void calibration_errors_begin(const wt_indent_job *job, calibration_errors *to)
                   [WT_SYSTEMATIC_RADIUS] = stated_relative_error(tip->radius, tip->radius_error),
                   [WT_SYSTEMATIC_PIEZO] = first_stated((double)NAN, job->piezo_error),
                   [WT_SYSTEMATIC_DETECTOR] = first_stated((double)NAN, job->detector_error),
-                  [WT_SYSTEMATIC_THICKNESS] = (double)NAN},
+                  [WT_SYSTEMATIC_THICKNESS] = stated_relative_error(
+                      tip->sample_thickness.value, tip->sample_thickness.standard_error)},
         .assumed = {[WT_SYSTEMATIC_SPRING_CONSTANT] = assumed_spring_constant,
                     [WT_SYSTEMATIC_SENSITIVITY] = assumed_sensitivity,
                     [WT_SYSTEMATIC_HALF_ANGLE] = assumed_half_angle / tip->half_angle,
                     [WT_SYSTEMATIC_RADIUS] = assumed_radius,
                     [WT_SYSTEMATIC_PIEZO] = assumed_sensor_bend,
-                    [WT_SYSTEMATIC_THICKNESS] = assumed_shallowness},
+                    [WT_SYSTEMATIC_THICKNESS] = is_thin ? assumed_thickness : assumed_shallowness},
         .active = true,
         .stride = 1};
     for (int i = 0; i < WT_SYSTEMATIC_SOURCES; i++) {
@@ -122,9 +129,8 @@ void calibration_errors_begin(const wt_indent_job *job, calibration_errors *to)
         to->step[i] = fmin(to->error[i] > 0 ? to->error[i] : default_step, max_step);
     }
     to->step[WT_SYSTEMATIC_PIEZO] = to->step[WT_SYSTEMATIC_DETECTOR] = linearity_step;
-    to->step[WT_SYSTEMATIC_THICKNESS] = assumed_shallowness / 2; /* from thin to thick */
-    if (tip->sample_thickness > 0 || job->thick_sample)
-        to->step[WT_SYSTEMATIC_THICKNESS] = 0;
+    if (!is_thin) /* from thin to thick */
+        to->step[WT_SYSTEMATIC_THICKNESS] = job->thick_sample ? 0 : assumed_shallowness / 2;
     if (!(tip->half_angle > 0))
         to->step[WT_SYSTEMATIC_HALF_ANGLE] = 0;
     if (!(tip->radius > 0))
@@ -205,8 +211,7 @@ static void assume_linearity(calibration_errors *to, const wt_force_curve *curve
 }
 
 void calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
-                              const wt_indent_fit *fit, const wt_contact_table *contact,
-                              bool has_file_tip)
+                              const wt_indent_fit *fit, const wt_contact_table *contact)
 {
     if (!to->active || to->n_offered++ % to->stride != 0)
         return;
@@ -223,7 +228,6 @@ void calibration_errors_store(calibration_errors *to, const wt_force_curve *curv
                              .baseline_offset = fit->baseline_offset.value,
                              .max_force = fit->max_force,
                              .contact = contact,
-                             .has_file_tip = has_file_tip,
                              .without_adhesion = isnan(fit->work_of_adhesion.value) &&
                                                  isnan(fit->contact_pull.value)};
     copy_branch(curve, WT_SEGMENT_APPROACH, &stored->branch[0]);
@@ -241,22 +245,32 @@ static const double least_depth = 1e-11, depth_reserve = 4;
 static wt_status create_shifted_tables(calibration_errors *to, const wt_tip *tip,
                                        const wt_indent_options *options, wt_error *err)
 {
+    static const wt_systematic_source dimensions[] = {
+        WT_SYSTEMATIC_HALF_ANGLE, WT_SYSTEMATIC_RADIUS, WT_SYSTEMATIC_THICKNESS};
+    const bool is_thin = tip->sample_thickness.value > 0;
     wt_status status = WT_OK;
-    for (int i = WT_SYSTEMATIC_HALF_ANGLE; i <= WT_SYSTEMATIC_RADIUS; i++)
-        for (int side = 0; status == WT_OK && to->step[i] > 0 && side < 2; side++) {
-            const wt_tip shifted =
-                shifted_tip(tip, (wt_systematic_source)i, exp((2 * side - 1) * to->step[i]));
+    for (size_t i = 0; i < (is_thin ? 3u : 2u); i++) {
+        const wt_systematic_source source = dimensions[i];
+        for (int side = 0; status == WT_OK && to->step[source] > 0 && side < 2; side++) {
+            const wt_tip shifted = shifted_tip(tip, source, exp((2 * side - 1) * to->step[source]));
             status = wt_contact_table_new(&shifted, least_depth, depth_reserve * to->deepest,
-                                          &to->tip[i][side], err);
+                                          &to->tip[source][side], err);
         }
+    }
+    if (is_thin)
+        return status;
     double g, slope;
     wt_tip thin = *tip;
     wt_contact_function(tip, to->deepest, &g, &slope);
-    thin.sample_thickness = to->thickness = fmax(to->deepest, slope / 2) / assumed_shallowness;
+    thin.sample_thickness.value = to->thickness =
+        fmax(to->deepest, slope / 2) / assumed_shallowness;
     thin.unbonded = thin.unbonded || !indent_is_incompressible(options);
     if (status == WT_OK && to->step[WT_SYSTEMATIC_THICKNESS] > 0)
         status = wt_contact_table_new(&thin, least_depth, depth_reserve * to->deepest,
                                       &to->tip[WT_SYSTEMATIC_THICKNESS][0], err);
+    if (status == WT_OK && to->step[WT_SYSTEMATIC_THICKNESS] > 0)
+        status = wt_contact_table_new(tip, least_depth, depth_reserve * to->deepest,
+                                      &to->tip[WT_SYSTEMATIC_THICKNESS][1], err);
     return status;
 }
 
@@ -328,8 +342,8 @@ static void set_assumed_gain(const common_curve *curve, wt_systematic_source sou
         *gain = source == WT_SYSTEMATIC_SPRING_CONSTANT ? 1 : curve->sensitivity_gain;
 }
 
-/* Computes d ln E / d ln source from one step in each direction. The tip of a single file has no
- * stated error, so its sources are not shifted. */
+/* Computes d ln E / d ln source from one step in each direction. The tip of a single file has the
+ * relative errors of the tip of the group, and changes the modulus as that does. */
 static wt_status measure_source_gain(void *user, size_t item, unsigned worker)
 {
     const refit *f = user;
@@ -338,12 +352,10 @@ static wt_status measure_source_gain(void *user, size_t item, unsigned worker)
     const wt_systematic_source source = (wt_systematic_source)(item % WT_SYSTEMATIC_SOURCES);
     const bool is_of_cantilever =
         source == WT_SYSTEMATIC_SPRING_CONSTANT || source == WT_SYSTEMATIC_SENSITIVITY;
-    const bool is_of_tip = to->tip[source][0] != NULL;
     const bool has_error = to->error[source] > 0 || to->assumed[source] > 0;
     /* one curve is enough for a usual linearity or thickness, whose effect need not be known well
      */
-    const bool is_left_out = (is_of_tip && to->curve[at].has_file_tip) ||
-                             (source >= WT_SYSTEMATIC_PIEZO && to->assumed[source] > 0 && at > 0);
+    const bool is_left_out = source >= WT_SYSTEMATIC_PIEZO && to->assumed[source] > 0 && at > 0;
     const double step = has_error && !is_left_out ? to->step[source] : 0;
     double log_modulus[2] = {0, 0};
     to->gain[at][source] = (double)NAN;
@@ -408,11 +420,13 @@ static void append_assumed_error(const calibration_errors *of, wt_systematic_sou
     char thickness[32];
     wt_format_si(of->thickness, "m", 2, thickness, sizeof thickness);
     clocale_append(text, size, "%s", *text != '\0' ? ", " : "");
-    if (source == WT_SYSTEMATIC_THICKNESS)
+    if (of->thickness > 0 && source == WT_SYSTEMATIC_THICKNESS)
         clocale_append(text, size, "a %s of %s", calibration_source_text(source), thickness);
     else
         clocale_append(text, size, "%s %s the %s", format_percent(error).text,
-                       source < WT_SYSTEMATIC_PIEZO ? "of" : "by", calibration_source_text(source));
+                       source == WT_SYSTEMATIC_PIEZO || source == WT_SYSTEMATIC_DETECTOR ? "by"
+                                                                                         : "of",
+                       calibration_source_text(source));
     clocale_append(text, size, " (%s of E)", format_percent(fabs(gain) * error).text);
 }
 

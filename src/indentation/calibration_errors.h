@@ -25,8 +25,7 @@ typedef struct common_curve {
     double spring_constant, sensitivity_gain;
     double baseline_offset, max_force; /* [N] */
     const wt_contact_table *contact;   /* table of the tip of the fit; borrowed */
-    bool has_file_tip;     /* the tip belongs to the file, so the shifted tips do not apply */
-    bool without_adhesion; /* the law of its fit, which a shifted source keeps */
+    bool without_adhesion;             /* the law of its fit, which a shifted source keeps */
 } common_curve;
 
 /* Effect of each error source on the modulus, from curves that are fitted again with a shifted
@@ -37,7 +36,8 @@ typedef struct calibration_errors {
     double error[WT_SYSTEMATIC_SOURCES];   /* relative; NaN if not stated */
     double assumed[WT_SYSTEMATIC_SOURCES]; /* relative, if none is stated; else NaN */
     double step[WT_SYSTEMATIC_SOURCES];    /* step of ln(source); 0 if the tip lacks this size */
-    wt_contact_table *tip[WT_SYSTEMATIC_SOURCES][2]; /* tables of the tips shifted down and up */
+    wt_contact_table *tip[WT_SYSTEMATIC_SOURCES][2]; /* tables of the tips shifted down and up;
+                                                        of the thickness: assumed and thick */
     common_curve curve[COMMON_CURVES];
     double gain[COMMON_CURVES][WT_SYSTEMATIC_SOURCES];
     double deepest;   /* largest indentation of the stored curves [m] */
@@ -48,10 +48,9 @@ typedef struct calibration_errors {
 const char *calibration_source_text(wt_systematic_source source);
 void calibration_errors_begin(const wt_indent_job *job, calibration_errors *to);
 /* Stores a copy of every n-th accepted curve. `contact` is the table of its tip and must outlive
- * the errors. `has_file_tip` states that this tip differs from the tip of the job. */
+ * the errors. */
 void calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
-                              const wt_indent_fit *fit, const wt_contact_table *contact,
-                              bool has_file_tip);
+                              const wt_indent_fit *fit, const wt_contact_table *contact);
 /* Fits the stored curves. `tip` is that of the job; `workspaces` has one workspace for each thread.
  */
 wt_status calibration_errors_fit(calibration_errors *to, const wt_tip *tip,

@@ -200,8 +200,7 @@ static wt_status write_item(indent_task *task, queued_curve *it, wt_error *err)
     const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
     task->sum_squared_errors += error * error;
     if (has_fitted_contact) /* shifted sources do not apply to a fixed contact point */
-        calibration_errors_store(&task->calibration, &it->curve, &it->fit, task->file_contact,
-                                 has_file_tip);
+        calibration_errors_store(&task->calibration, &it->curve, &it->fit, task->file_contact);
     store_modulus(task, it);
     return WT_OK;
 }

@@ -85,7 +85,10 @@ static const wt_param rows[] = {
              "punch:radius=2um; half-angle and radius with their standard errors, as "
              "radius=20nm+-15%"},
     {PARAM("sample-thickness", wt_indent_job, tip.sample_thickness, WT_Q_LENGTH, AT_LEAST(0)),
-     .value = "H", .help = SUCH_AS("of a thin sample on a rigid base, ", "2um", "; 0 is thick")},
+     .value = "H",
+     .help = SUCH_AS("of a thin sample on a rigid base, ", "2um",
+                     "; 0 is thick; with its standard "
+                     "error, as 2um+-5%")},
     {PARAM_FLAG_OF("unbonded", wt_indent_job, tip.unbonded),
      .help = "the thin sample slides on its base"},
     {PARAM_FLAG_OF("thick-sample", wt_indent_job, thick_sample),
@@ -136,7 +139,12 @@ bool indent_is_incompressible(const wt_indent_options *options)
 
 static wt_status check_sample(const wt_indent_job *job, wt_error *err)
 {
-    if (!(job->tip.sample_thickness > 0.0) || job->tip.unbonded ||
+    if (job->tip.sample_thickness.value > 0.0 && job->thick_sample) {
+        const wt_status twice = wt_fail(err, WT_E_ARG, "the sample is stated as thick and as thin");
+        wt_error_expected(err, "either --thick-sample or --sample-thickness");
+        return twice;
+    }
+    if (!(job->tip.sample_thickness.value > 0.0) || job->tip.unbonded ||
         indent_is_incompressible(&job->options))
         return WT_OK;
     const wt_status status =

@@ -355,7 +355,7 @@ static track_obstacle find_obstacle(const depth_group *g, bool has_tip, double k
                                 "Poisson's ratio below 0.45, or one that is not stated, is not",
                                 "a Poisson's ratio of rubber (0.5) in weartrack indent, if the "
                                 "sample is rubber"};
-    if (g->tip.sample_thickness > 0)
+    if (g->tip.sample_thickness.value > 0)
         return (track_obstacle){"the law of a layer on a thin sample is not known",
                                 "curves on a thick piece of the sample"};
     return (track_obstacle){NULL, NULL};

@@ -216,9 +216,6 @@ static void punch(void **state)
     assert_true(isnan(work_of(&round, 1e7, 0.0, 1.5 * M_PI * 1100 * 2e-6)));
     assert_near(work_of(&round, 1e7, 0.0, 1.5 * M_PI * 1.1e-9 * 2e-6), 1.1e-9, 1e-9);
     assert_true(isnan(work_of(&round, 1e7, 0.0, 1.5 * M_PI * 0.9e-9 * 2e-6)));
-    const wt_tip thin = {.shape = WT_TIP_PARABOLOID, .radius = 2e-6, .sample_thickness = 2e-6};
-    assert_false(adhesion_applies(&thin));
-    assert_true(isnan(work_of(&thin, 1e7, 0.5, 1e-8)));
 }
 
 int main(void)

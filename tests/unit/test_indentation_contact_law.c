@@ -177,7 +177,7 @@ static void thin_sample(void **state)
                         : strcmp(name, "cone") == 0       ? WT_TIP_CONE
                                                           : WT_TIP_PUNCH;
         wt_contact_function(&tip, delta, &thick, &slope);
-        tip.sample_thickness = 1.0;
+        tip.sample_thickness.value = 1.0;
         tip.unbonded = base == 'u';
         wt_contact_function(&tip, delta, &g, &slope);
         const bool hard =
@@ -193,7 +193,7 @@ static void thin_sample(void **state)
         wt_contact_table_free(table);
         assert_near(more, g, 1e-11);
         assert_near(unused, slope, 1e-6);
-        tip.sample_thickness = 1e6;
+        tip.sample_thickness.value = 1e6;
         wt_contact_function(&tip, delta, &g, &slope);
         assert_near(g, thick, 2e-6);
         n++;

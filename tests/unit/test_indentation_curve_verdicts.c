@@ -451,7 +451,7 @@ static void deeper_than_the_sphere(void **state)
     t.modulus = 5e6;
     curve_make(&t, 1, &data);
     expect(&t, WT_CURVE_DOUBTFUL, "radii of the tip");
-    t.tip = (wt_tip){.sides = 4, .half_angle = 0.6, .sample_thickness = 10e-9};
+    t.tip = (wt_tip){.sides = 4, .half_angle = 0.6, .sample_thickness.value = 10e-9};
     curve_make(&t, 1, &data);
     expect(&t, WT_CURVE_DOUBTFUL, "of the thickness of the sample");
     t.tip = (wt_tip){.shape = WT_TIP_PARABOLOID, .radius = 300e-9};
@@ -561,6 +561,9 @@ static void adhesive_contact_is_fitted(void **state)
     assert_true(fit.modulus.standard_error < 0.03 * t.modulus);
     assert_near_abs(fit.work_of_adhesion.value, 0.05, 4 * fit.work_of_adhesion.standard_error);
     assert_true(fit.work_of_adhesion.standard_error < 0.003 && fit.tabor_number > 5);
+    t.tip.sample_thickness.value = 1e-3; /* no base has an effect */
+    const wt_indent_fit thick = expect(&t, WT_CURVE_ACCEPTED, "with adhesion of");
+    assert_near(thick.modulus.value, fit.modulus.value, 1e-3);
 }
 
 /* A retraction that returns `share` of the force and begins some samples below the maximum. */

@@ -198,7 +198,7 @@ static void kept_in_a_table(void **state)
         wt_tip tip = parsed(texts[has_tip ? i : 0]), read = {.radius = 0};
         wt_table *table = NULL;
         table_view view;
-        tip.sample_thickness = i == 4 ? 3e-6 : 0;
+        tip.sample_thickness.value = i == 4 ? 3e-6 : 0;
         table_writer t =
             table_begin_variant(&indentation_schema,
                                 (table_variant){.suffix = "bulk",
@@ -212,7 +212,7 @@ static void kept_in_a_table(void **state)
         assert_int_equal(indent_tip_from_table(&view, &read), has_tip);
         if (has_tip) {
             assert_false(tips_differ(&tip, &read));
-            assert_near(read.sample_thickness, tip.sample_thickness, 1e-15);
+            assert_near(read.sample_thickness.value, tip.sample_thickness.value, 1e-15);
             read.radius *= 1 + 1e-6;
             read.half_angle *= 1 + 1e-6;
             assert_true(tips_differ(&tip, &read));

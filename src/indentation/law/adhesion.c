@@ -39,7 +39,7 @@ enum {
 
 bool adhesion_applies(const wt_tip *tip)
 {
-    return tip->shape != WT_TIP_PUNCH && !(tip->sample_thickness > 0.0);
+    return tip->shape != WT_TIP_PUNCH;
 }
 
 /* Contact without adhesion at several bare depths. Each determines a point of the branch. */
@@ -366,8 +366,6 @@ static const double usual_factor = 3.0;
 double adhesion_work(const wt_contact_table *table, double reduced, double k, double pull_off)
 {
     const wt_tip *tip = contact_table_tip(table);
-    if (tip->sample_thickness > 0.0)
-        return (double)NAN;
     if (tip->shape == WT_TIP_PUNCH)
         return pull_off * pull_off / (8.0 * M_PI * reduced * pow(tip->radius, 3));
     const double target = log(pull_off), close = 1e-12;

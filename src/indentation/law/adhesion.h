@@ -7,8 +7,8 @@
 
 #include "weartrack/indentation.h"
 
-/* True if the law applies. A punch has no smaller contact from which it grows, and a thin sample
- * has no such law. */
+/* The law is that of a thick sample. Returns whether it applies to a tip: a punch has no smaller
+ * contact from which it grows. */
 bool adhesion_applies(const wt_tip *tip);
 
 typedef struct adhesion {
@@ -43,7 +43,7 @@ double adhesion_release(const adhesion *law, double k);
 void adhesion_balance(const adhesion *law, double k, double release, const double *position,
                       size_t n, double *bare);
 /* Returns the work of adhesion for a pull-off force [N] > 0. A punch uses Kendall's law. The result
- * is NaN on a thin sample and outside 1 nJ/m^2 to 1 kJ/m^2. */
+ * is NaN outside 1 nJ/m^2 to 1 kJ/m^2. */
 double adhesion_work(const wt_contact_table *table, double reduced, double k, double pull_off);
 /* Returns Tabor's parameter. Above 5 the law of Johnson, Kendall and Roberts applies, below 0.1
  * that of Derjaguin, Muller and Toporov. The result is NaN for a tip without curvature. */

@@ -90,7 +90,7 @@ static double shape_number(const wt_tip *tip, double a, double *slope)
 contact_point_values thin_sample_values(const wt_tip *tip, contact_point_values half_space)
 {
     const double a = 0.5 * half_space.slope, growth = 0.5 * half_space.curvature;
-    const double reach = a / tip->sample_thickness, x = fmin(reach, THIN_SAMPLE_MAX_RATIO);
+    const double reach = a / tip->sample_thickness.value, x = fmin(reach, THIN_SAMPLE_MAX_RATIO);
     double u_slope, u = shape_number(tip, a, &u_slope);
     const double g = bases[tip->unbonded].first, g2 = 0.5 * g * g * (3.0 - u);
     const double *c = bases[tip->unbonded].third;
@@ -106,7 +106,7 @@ contact_point_values thin_sample_values(const wt_tip *tip, contact_point_values 
     return (contact_point_values){factor * half_space.g,
                                   factor * half_space.slope +
                                       half_space.g * growth *
-                                          (by_x / tip->sample_thickness + by_u * u_slope),
+                                          (by_x / tip->sample_thickness.value + by_u * u_slope),
                                   (double)NAN};
 }
 
@@ -242,8 +242,8 @@ contact_point_values contact_values(const wt_tip *tip, double delta)
 
 double thin_sample_radius_ratio(const wt_tip *tip, double delta)
 {
-    return tip->sample_thickness > 0.0 && delta > 0.0
-               ? 0.5 * contact_values(tip, delta).slope / tip->sample_thickness
+    return tip->sample_thickness.value > 0.0 && delta > 0.0
+               ? 0.5 * contact_values(tip, delta).slope / tip->sample_thickness.value
                : 0.0;
 }
 
@@ -254,7 +254,7 @@ void wt_contact_function(const wt_tip *tip, double delta, double *g, double *slo
         v.g = v.slope = delta;
     else if (delta > 0.0)
         v = contact_values(tip, delta);
-    if (tip->sample_thickness > 0.0 && delta > 0.0)
+    if (tip->sample_thickness.value > 0.0 && delta > 0.0)
         v = thin_sample_values(tip, v);
     *g = v.g;
     *slope = v.slope;

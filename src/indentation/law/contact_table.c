@@ -228,7 +228,7 @@ void contact_table_values(const wt_contact_table *table, const double *delta, si
 void wt_contact_table_eval(const wt_contact_table *table, const double *delta, size_t n, double *g,
                            double *slope)
 {
-    if (!(table->tip.sample_thickness > 0.0)) {
+    if (!(table->tip.sample_thickness.value > 0.0)) {
         evaluate_depths(table, delta, n, (value_arrays){g, slope, NULL});
         return;
     }

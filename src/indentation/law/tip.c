@@ -109,8 +109,8 @@ wt_status wt_tip_check(const wt_tip *tip, wt_error *err)
     wt_status status = check_tip_error(tip->half_angle, tip->half_angle_error, "half-angle", err);
     if (status == WT_OK)
         status = check_tip_error(tip->radius, tip->radius_error, "radius", err);
-    if (status == WT_OK && tip->sample_thickness != 0.0)
-        status = check_positive(tip->sample_thickness, "thickness of the sample", err);
+    if (status == WT_OK && tip->sample_thickness.value != 0.0)
+        status = check_positive(tip->sample_thickness.value, "thickness of the sample", err);
     if (status != WT_OK)
         return status;
     switch (tip->shape) {
@@ -388,9 +388,9 @@ size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size)
                 tip->sides, angle, radius, transition);
         break;
     }
-    if (length > 0 && tip->sample_thickness > 0.0) {
+    if (length > 0 && tip->sample_thickness.value > 0.0) {
         const size_t used = (size_t)length < size ? (size_t)length : size;
-        wt_format_si(tip->sample_thickness, "m", 4, radius, sizeof radius);
+        wt_format_si(tip->sample_thickness.value, "m", 4, radius, sizeof radius);
         length += snprintf(buffer + used, size - used, "; sample %s thick, %s its rigid base",
                            radius, tip->unbonded ? "sliding on" : "bonded to");
     }

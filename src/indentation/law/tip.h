@@ -39,6 +39,8 @@ contact_point_values contact_values(const wt_tip *tip, double delta);
 /* Largest contact radius over the thickness of a sample on a rigid base for which the force is
  * known. */
 #define THIN_SAMPLE_MAX_RATIO 1.0
+/* Up to this ratio the base changes the modulus by 0.1 %, so that the sample is thick. */
+#define THICK_SAMPLE_MAX_RATIO 0.001
 double thin_sample_radius_ratio(const wt_tip *tip, double delta);
 /* Corrects G and slope of a half-space for the rigid base. The curvature is NaN. */
 contact_point_values thin_sample_values(const wt_tip *tip, contact_point_values half_space);

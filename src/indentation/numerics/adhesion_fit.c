@@ -504,8 +504,8 @@ bool curve_fit_adhesion(curve_fitting *f)
 {
     const curve_solution elastic = f->solution;
     const curve_kind plainly = f->kind;
-    const bool is_adhesion_tried = !f->options->plain_least_squares && !f->without_adhesion &&
-                                   !(contact_table_tip(f->table)->sample_thickness > 0.0);
+    const bool is_adhesion_tried =
+        !f->options->plain_least_squares && !f->without_adhesion && !curve_is_thin(f);
     curve_snap snap = f->snap;
     if (f->snap_in_pull > 0.0) {
         if (is_adhesion_tried) { /* starts at the deepest sample; before it the cantilever jumps or

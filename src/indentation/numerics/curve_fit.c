@@ -207,7 +207,7 @@ static void report_adhesion(const curve_fitting *f, wt_indent_fit *fit)
     adhesion law = {f->table, s->p[CURVE_E], 0.0};
     fit->adhesion_force = f->snap_in_pull;
     fit->pull_off_force = f->pull_off;
-    if (f->pull_off >= 0.0)
+    if (f->pull_off >= 0.0 && !(f->pull_off > 0.0 && curve_is_thin(f)))
         fit->pull_off_work =
             f->pull_off > 0.0 ? adhesion_work(f->table, law.reduced, k, f->pull_off) : 0.0;
     const bool long_range = f->kind.adhesive && f->kind.constant_pull;

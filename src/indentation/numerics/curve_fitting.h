@@ -5,6 +5,7 @@
 #ifndef WT_INDENTATION_NUMERICS_CURVE_FITTING_H
 #define WT_INDENTATION_NUMERICS_CURVE_FITTING_H
 
+#include "indentation/law/tip.h"
 #include "indentation/numerics/curve.h"
 
 /* Smallest significant pull over the noise of the baseline. White noise reaches it once in 1e9
@@ -82,6 +83,12 @@ bool curve_scan_and_refine(curve_fitting *f);
 /* Prepares the relaxation of a series for the samples. Its times are in loading times or in
  * seconds. Returns false if the times of the samples are not known. */
 bool curve_prepare_relaxation(curve_fitting *f, const wt_prony *series, bool in_loading_times);
+/* True if the base below the sample changes the force: adhesion has no law there. */
+static inline bool curve_is_thin(const curve_fitting *f)
+{
+    return thin_sample_radius_ratio(contact_table_tip(f->table), f->solution.max_indentation) >
+           THICK_SAMPLE_MAX_RATIO;
+}
 /* True if noise alone explains the residual, or if the baseline is too short for the test. */
 bool curve_passes_misfit_test(const curve_fitting *f);
 /* Adds the error by the misfit of the law to the errors of the parameters. */

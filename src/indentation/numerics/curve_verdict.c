@@ -370,8 +370,7 @@ static void append_notes(const curve_fitting *f, const wt_indent_fit *fit, char 
                          curve_format_si(f->snap_in_pull, "N").buffer, f->n_snap);
         curve_append_note(reason, text);
     }
-    if (f->pull_off > 0.0 && isnan(fit->pull_off_work) &&
-        !(contact_table_tip(f->table)->sample_thickness > 0.0)) {
+    if (f->pull_off > 0.0 && isnan(fit->pull_off_work) && !curve_is_thin(f)) {
         curve_set_reason(text,
                          "; a pull-off of %s needs no work of adhesion from 1 nJ/m^2 to 1 kJ/m^2",
                          curve_format_si(f->pull_off, "N").buffer);

@@ -372,7 +372,9 @@ wt_status wt_layer_profile_compute(const wt_contact_table *const table[2], doubl
         depth_pool_create(&t.arena[g], table[g], poisson_ratio, curve[g], n[g], &memory);
         profile->n[g] = t.arena[g].n;
         profile->n_units[g] = t.arena[g].n_units;
-        thick = thick && !(contact_table_tip(table[g])->sample_thickness > 0.0);
+        thick = thick &&
+                !(thin_sample_radius_ratio(contact_table_tip(table[g]), t.arena[g].mean.depth) >
+                  THICK_SAMPLE_MAX_RATIO);
     }
     if (t.arena[0].has_mean && t.arena[1].has_mean && thick && isfinite(log_ratio.value) &&
         log_ratio.standard_error >= 0.0) {

@@ -118,9 +118,10 @@ static void set_layer_estimate(depth_pool *d, wt_modulus_profile *to, wt_error *
 {
     const depth_fit fit = fit_equivalent_layer(d, log(to->change.value), err);
     const double ratio = exp(fit.p[DEPTH_RATIO]), reach = exp(fit.p[DEPTH_REACH]);
-    if (contact_table_tip(d->mean.table)->sample_thickness > 0.0 || !fit.is_valid ||
-        fit.p_value < level || !thin_layer_is_valid(ratio, reach) || (ratio > 0.6 && ratio < 1.6) ||
-        reach < 0.7 || reach > 2.5)
+    if (thin_sample_radius_ratio(contact_table_tip(d->mean.table), d->mean.depth) >
+            THICK_SAMPLE_MAX_RATIO ||
+        !fit.is_valid || fit.p_value < level || !thin_layer_is_valid(ratio, reach) ||
+        (ratio > 0.6 && ratio < 1.6) || reach < 0.7 || reach > 2.5)
         return;
     const double of_layer[] = {0.0, 1.0, 0.0, 0.0}, of_ground[] = {0.0, 1.0, -1.0, 0.0},
                  of_thickness[] = {0.0, 0.0, 0.0, -1.0};

@@ -56,3 +56,7 @@ pair 0
 cause 'indent with --misfit-p-threshold 0.01' compare --verbose --spot-scatter 0.1 --equivalence-margin 5 one.h5 other.h5
 pair 0.01
 helps compare --verbose --spot-scatter 0.1 --equivalence-margin 5 one.h5 other.h5
+
+piece 'leave out --thick-sample or --sample-thickness'
+cause 'leave out --thick-sample' indent --tip sphere:radius=5um --thick-sample --sample-thickness 2um --spring-constant 0.3N/m "$curve"
+helps indent --tip sphere:radius=5um --sample-thickness 2um --spring-constant 0.3N/m "$curve" -o thin.h5
