@@ -153,6 +153,11 @@ static bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, 
     if (s->contact.material != NULL && cmd_option_is_set(&s->parts[CMD_READ], "temperature"))
         return cmd_usage_error(session, "--temperature is that of --dma files; the rubber's while "
                                         "it slides is --sliding-temperature");
+    const cmd_option_group *fit = &s->parts[CMD_MASTER];
+    if (s->contact.material != NULL && (cmd_option_is_set(fit, "vertical-shift") ||
+                                        cmd_option_is_set(fit, "sample-temperature-error")))
+        return cmd_usage_error(session, "--vertical-shift and --sample-temperature-error are of "
+                                        "the fit of --dma files; give them to weartrack master");
     return true;
 }
 

@@ -151,3 +151,7 @@ for g in bulk track; do
 done
 leads collect median-bulk.h5 median-track.h5
 says 'a result of weartrack run, beside which'
+
+piece 'give them to weartrack master'
+cause 'give them to weartrack master' friction --material x --roughness y --velocity 1m/s --pressure 1MPa --vertical-shift free
+helps master --vertical-shift free --sample-temperature-error 1K --no-provenance "$fixtures/case/dma.txt" -o free.tsv
