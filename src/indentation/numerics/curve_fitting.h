@@ -56,7 +56,8 @@ typedef struct curve_fitting {
     bool range_empty;       /* too few samples in the range; the fit uses all samples */
     bool spectrum_mismatch; /* the spectrum of the options does not describe the curve */
     bool below_saturation;  /* the fit only covers forces up to the limit of the options */
-    bool misfit_is_named;   /* the reason of the verdict names the misfit */
+    bool misfit_is_named;   /* the reason of the verdict names the misfit, */
+    bool bend_is_named;     /* and the bent baseline as its cause */
     bool without_adhesion;  /* no law of adhesion is tried */
     bool unknown_loss;      /* the curve loses work, and the law of the fit does not describe it */
     double law_error, contact_error; /* of the modulus, relative, by another law of adhesion and by

@@ -311,6 +311,7 @@ static wt_curve_verdict law_verdict(curve_fitting *f, const wt_indent_fit *fit, 
                          misfit_text(fit).buffer, 100.0 * f->options->doubtful_error,
                          by_misfit ? misfit_cause(f) : "noise, baseline or loss");
         f->misfit_is_named = true;
+        f->bend_is_named = by_misfit && !(f->snap_in_pull > 0.0) && !(f->pull_off > 0.0);
         return WT_CURVE_WIDE;
     }
     if (isnan(fit->misfit_error) && f->options->misfit_p_threshold > 0.0 && !f->kind.plain) {
@@ -402,7 +403,7 @@ static void append_notes(const curve_fitting *f, const wt_indent_fit *fit, char 
                          curve_format_si(fit->interference_period, "m").buffer);
         curve_append_note(reason, text);
     }
-    if (f->solution.bent)
+    if (f->solution.bent && !f->bend_is_named)
         curve_append_note(reason, "; baseline bent, which is in the error");
     const double error = fit->modulus.standard_error / fit->modulus.value;
     if (error > min_reported_error) {
