@@ -137,8 +137,8 @@ static void the_compliance_of_the_frame_widens_the_errors(void **state)
 {
     (void)state;
     wt_master m = fit_distorted(0.0, 0.0, NULL);
-    assert_near_abs(m.frame_compliance.value, 0.0, m.frame_compliance.standard_error);
-    assert_near(m.frame_compliance.standard_error, 1e-11, 0.1);
+    assert_near_abs(m.frame_compliance.value, 0.0, 1e-15); /* it is not fitted */
+    assert_near(m.frame_compliance.standard_error, 1e-11, 1e-6);
     size_t stiffest = 0, softest = 0;
     for (size_t i = 0; i < m.n; i++) {
         stiffest = m.log_storage[i] > m.log_storage[stiffest] ? i : stiffest;

@@ -8,8 +8,9 @@
 
 /* Assumed sizes of what the corrections of an instrument leave: half a degree of phase at the
  * highest frequency, 3 % of the storage modulus where inertia takes most, and 1 % of the strain of
- * a sample of 1 GPa. Isotherms hardly show the compliance, because a spring in series with a
- * viscoelastic sample is a viscoelastic sample; its error is that of the prior. */
+ * a sample of 1 GPa. Isotherms do not show the compliance, because a spring in series with a
+ * viscoelastic sample is a viscoelastic sample. Only the prior of the spectrum would determine it,
+ * so it is not fitted: the errors alone contain it (spectrum_consider_compliance). */
 const double instrument_deviation[INSTRUMENT_ERRORS] = {
     [PHASE_LAG] = 0.5 * M_PI / 180.0, [INERTIA] = 0.03, [FRAME_COMPLIANCE] = 0.01 / 1e9};
 /* Least share of a measured modulus that is left of it: a step of the fit must not reach zero. */

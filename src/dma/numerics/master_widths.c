@@ -38,7 +38,7 @@ static wt_status fit_cell(master_work *work, int g, int d, double *weight, wt_er
               log_prior(departure_widths[d], departure_prior_width, departure_cells[d]) -
               0.5 * work->s->criterion;
     if (status == WT_OK && work->options.vertical == WT_VERTICAL_TIED)
-        posterior_store(work->posterior, WT_VERTICAL_TIED, &work->vertical, *weight);
+        status = posterior_store(work->posterior, WT_VERTICAL_TIED, &work->vertical, *weight, err);
     return status;
 }
 
@@ -83,7 +83,8 @@ static wt_status fit_free_shift(master_work *work, const double *log_weight, wt_
         if (status == WT_OK)
             status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
         if (status == WT_OK)
-            posterior_store(work->posterior, WT_VERTICAL_FREE, &work->vertical, log_weight[g]);
+            status = posterior_store(work->posterior, WT_VERTICAL_FREE, &work->vertical,
+                                     log_weight[g], err);
     }
     return status;
 }
@@ -98,7 +99,7 @@ wt_status master_fit_widths(master_work *work, wt_error *err)
     if (work->prior.held) {
         status = spectrum_fit(work->s, SPECTRUM_NOISE, err);
         if (status == WT_OK)
-            posterior_store(p, kind, &work->vertical, 0.0);
+            status = posterior_store(p, kind, &work->vertical, 0.0, err);
     } else {
         status = fit_tied_shift(work, log_weight, err);
         if (status == WT_OK && kind == WT_VERTICAL_FREE)

@@ -61,7 +61,8 @@ static void fill_through(const spectrum *s, posterior_cell *c)
     }
 }
 
-void posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v, double log_weight)
+wt_status posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
+                          double log_weight, wt_error *err)
 {
     const spectrum *s = &p->frame;
     const size_t n = s->n_curves, m = s->factor.m;
@@ -77,7 +78,10 @@ void posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
     p->step_left = fmax(p->step_left, spectrum_step_left(s));
     memcpy(c->value, s->value, s->n_unknowns * sizeof *c->value);
     if (!posterior_counts(p, c))
-        return;
+        return WT_OK;
+    const wt_status status = spectrum_consider_compliance(&p->frame, err);
+    if (status != WT_OK)
+        return status;
     c->factor = bordered_new(memory, m, n);
     bordered_copy(&c->factor, &s->factor);
     c->through = arena_matrix(memory, m, n);
@@ -89,6 +93,7 @@ void posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
         c->smooth_part = arena_matrix(memory, n, s->prior->smooth_part->size2);
         gsl_matrix_memcpy(c->smooth_part, s->prior->smooth_part);
     }
+    return WT_OK;
 }
 
 void posterior_restore(wt_posterior *p, const posterior_cell *cell)

@@ -78,7 +78,8 @@ struct wt_posterior {
 
 void posterior_free(wt_posterior *p);
 /* Stores the present fit of the frame as a cell. */
-void posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v, double log_weight);
+wt_status posterior_store(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
+                          double log_weight, wt_error *err);
 /* Computes the inverse factor of the block of a curve times its shift. */
 void posterior_unit_shift(const posterior_cell *cell, size_t curve, double x[BLOCK_SIDE]);
 /* Returns the cell with the largest weight without the law. */

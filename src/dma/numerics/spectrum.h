@@ -264,6 +264,10 @@ wt_status spectrum_choose_rho(spectrum *s, wt_error *err) WT_NODISCARD;
 /* Returns the largest change of any unknown by one more Newton step, in standard errors, after a
  * fit. */
 double spectrum_step_left(const spectrum *s);
+/* Adds the prior error of the frame compliance to factor and covariance of a fit: the terms respond
+ * to it, and the shifts do not, as a spring in series changes all isotherms alike (a "considered"
+ * parameter: Schmidt, Adv. Control Syst. 3 (1966) 293). The next fit is again without it. */
+wt_status spectrum_consider_compliance(spectrum *s, wt_error *err);
 
 /* ---- spectrum_noise.c */
 /* Updates noise and smoothness by a share of the requested change unless that is less than

@@ -7,7 +7,9 @@
 #include "core/math/special.h"
 #include <float.h>
 #include <gsl/gsl_cblas.h>
+#include <gsl/gsl_linalg.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Limits of a step. Twelve dampings by ten leave 1e-12 of it. With a large misfit the objective
@@ -110,6 +112,73 @@ static wt_status invert_precision(spectrum *s, wt_error *err)
     bordered_inverse(&s->factor, s->scratch, &s->covariance);
     s->inverted = true;
     return WT_OK;
+}
+
+/* Computes the products of the derivatives of the residuals by the frame compliance with those by
+ * the terms, weighed by the noise; product: [n_terms]. */
+static void compute_compliance_products(const spectrum *s, double *product)
+{
+    const size_t width = s->n_shared + 2;
+    double *const by_compliance = wt_alloc(s->n, sizeof *by_compliance);
+    memset(product, 0, s->n_terms * sizeof *product);
+    for (int q = 0; q < MODULI; q++) {
+        for (size_t k = 0; k < s->n; k++) {
+            double corrected[MODULI], by[MODULI][INSTRUMENT_ERRORS];
+            instrument_correct(s, s->value + s->n_linear, k, corrected, by);
+            by_compliance[k] = -spectrum_weight(s, k, q) * by[q][FRAME_COMPLIANCE];
+        }
+        for (size_t i = 0; i < s->n_curves; i++)
+            spectrum_whiten(s, i, q, by_compliance + s->first[i], 1);
+        cblas_dgemv(CblasRowMajor, CblasTrans, (int)s->n, (int)s->n_terms,
+                    1.0 / (s->noise[q] * s->noise[q]), s->row[q], (int)width, by_compliance, 1, 1.0,
+                    product, 1);
+    }
+    free(by_compliance);
+}
+
+/* Sets the elements of the frame compliance, the last of the shared unknowns, by its products with
+ * the terms, and by the negative change of the terms with it; n = 0: it has its prior alone. */
+static void set_compliance_elements(spectrum *s, size_t n, const double *product,
+                                    const double *response)
+{
+    const size_t c = s->n_linear + FRAME_COMPLIANCE;
+    gsl_matrix *const border = s->precision.border, *const side = s->precision.side;
+    for (size_t j = 0; j < c; j++) {
+        const double x =
+            j < n ? product[j]
+                  : cblas_ddot((int)n, gsl_matrix_ptr(border, 0, j), (int)border->tda, response, 1);
+        gsl_matrix_set(border, c, j, x);
+        gsl_matrix_set(border, j, c, x);
+    }
+    gsl_matrix_set(border, c, c, 1.0 + cblas_ddot((int)n, product, 1, response, 1));
+    for (size_t k = 0; k < BLOCK_SIDE * s->n_curves; k++)
+        gsl_matrix_set(side, k, c, cblas_ddot((int)n, gsl_matrix_ptr(side, k, 0), 1, response, 1));
+    s->inverted = false;
+}
+
+wt_status spectrum_consider_compliance(spectrum *s, wt_error *err)
+{
+    const size_t n = s->n_terms;
+    const double log_det = s->log_det;
+    if (instrument_count(s) == 0)
+        return WT_OK;
+    gsl_matrix *const terms = gsl_matrix_alloc(n, n);
+    gsl_vector *const product = gsl_vector_alloc(n), *const response = gsl_vector_alloc(n);
+    const gsl_matrix_const_view all = gsl_matrix_const_submatrix(s->precision.border, 0, 0, n, n);
+    gsl_matrix_transpose_memcpy(terms, &all.matrix); /* the upper triangle is complete */
+    compute_compliance_products(s, product->data);
+    wt_status status = WT_OK;
+    if (gsl_linalg_cholesky_decomp1(terms) == GSL_SUCCESS &&
+        gsl_linalg_cholesky_solve(terms, product, response) == GSL_SUCCESS) {
+        set_compliance_elements(s, n, product->data, response->data);
+        status = invert_precision(s, err);
+        set_compliance_elements(s, 0, NULL, NULL);
+        s->log_det = log_det;
+    }
+    gsl_matrix_free(terms);
+    gsl_vector_free(product);
+    gsl_vector_free(response);
+    return status;
 }
 
 double spectrum_step_left(const spectrum *s)

@@ -486,7 +486,8 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
                 if (with_rows)
                     scale_row(row[q], s->n_linear, w);
                 for (size_t u = s->n_linear; u < m; u++)
-                    row[q][u] = -w * by[q][u - s->n_linear];
+                    row[q][u] =
+                        u - s->n_linear < FRAME_COMPLIANCE ? -w * by[q][u - s->n_linear] : 0.0;
                 row[q][m] = w * slope[q];
                 row[q][m + 1] = s->ratio ? 0.0 : -w;
             }
