@@ -141,7 +141,7 @@ static wt_status check_sample(const wt_indent_job *job, wt_error *err)
 {
     if (job->tip.sample_thickness.value > 0.0 && job->thick_sample) {
         const wt_status twice = wt_fail(err, WT_E_ARG, "the sample is stated as thick and as thin");
-        wt_error_expected(err, "either --thick-sample or --sample-thickness");
+        wt_error_expected(err, "one of the two");
         return twice;
     }
     if (!(job->tip.sample_thickness.value > 0.0) || job->tip.unbonded ||

@@ -241,7 +241,7 @@ static void add_assumed_temperature(limit_list *list, const answer_context *cont
     if (off > 0)
         add(list, WT_NOTE, LIMITS_MATERIAL,
             "The standard error of the temperature of the DMA sample is %s, which is assumed "
-            "unless it is stated (--sample-temperature-error).",
+            "unless it is stated.",
             format_with_unit(off, "K").text);
 }
 
