@@ -49,7 +49,7 @@ typedef struct spectrum_modes {
 
 /* Errors of the instrument that all isotherms share (instrument_errors.c): a phase lag in
  * proportion to the frequency, the inertia of the moving parts, and the compliance of frame and
- * clamps. */
+ * clamps, which is the last unknown because it is not fitted. */
 typedef enum instrument_error {
     PHASE_LAG,
     INERTIA,

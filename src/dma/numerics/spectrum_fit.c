@@ -166,6 +166,8 @@ wt_status spectrum_consider_compliance(spectrum *s, wt_error *err)
     gsl_vector *const product = gsl_vector_alloc(n), *const response = gsl_vector_alloc(n);
     const gsl_matrix_const_view all = gsl_matrix_const_submatrix(s->precision.border, 0, 0, n, n);
     gsl_matrix_transpose_memcpy(terms, &all.matrix); /* the upper triangle is complete */
+    gsl_vector_view diagonal = gsl_matrix_diagonal(terms);
+    gsl_vector_scale(&diagonal.vector, 1.0 + s->rounding); /* as in the factor */
     compute_compliance_products(s, product->data);
     wt_status status = WT_OK;
     if (gsl_linalg_cholesky_decomp1(terms) == GSL_SUCCESS &&
@@ -174,6 +176,8 @@ wt_status spectrum_consider_compliance(spectrum *s, wt_error *err)
         status = invert_precision(s, err);
         set_compliance_elements(s, 0, NULL, NULL);
         s->log_det = log_det;
+    } else {
+        status = wt_fail(err, WT_E_CONVERGENCE, "the isotherms do not determine a spectrum");
     }
     gsl_matrix_free(terms);
     gsl_vector_free(product);
