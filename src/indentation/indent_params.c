@@ -87,8 +87,7 @@ static const wt_param rows[] = {
     {PARAM("sample-thickness", wt_indent_job, tip.sample_thickness, WT_Q_LENGTH, AT_LEAST(0)),
      .value = "H",
      .help = SUCH_AS("of a thin sample on a rigid base, ", "2um",
-                     "; 0 is thick; with its standard "
-                     "error, as 2um+-5%")},
+                     "; 0 is thick; with its standard error, as 2um+-5%")},
     {PARAM_FLAG_OF("unbonded", wt_indent_job, tip.unbonded),
      .help = "the thin sample slides on its base"},
     {PARAM_FLAG_OF("thick-sample", wt_indent_job, thick_sample),

@@ -109,6 +109,9 @@ wt_status wt_tip_check(const wt_tip *tip, wt_error *err)
     wt_status status = check_tip_error(tip->half_angle, tip->half_angle_error, "half-angle", err);
     if (status == WT_OK)
         status = check_tip_error(tip->radius, tip->radius_error, "radius", err);
+    if (status == WT_OK)
+        status = check_tip_error(tip->sample_thickness.value, tip->sample_thickness.standard_error,
+                                 "thickness of the sample", err);
     if (status == WT_OK && tip->sample_thickness.value != 0.0)
         status = check_positive(tip->sample_thickness.value, "thickness of the sample", err);
     if (status != WT_OK)
